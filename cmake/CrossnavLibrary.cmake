@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+# crossnav_library(<room> SOURCES ... [DEPS <rooms>] [PUBLIC <targets>] [PRIVATE <targets>])
+# A room is a static library crossnav::<room>. DEPS are the only other rooms it may include.
+function(crossnav_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+  if(CROSSNAV_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+function(crossnav_library room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PUBLIC;PRIVATE" ${ARGN})
+  add_library(crossnav_${room} STATIC ${ARG_SOURCES})
+  add_library(crossnav::${room} ALIAS crossnav_${room})
+  target_include_directories(crossnav_${room} PUBLIC "${PROJECT_SOURCE_DIR}")
+  foreach(dep IN LISTS ARG_DEPS)
+    target_link_libraries(crossnav_${room} PUBLIC crossnav::${dep})
+  endforeach()
+  target_link_libraries(crossnav_${room} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  crossnav_warnings(crossnav_${room})
+endfunction()
+
+# crossnav_test(<room> SOURCES ... [DEPS <rooms>] [LIBS <targets>]): one program test_<room>.
+function(crossnav_test room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS" ${ARGN})
+  add_executable(test_${room} ${ARG_SOURCES})
+  foreach(dep IN LISTS ARG_DEPS)
+    target_link_libraries(test_${room} PRIVATE crossnav::${dep})
+  endforeach()
+  target_link_libraries(test_${room} PRIVATE ${ARG_LIBS} GTest::gtest_main)
+  target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  # Data handed to the project from outside; tests that need it are skipped where it is absent.
+  target_compile_definitions(test_${room} PRIVATE
+    CROSSNAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
+    CROSSNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  crossnav_warnings(test_${room})
+  gtest_discover_tests(test_${room} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

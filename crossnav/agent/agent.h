@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The agent: one observation in, one action out (paper, fig:framework). Everything it knows comes
+// from observations, the perception suite and the goal's name. Reset between episodes = a new Agent.
+// World frame, metres. Not thread-safe.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crossnav/agent/config.h"
+#include "crossnav/core/action.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/core/result.h"
+#include "crossnav/geometry/voxel_map.h"
+#include "crossnav/memory/semantic_memory.h"
+#include "crossnav/perception/perception.h"
+#include "crossnav/trace/step_trace.h"
+
+namespace crossnav::agent {
+
+struct StepResult {
+  Action action = Action::kStop;
+  trace::StepTrace trace;
+  std::vector<trace::StageTime> timing;  ///< CPU ms per stage, in order
+  bool all_explored = false;             ///< no candidate is left; `action` is meaningless then
+  std::optional<Vector3d> p_claimed_world;  ///< with kStop: where the agent believes the goal to be
+};
+
+class Agent {
+ private:
+  struct Impl;
+
+ public:
+  Agent(const Config& config, perception::PerceptionSuite perception);
+  ~Agent();
+  Agent(Agent&&) noexcept;
+
+  /// Activates a goal: text vector, similarity field, POIs, path and verification start anew;
+  /// map, stairs and features stay as they are.
+  Result<void> SetGoal(const std::string& goal);
+
+  /// One step. Errors: a malformed observation (sizes, NaN pose) or a failing network.
+  Result<StepResult> Step(const Observation& obs);
+
+  const Config& config() const;
+  const geometry::VoxelMap& map() const;
+  const memory::SemanticMemory& memory() const;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace crossnav::agent

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The agent's whole configuration. Every default is at its field, beside the code that uses it; an
+// empty config file means "the paper".
+#pragma once
+
+#include <string>
+
+#include "crossnav/core/action.h"
+#include "crossnav/core/camera.h"
+#include "crossnav/geometry/map_config.h"
+#include "crossnav/memory/history_poi.h"
+#include "crossnav/memory/semantic_memory.h"
+#include "crossnav/planner/planner_config.h"
+#include "crossnav/policy/policy_config.h"
+
+namespace crossnav::agent {
+
+struct Config {
+  SensorConfig sensor;
+  ActionConfig action;
+  geometry::MapConfig map;
+  memory::FusionConfig fusion;
+  memory::QueryConfig query;
+  planner::PlannerConfig planner;
+  policy::PolicyConfig policy;
+};
+
+/// Visits every field as visit(name, field[, range]); sections through visit.Section(name, struct).
+template <class V>
+void Visit(V& visit, Config& c) {
+  visit.Section("sensor", c.sensor);
+  visit.Section("action", c.action);
+  visit.Section("map", c.map);
+  visit.Section("fusion", c.fusion);
+  visit.Section("query", c.query);
+  visit.Section("planner", c.planner);
+  visit.Section("policy", c.policy);
+}
+
+}  // namespace crossnav::agent

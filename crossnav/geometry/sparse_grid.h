@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// The one sparse container: a hash of 8x8x8-voxel blocks. What a block holds is the user's struct.
+// Blocks never move, and are visited in the order in which they were made, so that the same input
+// gives the same iteration order. Unbounded indices of any sign. Readers may share it while nobody
+// writes; a Cursor belongs to one thread.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "crossnav/geometry/voxel_key.h"
+
+namespace crossnav::geometry {
+
+inline constexpr int kBlockBits = 3;
+inline constexpr int kBlockSide = 1 << kBlockBits;
+inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
+
+/// Block that holds `key`, in block units (arithmetic shift: floor for negative indices too).
+inline VoxelKey BlockKeyOf(const VoxelKey& key) {
+  return {key.x >> kBlockBits, key.y >> kBlockBits, key.z >> kBlockBits};
+}
+
+/// Position inside its block: x fastest, z slowest, in [0, 512).
+inline int CellIndexOf(const VoxelKey& key) {
+  constexpr int kMask = kBlockSide - 1;
+  return (key.x & kMask) | (key.y & kMask) << kBlockBits | (key.z & kMask) << (2 * kBlockBits);
+}
+
+inline VoxelKey KeyInBlock(const VoxelKey& block, int cell) {
+  constexpr int kMask = kBlockSide - 1;
+  return {block.x * kBlockSide + (cell & kMask),
+          block.y * kBlockSide + ((cell >> kBlockBits) & kMask),
+          block.z * kBlockSide + (cell >> (2 * kBlockBits))};
+}
+
+template <class Block>
+class SparseGrid {
+ public:
+  struct Entry {
+    VoxelKey key;  ///< in block units
+    Block block;
+  };
+
+  SparseGrid() : slots_(64, kEmpty) {}
+
+  /// The block at `block_key`, or null. Cost O(1).
+  const Block* Find(const VoxelKey& block_key) const {
+    const std::int32_t index = slots_[SlotOf(block_key)];
+    return index == kEmpty ? nullptr : &entries_[index].block;
+  }
+  Block* Find(const VoxelKey& block_key) {
+    return const_cast<Block*>(static_cast<const SparseGrid*>(this)->Find(block_key));
+  }
+
+  /// The block at `block_key`, made with `Block()` if absent.
+  Block& Touch(const VoxelKey& block_key) {
+    std::size_t slot = SlotOf(block_key);
+    if (slots_[slot] == kEmpty) {
+      if (2 * (entries_.size() + 1) > slots_.size()) {
+        Rehash(2 * slots_.size());
+        slot = SlotOf(block_key);
+      }
+      slots_[slot] = static_cast<std::int32_t>(entries_.size());
+      entries_.push_back(Entry{block_key, Block()});
+    }
+    return entries_[slots_[slot]].block;
+  }
+
+  std::size_t size() const { return entries_.size(); }
+  const std::deque<Entry>& entries() const { return entries_; }
+  std::deque<Entry>& entries() { return entries_; }
+
+  /// Bytes held, without what blocks allocate themselves.
+  std::size_t Bytes() const { return slots_.size() * sizeof(std::int32_t) + entries_.size() * sizeof(Entry); }
+
+ private:
+  static constexpr std::int32_t kEmpty = -1;
+
+  std::size_t SlotOf(const VoxelKey& block_key) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = VoxelKeyHash()(block_key) & mask;
+    while (slots_[slot] != kEmpty && entries_[slots_[slot]].key != block_key) slot = (slot + 1) & mask;
+    return slot;
+  }
+
+  void Rehash(std::size_t slot_count) {
+    slots_.assign(slot_count, kEmpty);
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      slots_[SlotOf(entries_[i].key)] = static_cast<std::int32_t>(i);
+  }
+
+  std::vector<std::int32_t> slots_;  // open addressing, power of two
+  std::deque<Entry> entries_;
+};
+
+/// Reads and writes with the last block remembered: neighbours mostly share one.
+template <class Grid, class Block>
+class BlockCursor {
+ public:
+  explicit BlockCursor(Grid& grid) : grid_(&grid) {}
+
+  /// The block that holds `key`, or null.
+  Block* Find(const VoxelKey& key) {
+    const VoxelKey block_key = BlockKeyOf(key);
+    if (!is_set_ || block_key != block_key_) {
+      block_ = grid_->Find(block_key);
+      block_key_ = block_key;
+      is_set_ = true;
+    }
+    return block_;
+  }
+
+  /// The block that holds `key`, made if absent.
+  Block& Touch(const VoxelKey& key) {
+    if (Block* block = Find(key)) return *block;
+    block_ = &grid_->Touch(block_key_);
+    return *block_;
+  }
+
+ private:
+  Grid* grid_;
+  Block* block_ = nullptr;
+  VoxelKey block_key_;
+  bool is_set_ = false;
+};
+
+template <class Block>
+using GridCursor = BlockCursor<SparseGrid<Block>, Block>;
+template <class Block>
+using GridReader = BlockCursor<const SparseGrid<Block>, const Block>;
+
+}  // namespace crossnav::geometry

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The persistent semantic memory (paper, "Persistent 3D Semantic Memory"): one feature row per
+// surface voxel, a cumulative weighted average over everything that voxel ever showed. Rows are
+// half precision, weights float32. Goal-independent: nothing here knows what is being searched.
+// World frame, metres. Readers may share it while nobody writes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crossnav/core/camera.h"
+#include "crossnav/core/image.h"
+#include "crossnav/core/pose.h"
+#include "crossnav/geometry/voxel_key.h"
+#include "crossnav/geometry/voxel_map.h"
+
+namespace crossnav::memory {
+
+using geometry::PixelVoxel;
+using geometry::VoxelKey;
+
+/// tab:supp_configuration, rows "Fusion".
+struct FusionConfig {
+  double gamma = 0.20;             ///< depth-gradient factor
+  double preferred_depth_m = 1.0;  ///< d0
+  double depth_scale_m = 1.5;      ///< sigma_d
+  double gradient_scale = 0;       ///< 0 = width / fx, which is independent of resolution
+  double epsilon = 1e-6;           ///< eq:intra_frame_fusion
+  int max_rows = 0;                ///< 0 = unbounded; above it the least confident rows go
+};
+
+template <class V>
+void Visit(V& visit, FusionConfig& c) {
+  visit("gamma", c.gamma, 0.0, 100.0);
+  visit("preferred_depth_m", c.preferred_depth_m, 0.0, 100.0);
+  visit("depth_scale_m", c.depth_scale_m, 0.01, 100.0);
+  visit("gradient_scale", c.gradient_scale, 0.0, 1e6);
+  visit("epsilon", c.epsilon, 0.0, 1.0);
+  visit("max_rows", c.max_rows, 0, 1000000000);
+}
+
+/// Dense features of one frame; a view of perception's grid (this room does not know perception).
+struct FeatureGridView {
+  int rows = 0, cols = 0, dim = 0;
+  std::span<const float> data;  ///< rows x cols x dim
+};
+
+/// Observation quality q(u, v) of every pixel, 0 where depth is invalid (eq:supp_observation_quality).
+Image<float> ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
+                                const FusionConfig& config);
+
+class SemanticMemory {
+ private:
+  struct Impl;
+
+ public:
+  /// `dim` 0 takes the dimension of the first grid.
+  explicit SemanticMemory(const FusionConfig& config = {}, double voxel_m = 0.10, int dim = 0);
+  ~SemanticMemory();
+  SemanticMemory(SemanticMemory&&) noexcept;
+  SemanticMemory& operator=(SemanticMemory&&) noexcept;
+
+  /// Lifts the frame's features to the end voxels `pixels` (from VoxelMap::Integrate) and fuses
+  /// them (eq:intra_frame_fusion, eq:supp_feature_fusion).
+  void Fuse(const std::vector<PixelVoxel>& pixels, const DepthImage& depth_m,
+            const CameraIntrinsics& camera, const Pose& T_world_camera,
+            const FeatureGridView& features);
+
+  int Dim() const;
+  std::int64_t Size() const;                  ///< feature-bearing voxels
+  std::span<const VoxelKey> Keys() const;     ///< row order: order of first observation
+  float WeightAt(std::int64_t row) const;
+  std::vector<float> FeatureAt(std::int64_t row) const;
+  std::optional<std::int64_t> RowOf(const VoxelKey& key) const;
+  /// Where the camera stood when the row was seen best (largest frame confidence).
+  Vector3f BestViewOf(std::int64_t row) const;
+  std::int64_t Bytes() const;
+
+  /// Cosine of every row with `text` (any norm > 0), in row order (eq:supp_similarity).
+  std::vector<float> Similarity(std::span<const float> text) const;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace crossnav::memory

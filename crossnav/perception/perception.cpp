@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/perception/perception.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace crossnav::perception {
+
+Result<Percept> PerceptionSuite::Look(const Observation& obs, std::string_view goal) {
+  Percept percept;
+  auto detections = detector->Detect(obs, goal);
+  if (!detections) return tl::unexpected(detections.error());
+  for (Detection& detection : *detections) {
+    if (auto done = segmenter->Segment(obs, detection); !done)
+      return tl::unexpected(done.error());
+  }
+  std::stable_sort(detections->begin(), detections->end(),
+                   [](const Detection& a, const Detection& b) { return a.confidence > b.confidence; });
+  percept.detections = std::move(*detections);
+
+  auto stair_probability = stairs->SegmentStairs(obs);
+  if (!stair_probability) return tl::unexpected(stair_probability.error());
+  percept.stair_probability = std::move(*stair_probability);
+
+  auto features = encoder->EncodeImage(obs);
+  if (!features) return tl::unexpected(features.error());
+  percept.features = std::move(*features);
+  return percept;
+}
+
+}  // namespace crossnav::perception

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace crossnav::planner {
+
+/// tab:supp_configuration, rows "Planner"; the type penalties are in geometry/voxel_states.h.
+struct PlannerConfig {
+  double stair_edge_radius_m = 1.0;
+  double inflated_cost_factor = 2;
+  int max_expansions = 400000;  // chosen: several times a 400 m2 two-floor house; 0 = no limit
+};
+
+template <class V>
+void Visit(V& visit, PlannerConfig& c) {
+  visit("stair_edge_radius_m", c.stair_edge_radius_m, 0.1, 5.0);
+  visit("inflated_cost_factor", c.inflated_cost_factor, 1.0, 100.0);
+  visit("max_expansions", c.max_expansions, 0, 2000000000);
+}
+
+}  // namespace crossnav::planner

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// Settings of candidates, modes, stairs and approach. Defaults: tab:supp_configuration; a value the
+// paper does not have says "chosen".
+#pragma once
+
+#include <string>
+
+namespace crossnav::policy {
+
+struct ObjectConfig {
+  double detector_confidence = 0.70;
+  double secondary_confidence = 0.60;
+  double found_confidence = 0.70;
+  double min_box_area_fraction = 1.0 / 64;
+  int min_projected_voxels = 10;
+  int stable_frames = 2;          // chosen: two agreeing frames
+  double merge_distance_m = 0.5;  // chosen: centres of one object seen from two sides
+};
+
+struct PoiConfig {
+  bool use_history = true;  ///< false = the paper's "w/o H-POI"
+  double live_takeover_m = 1.0;
+  double blacklist_xy_m = 0.8, blacklist_z_m = 0.6;
+  double arrival_m = 0.5;  // chosen: two forward steps
+};
+
+struct FrontierConfig {
+  int min_cluster = 5;
+  int min_cluster_init_descent = 2;
+  double level_band_m = 0.35;         // chosen: one step above the maximum climb
+  double unknown_column_m = 0.3;      // chosen: genuine unknown, nothing seen within +-0.3 m
+  std::string score = "nearest";      ///< nearest | semantic
+  int commitment_steps = 20;          // chosen: grace period
+  double arrival_m = 0.35;            // chosen: one forward step and a voxel
+};
+
+struct StairConfig {
+  double pixel_threshold = 0.25;
+  int min_component_px = 80;
+  double descent_confirmation = 0.48;
+  double geometry_threshold = 0.65;
+  double admission_radius_m = 2.5;
+  double arrival_m = 0.40;
+  int landing_frames = 3;             // chosen: multi-frame landing confirmation
+  int evidence_window = 10;           // chosen: of the last ten frames ...
+  int evidence_frames = 3;            // chosen: ... three must show the stairs
+  int min_progress_steps = 60;        // chosen: a session without vertical progress ends
+};
+
+struct ApproachConfig {
+  double range_m = 1.30;
+  double min_visibility = 0.3;        // chosen: share of the object's voxels in line of sight
+  double min_mask_quality = 0.5;      // chosen
+  double max_view_angle_deg = 35;     // chosen: object within the middle of the image
+  int max_viewpoints = 4;             // chosen: tries before the blacklist
+};
+
+struct PolicyConfig {
+  ObjectConfig object;
+  PoiConfig poi;
+  FrontierConfig frontier;
+  StairConfig stair;
+  ApproachConfig approach;
+  bool planar = false;  ///< variant: no stairs, one level, the planar persistent-memory stand-in
+};
+
+template <class V>
+void Visit(V& visit, ObjectConfig& c) {
+  visit("detector_confidence", c.detector_confidence, 0.0, 1.0);
+  visit("secondary_confidence", c.secondary_confidence, 0.0, 1.0);
+  visit("found_confidence", c.found_confidence, 0.0, 1.0);
+  visit("min_box_area_fraction", c.min_box_area_fraction, 0.0, 1.0);
+  visit("min_projected_voxels", c.min_projected_voxels, 1, 100000);
+  visit("stable_frames", c.stable_frames, 1, 1000);
+  visit("merge_distance_m", c.merge_distance_m, 0.0, 10.0);
+}
+template <class V>
+void Visit(V& visit, PoiConfig& c) {
+  visit("use_history", c.use_history);
+  visit("live_takeover_m", c.live_takeover_m, 0.0, 100.0);
+  visit("blacklist_xy_m", c.blacklist_xy_m, 0.0, 100.0);
+  visit("blacklist_z_m", c.blacklist_z_m, 0.0, 100.0);
+  visit("arrival_m", c.arrival_m, 0.05, 10.0);
+}
+template <class V>
+void Visit(V& visit, FrontierConfig& c) {
+  visit("min_cluster", c.min_cluster, 1, 100000);
+  visit("min_cluster_init_descent", c.min_cluster_init_descent, 1, 100000);
+  visit("level_band_m", c.level_band_m, 0.0, 10.0);
+  visit("unknown_column_m", c.unknown_column_m, 0.0, 10.0);
+  visit("score", c.score, {"nearest", "semantic"});
+  visit("commitment_steps", c.commitment_steps, 0, 10000);
+  visit("arrival_m", c.arrival_m, 0.05, 10.0);
+}
+template <class V>
+void Visit(V& visit, StairConfig& c) {
+  visit("pixel_threshold", c.pixel_threshold, 0.0, 1.0);
+  visit("min_component_px", c.min_component_px, 1, 1000000);
+  visit("descent_confirmation", c.descent_confirmation, 0.0, 1.0);
+  visit("geometry_threshold", c.geometry_threshold, 0.0, 1.0);
+  visit("admission_radius_m", c.admission_radius_m, 0.1, 100.0);
+  visit("arrival_m", c.arrival_m, 0.05, 10.0);
+  visit("landing_frames", c.landing_frames, 1, 1000);
+  visit("evidence_window", c.evidence_window, 1, 1000);
+  visit("evidence_frames", c.evidence_frames, 1, 1000);
+  visit("min_progress_steps", c.min_progress_steps, 1, 100000);
+}
+template <class V>
+void Visit(V& visit, ApproachConfig& c) {
+  visit("range_m", c.range_m, 0.1, 10.0);
+  visit("min_visibility", c.min_visibility, 0.0, 1.0);
+  visit("min_mask_quality", c.min_mask_quality, 0.0, 1.0);
+  visit("max_view_angle_deg", c.max_view_angle_deg, 1.0, 90.0);
+  visit("max_viewpoints", c.max_viewpoints, 1, 1000);
+}
+template <class V>
+void Visit(V& visit, PolicyConfig& c) {
+  visit.Section("object", c.object);
+  visit.Section("poi", c.poi);
+  visit.Section("frontier", c.frontier);
+  visit.Section("stair", c.stair);
+  visit.Section("approach", c.approach);
+  visit("planar", c.planar);
+}
+
+}  // namespace crossnav::policy

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Ground-truth perception: the four interfaces of crossnav/perception answered from the simulator's
+// instance image. For tests and for evaluation without networks; results say "oracle-perception".
+#pragma once
+
+#include <cstdint>
+
+#include "crossnav/perception/perception.h"
+#include "crossnav/sim/simulator.h"
+
+namespace crossnav::sim {
+
+struct GroundTruthConfig {
+  double max_distance_m = 8.0;      // chosen: detectors miss what is far
+  int min_visible_px = 200;         // chosen: and what is tiny
+  int feature_dim = 768;
+  int feature_rows = 24, feature_cols = 24;
+  double feature_noise = 0.25;      // chosen: norm of the seeded noise against unit text vectors
+  double confusion = 0.35;          // chosen: cosine between look-alikes such as bed and sofa
+  std::uint64_t seed = 1;
+};
+
+template <class V>
+void Visit(V& visit, GroundTruthConfig& c) {
+  visit("max_distance_m", c.max_distance_m, 0.1, 100.0);
+  visit("min_visible_px", c.min_visible_px, 1, 1000000);
+  visit("feature_dim", c.feature_dim, 8, 4096);
+  visit("feature_rows", c.feature_rows, 1, 256);
+  visit("feature_cols", c.feature_cols, 1, 256);
+  visit("feature_noise", c.feature_noise, 0.0, 10.0);
+  visit("confusion", c.confusion, 0.0, 0.99);
+  visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
+}
+
+/// All four interfaces, answered from `simulator`, which must outlive the suite. Detections of the
+/// goal category are true instances; names that are not one of kCategories match raw names exactly.
+perception::PerceptionSuite GroundTruthPerception(const Simulator& simulator,
+                                                  const GroundTruthConfig& config);
+
+}  // namespace crossnav::sim

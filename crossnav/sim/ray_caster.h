@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The ray-cast camera: colour, planar depth and instance id in one pass (Embree, packets of 16).
+// Deterministic. Rendering is const and may be called from several threads.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "crossnav/core/camera.h"
+#include "crossnav/core/image.h"
+#include "crossnav/core/pose.h"
+#include "crossnav/sim/scene.h"
+
+namespace crossnav::sim {
+
+struct Frame {
+  RgbImage rgb;
+  DepthImage depth_m;       ///< planar z, 0 where no surface
+  InstanceImage instance;   ///< 0 where none
+};
+
+struct RayHit {
+  double distance_m = 0;
+  int instance = 0;
+  Vector3d p_world = Vector3d::Zero();
+  std::uint32_t triangle = 0;
+};
+
+class RayCaster {
+ private:
+  struct Impl;
+
+ public:
+  /// Keeps a reference to `scene`, which must outlive it.
+  explicit RayCaster(const Scene& scene);
+  ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
+
+  Frame Render(const CameraIntrinsics& camera, const Pose& T_world_camera) const;
+
+  /// First surface along the ray, within `max_m`.
+  std::optional<RayHit> Cast(const Vector3d& p_world, const Vector3d& direction, double max_m) const;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace crossnav::sim

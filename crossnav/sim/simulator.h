@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The robot in the scene: six discrete actions on the navmesh, and the camera. Deterministic.
+#pragma once
+
+#include <memory>
+
+#include "crossnav/core/action.h"
+#include "crossnav/core/camera.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/ray_caster.h"
+#include "crossnav/sim/scene.h"
+
+namespace crossnav::sim {
+
+class Simulator {
+ public:
+  /// All three must outlive the simulator.
+  Simulator(const Scene& scene, const NavMesh& navmesh, const RayCaster& caster,
+            const SensorConfig& sensor, const ActionConfig& action);
+
+  /// Places the agent; the point is snapped to the navmesh. Error if none is near or it is not finite.
+  Result<void> Reset(const AgentPose& start);
+
+  /// Executes one action (kStop does nothing). A blocked forward stops at the obstacle: no sliding.
+  /// Returns the distance moved [m].
+  double Step(Action action);
+
+  /// Renders the current view. Also keeps the frame for ground-truth perception.
+  Observation Observe();
+
+  const AgentPose& agent() const { return agent_; }
+  const Frame& last_frame() const { return frame_; }
+  const Scene& scene() const { return scene_; }
+  const NavMesh& navmesh() const { return navmesh_; }
+  const SensorConfig& sensor() const { return sensor_; }
+
+ private:
+  const Scene& scene_;
+  const NavMesh& navmesh_;
+  const RayCaster& caster_;
+  SensorConfig sensor_;
+  ActionConfig action_;
+  AgentPose agent_;
+  Frame frame_;
+};
+
+}  // namespace crossnav::sim
