@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/config_file.h"
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "crossnav/bench/result_records.h"
+#include "crossnav/core/config_visitor.h"
+#include "crossnav/core/rng.h"
+
+namespace crossnav::bench {
+namespace {
+
+int EditDistance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i) + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const int change = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string_view LastPart(std::string_view key) {
+  return key.substr(key.rfind('.') + 1);
+}
+
+/// The known key that was probably meant: same last part, or few edits away.
+std::string Suggestion(const std::vector<ConfigField>& fields, std::string_view key) {
+  const ConfigField* best = nullptr;
+  int best_distance = static_cast<int>(key.size()) / 3 + 2;
+  for (const ConfigField& field : fields) {
+    int distance = EditDistance(field.key, key);
+    distance = std::min(distance, 1 + EditDistance(LastPart(field.key), LastPart(key)));
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = &field;
+    }
+  }
+  return best ? "; did you mean \"" + best->key + "\"?" : "";
+}
+
+/// Shortest text that reads back as the same number.
+std::string FormatNumber(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+std::string FormatNumber(std::uint64_t value) {
+  return std::to_string(value);
+}
+std::string FormatNumber(int value) {
+  return std::to_string(value);
+}
+
+std::string Quote(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted.push_back('\\');
+    quoted.push_back(c);
+  }
+  return quoted + "\"";
+}
+
+/// The same in JSON and in TOML, except that a whole double needs its ".0" in TOML.
+std::string FormatValue(const ConfigField& field) {
+  return std::visit(
+      [](const auto* value) -> std::string {
+        using T = std::decay_t<decltype(*value)>;
+        if constexpr (std::is_same_v<T, bool>) return *value ? "true" : "false";
+        if constexpr (std::is_same_v<T, std::string>) return Quote(*value);
+        if constexpr (std::is_same_v<T, double>) {
+          std::string text = FormatNumber(*value);
+          if (text.find_first_of(".en") == std::string::npos) text += ".0";
+          return text;
+        }
+        if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::uint64_t>) {
+          return FormatNumber(*value);
+        }
+        return "";
+      },
+      field.value);
+}
+
+std::string Join(const std::vector<std::string>& parts, const char* separator) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
+  return text;
+}
+
+/// A scalar from a file or an override, before it meets a field.
+using Scalar = std::variant<bool, std::int64_t, double, std::string>;
+
+std::string RangeText(const ConfigField& field) {
+  return "must be in [" + FormatNumber(field.lo) + ", " + FormatNumber(field.hi) + "]";
+}
+
+struct ScalarSetter {
+  const ConfigField& field;
+
+  std::string operator()(bool* target, bool value) const {
+    *target = value;
+    return {};
+  }
+  std::string operator()(std::string* target, const std::string& value) const {
+    const auto& choices = field.choices;
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
+      return "must be one of " + Join(choices, ", ") + ", not \"" + value + "\"";
+    }
+    *target = value;
+    return {};
+  }
+  template <class T>
+  requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) std::string operator()(
+      T* target, std::int64_t value) const {
+    if (static_cast<double>(value) < field.lo || static_cast<double>(value) > field.hi) {
+      return RangeText(field);
+    }
+    *target = static_cast<T>(value);
+    return {};
+  }
+  std::string operator()(double* target, double value) const {
+    if (!(value >= field.lo && value <= field.hi)) return RangeText(field);
+    *target = value;
+    return {};
+  }
+  template <class T, class S>
+  std::string operator()(T*, const S&) const {
+    if (std::is_same_v<T, bool>) return "must be true or false";
+    if (std::is_same_v<T, std::string>) return "must be a string";
+    if (std::is_same_v<T, double>) return "must be a number";
+    return "must be a whole number";
+  }
+};
+
+/// Sets one key; returns the problem, or nothing.
+std::string SetKey(const std::vector<ConfigField>& fields, const std::string& key,
+                   const Scalar& value) {
+  const auto field = std::find_if(fields.begin(), fields.end(),
+                                  [&](const ConfigField& f) { return f.key == key; });
+  if (field == fields.end()) return "unknown key \"" + key + "\"" + Suggestion(fields, key);
+  const std::string problem = std::visit(ScalarSetter{*field}, field->value, value);
+  return problem.empty() ? "" : "key \"" + key + "\" " + problem;
+}
+
+void AddProblem(std::string problem, std::vector<std::string>& problems) {
+  if (!problem.empty()) problems.push_back(std::move(problem));
+}
+
+void ApplyTable(const toml::table& table, const std::string& prefix,
+                const std::vector<ConfigField>& fields, std::vector<std::string>& problems) {
+  for (const auto& [name, node] : table) {
+    const std::string key = prefix + std::string(name.str());
+    if (const auto* inner = node.as_table()) {
+      ApplyTable(*inner, key + ".", fields, problems);
+    } else if (const auto* flag = node.as_boolean()) {
+      AddProblem(SetKey(fields, key, flag->get()), problems);
+    } else if (const auto* whole = node.as_integer()) {
+      AddProblem(SetKey(fields, key, whole->get()), problems);
+    } else if (const auto* number = node.as_floating_point()) {
+      AddProblem(SetKey(fields, key, number->get()), problems);
+    } else if (const auto* text = node.as_string()) {
+      AddProblem(SetKey(fields, key, text->get()), problems);
+    } else {
+      problems.push_back("key \"" + key + "\" must be a single value");
+    }
+  }
+}
+
+/// A bare word after `--set key=` is a TOML value, or else a string.
+Scalar ParseOverride(const std::string& text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  const char* end = text.data() + text.size();
+  std::int64_t whole = 0;
+  if (const auto r = std::from_chars(text.data(), end, whole);
+      r.ec == std::errc() && r.ptr == end) {
+    return whole;
+  }
+  double number = 0;
+  if (const auto r = std::from_chars(text.data(), end, number);
+      r.ec == std::errc() && r.ptr == end) {
+    return number;
+  }
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    return text.substr(1, text.size() - 2);
+  }
+  return text;
+}
+
+Result<void> ReportProblems(const std::vector<std::string>& problems, const std::string& where) {
+  if (problems.empty()) return {};
+  return Fail(ErrorCode::kInvalid, Join(problems, "\n  "), where);
+}
+
+/// Fields never change through a const config: the callers only read.
+std::vector<ConfigField> ReadOnlyFields(const RunConfig& config) {
+  return FieldsOf(const_cast<RunConfig&>(config));
+}
+
+std::string SectionOf(const std::string& key) {
+  const std::size_t dot = key.rfind('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+
+std::vector<std::string> Split(const std::string& key) {
+  std::vector<std::string> parts;
+  std::istringstream stream(key);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+}  // namespace
+
+Result<void> ApplyConfigText(std::string_view text, const std::string& name, RunConfig& config) {
+  toml::table table;
+  try {
+    table = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    return Fail(ErrorCode::kMalformed, std::string(error.description()),
+                name + ": line " + std::to_string(error.source().begin.line));
+  }
+  RunConfig changed = config;
+  std::vector<std::string> problems;
+  ApplyTable(table, "", FieldsOf(changed), problems);
+  if (auto ok = ReportProblems(problems, name); !ok) return ok;
+  config = changed;
+  return {};
+}
+
+Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config) {
+  std::ifstream stream(path);
+  if (!stream) return Fail(ErrorCode::kNotFound, "config file cannot be opened", path.string());
+  std::ostringstream buffer;
+  buffer << stream.rdbuf();
+  return ApplyConfigText(buffer.str(), path.string(), config);
+}
+
+Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config) {
+  RunConfig changed = config;
+  const auto fields = FieldsOf(changed);
+  std::vector<std::string> problems;
+  for (const std::string& text : overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      problems.push_back("\"" + text + "\" is not key=value");
+      continue;
+    }
+    const std::string key = text.substr(0, equals);
+    AddProblem(SetKey(fields, key, ParseOverride(text.substr(equals + 1))), problems);
+  }
+  if (auto ok = ReportProblems(problems, "--set"); !ok) return ok;
+  config = changed;
+  return {};
+}
+
+Result<void> ApplyVariant(std::string_view variant, RunConfig& config) {
+  if (variant == "full") return {};
+  if (variant == "no-history-poi") {
+    config.agent.policy.poi.use_history = false;
+    return {};
+  }
+  if (variant == "planar") {
+    config.agent.policy.planar = true;
+    return {};
+  }
+  return Fail(
+      ErrorCode::kInvalid,
+      "unknown variant \"" + std::string(variant) + "\"; there are full, no-history-poi and planar",
+      "--variant");
+}
+
+std::string DumpToml(const RunConfig& config) {
+  std::string text, section;
+  for (const ConfigField& field : ReadOnlyFields(config)) {
+    if (SectionOf(field.key) != section) {
+      section = SectionOf(field.key);
+      text += (text.empty() ? "[" : "\n[") + section + "]\n";
+    }
+    text += std::string(LastPart(field.key)) + " = " + FormatValue(field) + "\n";
+  }
+  return text;
+}
+
+std::string DumpJson(const RunConfig& config) {
+  std::string text = "{";
+  std::vector<std::string> open;  // sections that are open
+  bool is_first = true;
+  for (const ConfigField& field : ReadOnlyFields(config)) {
+    std::vector<std::string> parts = Split(field.key);
+    const std::string name = parts.back();
+    parts.pop_back();
+    std::size_t common = 0;
+    while (common < open.size() && common < parts.size() && open[common] == parts[common]) ++common;
+    for (; open.size() > common; open.pop_back()) text += "}";
+    if (!is_first) text += ",";
+    for (; open.size() < parts.size(); open.push_back(parts[open.size()])) {
+      text += "\"" + parts[open.size()] + "\":{";
+    }
+    text += "\"" + name + "\":" + FormatValue(field);
+    is_first = false;
+  }
+  return text + std::string(open.size() + 1, '}');
+}
+
+std::string ConfigHash(const RunConfig& config) {
+  std::string text;
+  for (const ConfigField& field : ReadOnlyFields(config)) {
+    text += field.key + "=" + FormatValue(field) + "\n";
+  }
+  return HexHash(HashString(text));
+}
+
+}  // namespace crossnav::bench

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Configuration files (TOML) and `key=value` overrides onto a RunConfig. An empty file means "the
+// paper". Every problem is reported, not only the first; an unknown key names its nearest
+// neighbour.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/bench/run_config.h"
+#include "crossnav/core/result.h"
+
+namespace crossnav::bench {
+
+/// Applies a TOML file. On error `config` is unchanged; `where` names the file, `what` every
+/// problem with its key, one a line.
+Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config);
+
+/// As ApplyConfigFile from text; `name` stands for the file in messages.
+Result<void> ApplyConfigText(std::string_view toml, const std::string& name, RunConfig& config);
+
+/// Applies overrides such as "policy.poi.use_history=false", in order, all or none.
+Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config);
+
+/// full | no-history-poi | planar (method.md, "Variants").
+Result<void> ApplyVariant(std::string_view variant, RunConfig& config);
+
+/// The effective configuration, every field, as one JSON object (nested) or as TOML.
+std::string DumpJson(const RunConfig& config);
+std::string DumpToml(const RunConfig& config);
+
+/// 16 hex digits over every key and value; the same on every machine.
+std::string ConfigHash(const RunConfig& config);
+
+}  // namespace crossnav::bench

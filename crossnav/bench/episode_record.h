@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// What the evaluator keeps of one episode: one row per executed stage. The metrics read only this;
+// result_records.h writes it to disk. World frame, metres.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/core/pose.h"
+
+namespace crossnav::bench {
+
+/// How an executed stage ended, in the benchmark's order of precedence.
+enum class Outcome { kSuccess, kNotReached, kMisdetection, kAllExplored, kStuck, kOutOfTime };
+
+inline constexpr std::array<std::string_view, 6> kOutcomeNames = {
+    "success", "not_reached", "misdetection", "all_explored", "stuck", "out_of_time"};
+
+inline std::string_view NameOf(Outcome outcome) {
+  return kOutcomeNames[static_cast<std::size_t>(outcome)];
+}
+
+inline std::optional<Outcome> OutcomeFromName(std::string_view name) {
+  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
+    if (kOutcomeNames[i] == name) return static_cast<Outcome>(i);
+  }
+  return std::nullopt;
+}
+
+/// Beside the outcome, never instead of it.
+struct StageExtra {
+  bool passed_target = false;  ///< a true instance was in view within the success radius, unclaimed
+  bool wrong_floor = false;    ///< ended within the radius of an instance, but on another floor
+  /// For a stage whose goal is on other floors only and that failed: never_found,
+  /// entrance_rejected, lost_on_flight or landing_not_confirmed. Empty otherwise.
+  std::string stairs;
+  std::optional<double> distance_to_goal_m;  ///< geodesic, from the end to the nearest viewpoint
+};
+
+struct StageRecord {
+  std::string goal;
+  Outcome outcome = Outcome::kOutOfTime;
+  bool success = false;
+  Vector3d start_world = Vector3d::Zero();
+  Vector3d end_world = Vector3d::Zero();
+  double shortest_m = 0;  ///< d*, eq:posthoc_distance
+  double length_m = 0;    ///< sum of 3D displacements
+  int actions = 0;
+  int floor_start = 0, floor_end = 0;
+  int transitions = 0;  ///< times the agent arrived on another floor
+  StageExtra extra;
+};
+
+struct StageTiming {
+  double p50 = 0, p95 = 0;  ///< CPU time [ms]
+};
+
+struct EpisodeRecord {
+  std::string episode_id;
+  std::string scene_id;
+  bool cross_floor_required = false;
+  int first_transition_stage = 0;  ///< from 1; 0 = none required
+  std::vector<std::string> goals;
+  int actions = 0;
+  std::vector<StageRecord> stages;  ///< executed stages only, in order
+  // The two fields below are the only ones that may differ between two runs of the same seed.
+  double wall_s = 0;
+  std::map<std::string, StageTiming> timing_ms;
+
+  /// Length m of the completed prefix.
+  int Completed() const {
+    int completed = 0;
+    for (const StageRecord& stage : stages) {
+      if (!stage.success) break;
+      ++completed;
+    }
+    return completed;
+  }
+};
+
+}  // namespace crossnav::bench

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/result_records.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <set>
+
+#include "crossnav/core/check.h"
+
+namespace crossnav::bench {
+namespace {
+
+Result<void> WriteSynced(int descriptor, std::string_view text, const std::string& where) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return Fail(ErrorCode::kIo, std::strerror(errno), where);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fsync(descriptor) != 0 && errno != EINVAL) {
+    return Fail(ErrorCode::kIo, std::strerror(errno), where);
+  }
+  return {};
+}
+
+Result<int> OpenForAppend(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor < 0) return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
+  return descriptor;
+}
+
+Result<void> CheckResumable(const ResultFile& file, const RunHeader& header,
+                            const std::filesystem::path& path) {
+  if (!file.header) {
+    return Fail(ErrorCode::kMismatch, "is no result file of this program; choose another --out",
+                path.string());
+  }
+  std::string difference = HeaderDifference(*file.header, header);
+  if (difference.empty() && file.header->shard != header.shard) {
+    difference = "shard: " + file.header->shard + " there, " + header.shard + " here";
+  }
+  if (difference.empty()) return {};
+  return Fail(ErrorCode::kMismatch,
+              "belongs to another run (" + difference + "); choose another --out or remove it",
+              path.string());
+}
+
+}  // namespace
+
+std::string HexHash(std::uint64_t hash) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (int i = 15; i >= 0; --i, hash >>= 4) text[static_cast<std::size_t>(i)] = kDigits[hash & 15];
+  return text;
+}
+
+std::string HeaderDifference(const RunHeader& a, const RunHeader& b) {
+  const auto differs = [](std::string_view key, const std::string& x, const std::string& y) {
+    return std::string(key) + ": " + x + " there, " + y + " here";
+  };
+  if (a.variant != b.variant) return differs("variant", a.variant, b.variant);
+  if (a.config_hash != b.config_hash) return differs("config_hash", a.config_hash, b.config_hash);
+  if (a.episodes_hash != b.episodes_hash) {
+    return differs("episodes_hash", a.episodes_hash, b.episodes_hash);
+  }
+  if (a.episodes != b.episodes) {
+    return differs("episodes", std::to_string(a.episodes), std::to_string(b.episodes));
+  }
+  if (a.seed != b.seed) return differs("seed", std::to_string(a.seed), std::to_string(b.seed));
+  if (a.version != b.version) return differs("version", a.version, b.version);
+  if (a.perception != b.perception) return differs("perception", a.perception, b.perception);
+  for (const auto& [id, hashes] : a.scenes) {
+    const auto other = b.scenes.find(id);
+    if (other != b.scenes.end() && !(other->second == hashes)) return "hashes of scene " + id;
+  }
+  return {};
+}
+
+Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bool require_all) {
+  CROSSNAV_CHECK(!paths.empty(), "nothing to merge");
+  ResultFile merged;
+  std::map<std::string, std::string> seen;  // episode id -> file
+  for (const auto& path : paths) {
+    auto file = ReadResults(path);
+    if (!file) return tl::unexpected(file.error());
+    if (merged.header && file->header) {
+      const std::string difference = HeaderDifference(*merged.header, *file->header);
+      if (!difference.empty()) {
+        return Fail(ErrorCode::kMismatch,
+                    "cannot be merged with " + paths[0].string() + " (" + difference + ")",
+                    path.string());
+      }
+      merged.header->scenes.insert(file->header->scenes.begin(), file->header->scenes.end());
+    } else if (seen.empty()) {
+      merged.header = file->header;
+    } else if (merged.header.has_value() != file->header.has_value()) {
+      return Fail(ErrorCode::kMismatch, "only some of the files have a header", path.string());
+    }
+    for (EpisodeRecord& episode : file->episodes) {
+      const auto [entry, is_new] = seen.emplace(episode.episode_id, path.string());
+      if (!is_new) {
+        return Fail(ErrorCode::kMismatch,
+                    "episode " + episode.episode_id + " is also in " + entry->second,
+                    path.string());
+      }
+      merged.episodes.push_back(std::move(episode));
+    }
+  }
+  const int found = static_cast<int>(merged.episodes.size());
+  if (require_all && merged.header && found != merged.header->episodes) {
+    return Fail(ErrorCode::kMismatch,
+                std::to_string(merged.header->episodes - found) + " of " +
+                    std::to_string(merged.header->episodes) +
+                    " episodes are missing; run the remaining shards or resume",
+                paths[0].string());
+  }
+  return merged;
+}
+
+ResultWriter::ResultWriter(int descriptor, std::filesystem::path path)
+    : descriptor_(descriptor), path_(std::move(path)) {}
+
+ResultWriter::ResultWriter(ResultWriter&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
+
+ResultWriter::~ResultWriter() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<ResultWriter> ResultWriter::Open(const std::filesystem::path& path, const RunHeader& header,
+                                        std::vector<EpisodeRecord>& finished) {
+  finished.clear();
+  bool needs_header = true;
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) {
+    auto file = ReadResults(path);
+    if (!file) return tl::unexpected(file.error());
+    if (file->valid_bytes > 0) {
+      if (auto ok = CheckResumable(*file, header, path); !ok) return tl::unexpected(ok.error());
+      needs_header = false;
+    }
+    if (::truncate(path.c_str(), static_cast<off_t>(file->valid_bytes)) != 0) {
+      return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
+    }
+    finished = std::move(file->episodes);
+  }
+  auto descriptor = OpenForAppend(path);
+  if (!descriptor) return tl::unexpected(descriptor.error());
+  ResultWriter writer(*descriptor, path);
+  if (needs_header) {
+    if (auto ok = writer.AppendLine(ToJsonLine(header)); !ok) return tl::unexpected(ok.error());
+  }
+  return writer;
+}
+
+Result<void> ResultWriter::Append(const EpisodeRecord& record) {
+  return AppendLine(ToJsonLine(record));
+}
+
+Result<void> ResultWriter::AppendLine(std::string line) {
+  line.push_back('\n');
+  return WriteSynced(descriptor_, line, path_.string());
+}
+
+}  // namespace crossnav::bench

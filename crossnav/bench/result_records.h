@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Result records on disk: JSON Lines, a header and then one line per finished episode. Append-only;
+// each line is written whole and synced, so that a killed run loses at most the episode in flight.
+// Format: docs/formats/results.md. Not thread-safe.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/bench/episode_record.h"
+#include "crossnav/core/result.h"
+
+namespace crossnav::bench {
+
+struct SceneHashes {
+  std::string mesh_hash, navmesh_hash;  ///< 16 hex digits
+  friend bool operator==(const SceneHashes&, const SceneHashes&) = default;
+};
+
+/// What makes two result files comparable; all fields must match for a resume or a merge.
+struct RunHeader {
+  std::string variant;
+  std::string config_json;  ///< effective config, one JSON object
+  std::string config_hash;
+  std::string episodes_hash;
+  int episodes = 0;  ///< in the whole episode file, before sharding
+  std::map<std::string, SceneHashes> scenes;
+  std::uint64_t seed = 0;
+  std::string version;
+  std::string perception;
+  std::string shard = "0/1";  ///< index/count; the one field that may differ between merged files
+};
+
+/// 16 lower-case hex digits.
+std::string HexHash(std::uint64_t hash);
+
+/// One line without the line feed. `with_timings` off leaves out wall_s and timing_ms.
+std::string ToJsonLine(const RunHeader& header);
+std::string ToJsonLine(const EpisodeRecord& record, bool with_timings = true);
+
+struct ResultFile {
+  std::optional<RunHeader> header;  ///< absent in files of other programs
+  std::vector<EpisodeRecord> episodes;
+  std::uint64_t valid_bytes = 0;  ///< end of the last whole line
+  bool has_torn_line = false;     ///< bytes after it
+};
+
+/// Reads a result file. Errors name file, line and key. A last line without line feed is torn: it
+/// is left out, not an error.
+Result<ResultFile> ReadResults(const std::filesystem::path& path);
+
+/// First field in which the headers differ ("config_hash: a, b"), or empty. `shard` is not
+/// compared.
+std::string HeaderDifference(const RunHeader& a, const RunHeader& b);
+
+/// The files' episodes together. Refuses mixed headers and duplicate episodes and, where
+/// `require_all`, missing ones.
+Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bool require_all);
+
+class ResultWriter {
+ public:
+  /// Starts `path`, or continues it when it exists and its header matches (a torn last line is cut
+  /// off). A mismatch is an error. `finished` gets the episodes already there.
+  static Result<ResultWriter> Open(const std::filesystem::path& path, const RunHeader& header,
+                                   std::vector<EpisodeRecord>& finished);
+  ResultWriter(ResultWriter&& other) noexcept;
+  ResultWriter(const ResultWriter&) = delete;
+  ResultWriter& operator=(const ResultWriter&) = delete;
+  ~ResultWriter();
+
+  Result<void> Append(const EpisodeRecord& record);
+  /// Appends a line made by ToJsonLine.
+  Result<void> AppendLine(std::string line);
+
+ private:
+  ResultWriter(int descriptor, std::filesystem::path path);
+  int descriptor_ = -1;
+  std::filesystem::path path_;
+};
+
+}  // namespace crossnav::bench

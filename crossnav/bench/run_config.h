@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Everything a run depends on, in one struct: the agent's settings, the simulator's and the
+// evaluator's. Defaults are the paper's (tab:supp_configuration) unless they say "chosen".
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "crossnav/agent/config.h"
+#include "crossnav/sim/ground_truth.h"
+#include "crossnav/sim/navmesh.h"
+
+namespace crossnav::bench {
+
+/// The evaluator. Its success radius judges only; the policy cannot read it.
+struct EvalConfig {
+  int action_budget = 1200;
+  std::string budget_scope = "episode";  ///< episode | goal
+  double success_radius_m = 1.50;        ///< horizontal, to the instance's box
+  std::string success = "box";           ///< box | viewpoint
+  double viewpoint_radius_m = 0.10;      // chosen: Habitat ObjectNav's, for success = viewpoint
+  int stuck_steps = 10;                  ///< benchmark.md, "Outcome": under ...
+  double stuck_m = 0.05;                 ///< ... this far in as many steps
+  int seen_px = 200;                     // chosen: pixels that make an instance "in view"
+  std::string perception = "oracle";     ///< where detections come from: oracle
+  std::uint64_t seed = 1;
+};
+
+/// Episodes that the generator makes.
+struct DatasetConfig {
+  int goals = 3;
+  bool allow_repeats = false;     ///< the same category twice in one episode
+  double min_first_goal_m = 1.0;  // chosen: no episode starts with its goal reached
+  double max_start_step_m = 0.1;  // chosen: starts lie on a floor, not on a flight
+  int tries_per_episode = 200;    // chosen: before the generator says what it cannot do
+};
+
+struct RunConfig {
+  agent::Config agent;
+  sim::NavMeshSettings navmesh;
+  sim::GroundTruthConfig ground_truth;
+  EvalConfig eval;
+  DatasetConfig dataset;
+};
+
+template <class V>
+void Visit(V& visit, EvalConfig& c) {
+  visit("action_budget", c.action_budget, 1, 1000000);
+  visit("budget_scope", c.budget_scope, {"episode", "goal"});
+  visit("success_radius_m", c.success_radius_m, 0.01, 100.0);
+  visit("success", c.success, {"box", "viewpoint"});
+  visit("viewpoint_radius_m", c.viewpoint_radius_m, 0.01, 100.0);
+  visit("stuck_steps", c.stuck_steps, 1, 1000000);
+  visit("stuck_m", c.stuck_m, 0.0, 100.0);
+  visit("seen_px", c.seen_px, 1, 1000000000);
+  visit("perception", c.perception, {"oracle"});
+  visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
+}
+
+template <class V>
+void Visit(V& visit, DatasetConfig& c) {
+  visit("goals", c.goals, 1, 100);
+  visit("allow_repeats", c.allow_repeats);
+  visit("min_first_goal_m", c.min_first_goal_m, 0.0, 100.0);
+  visit("max_start_step_m", c.max_start_step_m, 0.0, 10.0);
+  visit("tries_per_episode", c.tries_per_episode, 1, 1000000);
+}
+
+template <class V>
+void Visit(V& visit, RunConfig& c) {
+  Visit(visit, c.agent);
+  visit.Section("navmesh", c.navmesh);
+  visit.Section("ground_truth", c.ground_truth);
+  visit.Section("eval", c.eval);
+  visit.Section("dataset", c.dataset);
+}
+
+}  // namespace crossnav::bench

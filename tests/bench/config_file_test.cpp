@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/config_file.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "crossnav/core/config_visitor.h"
+
+namespace crossnav::bench {
+namespace {
+
+TEST(ConfigFile, EmptyTextMeansThePaper) {
+  RunConfig config;
+  ASSERT_TRUE(ApplyConfigText("", "empty.toml", config));
+  EXPECT_EQ(ConfigHash(config), ConfigHash(RunConfig{}));
+}
+
+TEST(ConfigFile, SectionsReachNestedFields) {
+  RunConfig config;
+  const auto ok = ApplyConfigText(
+      "[policy.poi]\nuse_history = false\n[navmesh]\ncell_m = 0.05\n[map]\nrays = \"exact\"\n"
+      "[eval]\naction_budget = 500\n",
+      "a.toml", config);
+  ASSERT_TRUE(ok) << ok.error().Message();
+  EXPECT_FALSE(config.agent.policy.poi.use_history);
+  EXPECT_DOUBLE_EQ(config.navmesh.cell_m, 0.05);
+  EXPECT_EQ(config.agent.map.rays, "exact");
+  EXPECT_EQ(config.eval.action_budget, 500);
+}
+
+TEST(ConfigFile, UnknownKeyNamesFileKeyAndNeighbour) {
+  RunConfig config;
+  const auto ok = ApplyConfigText("[policy.poi]\nuse_histroy = false\n", "a.toml", config);
+  ASSERT_FALSE(ok);
+  EXPECT_NE(ok.error().Message().find("a.toml"), std::string::npos);
+  EXPECT_NE(ok.error().Message().find("policy.poi.use_histroy"), std::string::npos);
+  EXPECT_NE(ok.error().Message().find("did you mean \"policy.poi.use_history\""), std::string::npos)
+      << ok.error().Message();
+}
+
+TEST(ConfigFile, AllProblemsAreReportedAndNothingIsChanged) {
+  RunConfig config;
+  const auto ok = ApplyConfigText(
+      "[sensor]\nwidth_px = 320\nhfov_deg = 400\n[map]\nrays = \"quick\"\nvoxel_m = true\nx = 1\n",
+      "a.toml", config);
+  ASSERT_FALSE(ok);
+  for (const char* part : {"sensor.hfov_deg", "[1, 179]", "map.rays", "fast, exact", "map.voxel_m",
+                           "must be a number", "map.x"}) {
+    EXPECT_NE(ok.error().what.find(part), std::string::npos) << part << " in " << ok.error().what;
+  }
+  EXPECT_EQ(config.agent.sensor.width_px, 640);
+}
+
+TEST(ConfigFile, SyntaxErrorNamesTheLine) {
+  RunConfig config;
+  const auto ok = ApplyConfigText("[map]\nvoxel_m = = 2\n", "a.toml", config);
+  ASSERT_FALSE(ok);
+  EXPECT_NE(ok.error().where.find("line 2"), std::string::npos) << ok.error().Message();
+}
+
+TEST(ConfigFile, OverridesAreTypedAndAllOrNothing) {
+  RunConfig config;
+  ASSERT_TRUE(ApplyOverrides({"map.voxel_m=0.2", "eval.seed=9", "map.rays=exact",
+                              "policy.planar=true", "sensor.hfov_deg=79"},
+                             config));
+  EXPECT_DOUBLE_EQ(config.agent.map.voxel_m, 0.2);
+  EXPECT_EQ(config.eval.seed, 9u);
+  EXPECT_TRUE(config.agent.policy.planar);
+  const std::string before = ConfigHash(config);
+  EXPECT_FALSE(ApplyOverrides({"map.voxel_m=0.3", "map.voxel=1"}, config));
+  EXPECT_FALSE(ApplyOverrides({"map.voxel_m"}, config));
+  EXPECT_EQ(ConfigHash(config), before);
+}
+
+TEST(ConfigFile, WholeNumberFieldsRefuseFractions) {
+  RunConfig config;
+  const auto ok = ApplyOverrides({"sensor.width_px=640.5"}, config);
+  ASSERT_FALSE(ok);
+  EXPECT_NE(ok.error().what.find("whole number"), std::string::npos);
+}
+
+TEST(ConfigFile, TomlDumpReadsBackAsTheSameConfig) {
+  RunConfig config;
+  ASSERT_TRUE(ApplyVariant("planar", config));
+  ASSERT_TRUE(ApplyOverrides({"map.voxel_m=0.125", "fusion.epsilon=1e-9"}, config));
+  RunConfig read;
+  const auto ok = ApplyConfigText(DumpToml(config), "dump.toml", read);
+  ASSERT_TRUE(ok) << ok.error().Message();
+  EXPECT_EQ(ConfigHash(read), ConfigHash(config));
+  EXPECT_NE(ConfigHash(read), ConfigHash(RunConfig{}));
+}
+
+TEST(ConfigFile, JsonDumpHoldsEveryField) {
+  RunConfig config;
+  const auto json = nlohmann::json::parse(DumpJson(config));
+  for (const ConfigField& field : FieldsOf(config)) {
+    std::string pointer = "/" + field.key;
+    for (char& c : pointer) c = c == '.' ? '/' : c;
+    EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << field.key;
+  }
+}
+
+TEST(ConfigFile, EveryKeyIsUniqueAndEveryDefaultIsInItsRange) {
+  RunConfig config;
+  std::set<std::string> keys;
+  for (const ConfigField& field : FieldsOf(config)) {
+    EXPECT_TRUE(keys.insert(field.key).second) << field.key;
+  }
+  RunConfig read;
+  const auto ok = ApplyConfigText(DumpToml(config), "defaults", read);
+  EXPECT_TRUE(ok) << ok.error().Message();
+}
+
+TEST(ConfigFile, UnknownVariantIsRefused) {
+  RunConfig config;
+  EXPECT_TRUE(ApplyVariant("no-history-poi", config));
+  EXPECT_FALSE(config.agent.policy.poi.use_history);
+  EXPECT_FALSE(ApplyVariant("fast", config));
+}
+
+}  // namespace
+}  // namespace crossnav::bench

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/result_records.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "bench/record_builder.h"
+#include "support/temp_folder.h"
+
+namespace crossnav::bench {
+namespace {
+
+using test::MakeEpisode;
+
+RunHeader MakeHeader() {
+  RunHeader header;
+  header.variant = "full";
+  header.config_json = R"({"sensor":{"width_px":640}})";
+  header.config_hash = "00000000000000aa";
+  header.episodes_hash = "00000000000000bb";
+  header.episodes = 3;
+  header.scenes["house"] = {"0000000000000001", "0000000000000002"};
+  header.seed = 7;
+  header.version = "0.1.0";
+  header.perception = "oracle";
+  return header;
+}
+
+EpisodeRecord RichEpisode() {
+  EpisodeRecord episode = MakeEpisode("e1", 3, {{true, 1.1, 2.5}, {false, 3.25, 0.1}});
+  episode.cross_floor_required = true;
+  episode.first_transition_stage = 2;
+  episode.actions = 321;
+  episode.wall_s = 1.5;
+  episode.timing_ms["step"] = {12.5, 20.25};
+  StageRecord& stage = episode.stages[1];
+  stage.outcome = Outcome::kStuck;
+  stage.start_world = {1, -2, 0.1};
+  stage.end_world = {1, -2, 3.1};
+  stage.floor_end = 1;
+  stage.transitions = 1;
+  stage.actions = 200;
+  stage.extra = {true, true, "lost_on_flight", 2.75};
+  return episode;
+}
+
+void WriteText(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string ReadText(const std::filesystem::path& path) {
+  std::ostringstream buffer;
+  buffer << std::ifstream(path, std::ios::binary).rdbuf();
+  return buffer.str();
+}
+
+TEST(ResultRecords, RoundTripKeepsEveryField) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  std::vector<EpisodeRecord> finished;
+  {
+    auto writer = ResultWriter::Open(path, MakeHeader(), finished);
+    ASSERT_TRUE(writer) << writer.error().Message();
+    ASSERT_TRUE(writer->Append(RichEpisode()));
+  }
+  const auto file = ReadResults(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  ASSERT_TRUE(file->header);
+  EXPECT_EQ(ToJsonLine(*file->header), ToJsonLine(MakeHeader()));
+  ASSERT_EQ(file->episodes.size(), 1u);
+  EXPECT_EQ(ToJsonLine(file->episodes[0]), ToJsonLine(RichEpisode()));
+}
+
+TEST(ResultRecords, EpisodeLineHasTheContractsKeysInOrder) {
+  const std::string line = ToJsonLine(RichEpisode());
+  std::size_t at = 0;
+  for (const char* key : {"\"kind\":\"episode\"",
+                          "\"episode_id\"",
+                          "\"scene_id\"",
+                          "\"cross_floor_required\"",
+                          "\"first_transition_stage\"",
+                          "\"goals\"",
+                          "\"actions\"",
+                          "\"wall_s\"",
+                          "\"stages\"",
+                          "\"goal\"",
+                          "\"outcome\"",
+                          "\"success\"",
+                          "\"start\"",
+                          "\"end\"",
+                          "\"shortest_m\"",
+                          "\"length_m\"",
+                          "\"actions\"",
+                          "\"floor_start\"",
+                          "\"floor_end\"",
+                          "\"transitions\"",
+                          "\"extra\"",
+                          "\"timing_ms\""}) {
+    const std::size_t next = line.find(key, at);
+    ASSERT_NE(next, std::string::npos) << key << " in " << line;
+    at = next + 1;
+  }
+}
+
+TEST(ResultRecords, TornLastLineIsDroppedOnResume) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  const std::string whole =
+      ToJsonLine(MakeHeader()) + "\n" + ToJsonLine(MakeEpisode("a", 1, {{true, 1, 1}})) + "\n";
+  const std::string torn = ToJsonLine(MakeEpisode("b", 1, {{true, 1, 1}}));
+  for (std::size_t cut = 1; cut < torn.size(); cut += 17) {
+    WriteText(path, whole + torn.substr(0, cut));
+    std::vector<EpisodeRecord> finished;
+    auto writer = ResultWriter::Open(path, MakeHeader(), finished);
+    ASSERT_TRUE(writer) << writer.error().Message();
+    ASSERT_EQ(finished.size(), 1u);
+    EXPECT_EQ(finished[0].episode_id, "a");
+    EXPECT_EQ(ReadText(path), whole);
+  }
+}
+
+TEST(ResultRecords, TornHeaderStartsAnew) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  WriteText(path, ToJsonLine(MakeHeader()).substr(0, 40));
+  std::vector<EpisodeRecord> finished;
+  ASSERT_TRUE(ResultWriter::Open(path, MakeHeader(), finished));
+  EXPECT_EQ(ReadText(path), ToJsonLine(MakeHeader()) + "\n");
+}
+
+TEST(ResultRecords, ResumeWithAnotherConfigIsRefusedAndLeavesTheFileAlone) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  const std::string text = ToJsonLine(MakeHeader()) + "\n{\"torn";
+  WriteText(path, text);
+  RunHeader other = MakeHeader();
+  other.config_hash = "00000000000000cc";
+  std::vector<EpisodeRecord> finished;
+  const auto writer = ResultWriter::Open(path, other, finished);
+  ASSERT_FALSE(writer);
+  EXPECT_EQ(writer.error().code, ErrorCode::kMismatch);
+  EXPECT_NE(writer.error().Message().find("config_hash"), std::string::npos);
+  EXPECT_EQ(ReadText(path), text);
+}
+
+TEST(ResultRecords, MissingKeyIsReportedWithItsLine) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "foreign.jsonl";
+  WriteText(path, R"({"goals":["bed"],"stages":[{"goal":"bed","outcome":"success","success":true,)"
+                  R"("shortest_m":1,"length_m":2}]})"
+                  "\n"
+                  R"({"goals":["bed"],"stages":[{"goal":"bed","outcome":"success","success":true,)"
+                  R"("length_m":2}]})"
+                  "\n");
+  const auto file = ReadResults(path);
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().Message().find("line 2"), std::string::npos) << file.error().Message();
+  EXPECT_NE(file.error().Message().find("shortest_m"), std::string::npos);
+}
+
+TEST(ResultRecords, FileOfAnotherProgramNeedsOnlyTheMetricKeys) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "foreign.jsonl";
+  WriteText(path, R"({"goals":["bed"],"stages":[{"goal":"bed","outcome":"success","success":true,)"
+                  R"("shortest_m":1,"length_m":2}]})"
+                  "\n");
+  const auto file = ReadResults(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  EXPECT_FALSE(file->header);
+  EXPECT_EQ(file->episodes.size(), 1u);
+}
+
+TEST(ResultRecords, ContradictionsAreRefused) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "bad.jsonl";
+  EpisodeRecord after_failure = MakeEpisode("a", 3, {{false, 1, 1}, {true, 1, 1}});
+  EpisodeRecord wrong_flag = MakeEpisode("a", 1, {{true, 1, 1}});
+  wrong_flag.stages[0].outcome = Outcome::kStuck;
+  EpisodeRecord wrong_goal = MakeEpisode("a", 1, {{true, 1, 1}});
+  wrong_goal.stages[0].goal = "sofa";
+  for (const EpisodeRecord& bad : {after_failure, wrong_flag, wrong_goal}) {
+    WriteText(path, ToJsonLine(bad) + "\n");
+    EXPECT_FALSE(ReadResults(path)) << ToJsonLine(bad);
+  }
+}
+
+TEST(ResultRecords, GarbageInTheMiddleIsAnErrorNotATornLine) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "bad.jsonl";
+  WriteText(path, ToJsonLine(MakeHeader()) + "\nnot json\n" +
+                      ToJsonLine(MakeEpisode("a", 1, {{true, 1, 1}})) + "\n");
+  const auto file = ReadResults(path);
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().where.find("line 2"), std::string::npos);
+}
+
+class MergeTest : public testing::Test {
+ protected:
+  std::filesystem::path Shard(const std::string& name, const RunHeader& header,
+                              const std::vector<std::string>& ids) {
+    const auto path = folder_.path() / name;
+    std::string text = ToJsonLine(header) + "\n";
+    for (const auto& id : ids) text += ToJsonLine(MakeEpisode(id, 1, {{true, 1, 1}})) + "\n";
+    WriteText(path, text);
+    return path;
+  }
+  crossnav::test::TempFolder folder_;
+};
+
+TEST_F(MergeTest, ShardsOfOneRunBecomeOneFile) {
+  RunHeader second = MakeHeader();
+  second.shard = "1/2";
+  const std::vector paths = {Shard("a.jsonl", MakeHeader(), {"a", "b"}),
+                             Shard("b.jsonl", second, {"c"})};
+  const auto merged = MergeResults(paths, true);
+  ASSERT_TRUE(merged) << merged.error().Message();
+  EXPECT_EQ(merged->episodes.size(), 3u);
+}
+
+TEST_F(MergeTest, MixedHeadersDuplicatesAndGapsAreRefused) {
+  RunHeader other = MakeHeader();
+  other.variant = "planar";
+  const auto a = Shard("a.jsonl", MakeHeader(), {"a", "b"});
+  const std::vector mixed = {a, Shard("b.jsonl", other, {"c"})};
+  EXPECT_FALSE(MergeResults(mixed, true));
+  const std::vector duplicate = {a, Shard("c.jsonl", MakeHeader(), {"b"})};
+  EXPECT_FALSE(MergeResults(duplicate, true));
+  const std::vector gap = {a};
+  EXPECT_FALSE(MergeResults(gap, true));
+  EXPECT_TRUE(MergeResults(gap, false));
+}
+
+}  // namespace
+}  // namespace crossnav::bench
