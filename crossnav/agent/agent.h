@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The agent: one observation in, one action out (paper, fig:framework). Everything it knows comes
-// from observations, the perception suite and the goal's name. Reset between episodes = a new Agent.
-// World frame, metres. Not thread-safe.
+// from observations, the perception suite and the goal's name. Reset between episodes = a new
+// Agent. World frame, metres. Not thread-safe.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ namespace crossnav::agent {
 struct StepResult {
   Action action = Action::kStop;
   trace::StepTrace trace;
-  std::vector<trace::StageTime> timing;  ///< CPU ms per stage, in order
-  bool all_explored = false;             ///< no candidate is left; `action` is meaningless then
+  std::vector<trace::StageTime> timing;     ///< CPU ms per stage, in order
+  bool all_explored = false;                ///< no candidate is left; `action` is meaningless then
   std::optional<Vector3d> p_claimed_world;  ///< with kStop: where the agent believes the goal to be
 };
 

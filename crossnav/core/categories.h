@@ -7,7 +7,7 @@
 
 namespace crossnav {
 
-inline constexpr std::array<std::string_view, 6> kCategories = {"chair", "bed",  "plant",
+inline constexpr std::array<std::string_view, 6> kCategories = {"chair",  "bed",        "plant",
                                                                 "toilet", "tv_monitor", "sofa"};
 
 }  // namespace crossnav

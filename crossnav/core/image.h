@@ -15,13 +15,14 @@ struct Rgb8 {
 
 template <class T>
 struct Image {
-  int width = 0;   // [px]
-  int height = 0;  // [px]
+  int width = 0;        // [px]
+  int height = 0;       // [px]
   std::vector<T> data;  // height x width, row-major
 
   Image() = default;
   Image(int width_px, int height_px, T fill = T{})
-      : width(width_px), height(height_px),
+      : width(width_px),
+        height(height_px),
         data(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), fill) {}
 
   T& At(int u, int v) { return data[static_cast<std::size_t>(v) * width + u]; }
@@ -31,8 +32,8 @@ struct Image {
 };
 
 using RgbImage = Image<Rgb8>;
-using DepthImage = Image<float>;         ///< planar z [m], 0 = invalid
-using MaskImage = Image<std::uint8_t>;   ///< 0 or 1
+using DepthImage = Image<float>;            ///< planar z [m], 0 = invalid
+using MaskImage = Image<std::uint8_t>;      ///< 0 or 1
 using InstanceImage = Image<std::int32_t>;  ///< instance id, 0 = none
 
 }  // namespace crossnav

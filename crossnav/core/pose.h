@@ -28,8 +28,12 @@ AgentPose AgentPoseOf(const Pose& T_world_camera, double camera_height_m);
 /// Angle wrapped to (-pi, pi].
 double WrapAngle(double angle_rad);
 
-constexpr double DegToRad(double deg) { return deg * 0.017453292519943295; }
-constexpr double RadToDeg(double rad) { return rad * 57.29577951308232; }
+constexpr double DegToRad(double deg) {
+  return deg * 0.017453292519943295;
+}
+constexpr double RadToDeg(double rad) {
+  return rad * 57.29577951308232;
+}
 
 /// True if every entry is finite and the rotation is orthonormal to 1e-3.
 bool IsValidPose(const Pose& pose);

@@ -49,14 +49,18 @@ double Rng::Uniform() {
   return static_cast<double>((high << 26) | low) * (1.0 / 9007199254740992.0);
 }
 
-double Rng::Uniform(double lo, double hi) { return lo + (hi - lo) * Uniform(); }
+double Rng::Uniform(double lo, double hi) {
+  return lo + (hi - lo) * Uniform();
+}
 
 double Rng::Normal() {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
   return radius * std::cos(6.283185307179586 * Uniform());
 }
 
-std::uint64_t MixSeed(std::uint64_t a, std::uint64_t b) { return SplitMix64(SplitMix64(a) ^ b); }
+std::uint64_t MixSeed(std::uint64_t a, std::uint64_t b) {
+  return SplitMix64(SplitMix64(a) ^ b);
+}
 
 std::uint64_t HashString(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;

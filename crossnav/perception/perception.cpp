@@ -11,11 +11,11 @@ Result<Percept> PerceptionSuite::Look(const Observation& obs, std::string_view g
   auto detections = detector->Detect(obs, goal);
   if (!detections) return tl::unexpected(detections.error());
   for (Detection& detection : *detections) {
-    if (auto done = segmenter->Segment(obs, detection); !done)
-      return tl::unexpected(done.error());
+    if (auto done = segmenter->Segment(obs, detection); !done) return tl::unexpected(done.error());
   }
-  std::stable_sort(detections->begin(), detections->end(),
-                   [](const Detection& a, const Detection& b) { return a.confidence > b.confidence; });
+  std::stable_sort(
+      detections->begin(), detections->end(),
+      [](const Detection& a, const Detection& b) { return a.confidence > b.confidence; });
   percept.detections = std::move(*detections);
 
   auto stair_probability = stairs->SegmentStairs(obs);

@@ -23,8 +23,8 @@ struct PixelBox {
 
 struct Detection {
   PixelBox box;
-  float confidence = 0;  ///< [0, 1]
-  MaskImage mask;        ///< H x W, filled by the segmenter; empty before
+  float confidence = 0;    ///< [0, 1]
+  MaskImage mask;          ///< H x W, filled by the segmenter; empty before
   float mask_quality = 0;  ///< [0, 1], predicted overlap with the object
 };
 

@@ -27,11 +27,11 @@ struct PoiConfig {
 struct FrontierConfig {
   int min_cluster = 5;
   int min_cluster_init_descent = 2;
-  double level_band_m = 0.35;         // chosen: one step above the maximum climb
-  double unknown_column_m = 0.3;      // chosen: genuine unknown, nothing seen within +-0.3 m
-  std::string score = "nearest";      ///< nearest | semantic
-  int commitment_steps = 20;          // chosen: grace period
-  double arrival_m = 0.35;            // chosen: one forward step and a voxel
+  double level_band_m = 0.35;     // chosen: one step above the maximum climb
+  double unknown_column_m = 0.3;  // chosen: genuine unknown, nothing seen within +-0.3 m
+  std::string score = "nearest";  ///< nearest | semantic
+  int commitment_steps = 20;      // chosen: grace period
+  double arrival_m = 0.35;        // chosen: one forward step and a voxel
 };
 
 struct StairConfig {
@@ -41,18 +41,18 @@ struct StairConfig {
   double geometry_threshold = 0.65;
   double admission_radius_m = 2.5;
   double arrival_m = 0.40;
-  int landing_frames = 3;             // chosen: multi-frame landing confirmation
-  int evidence_window = 10;           // chosen: of the last ten frames ...
-  int evidence_frames = 3;            // chosen: ... three must show the stairs
-  int min_progress_steps = 60;        // chosen: a session without vertical progress ends
+  int landing_frames = 3;       // chosen: multi-frame landing confirmation
+  int evidence_window = 10;     // chosen: of the last ten frames ...
+  int evidence_frames = 3;      // chosen: ... three must show the stairs
+  int min_progress_steps = 60;  // chosen: a session without vertical progress ends
 };
 
 struct ApproachConfig {
   double range_m = 1.30;
-  double min_visibility = 0.3;        // chosen: share of the object's voxels in line of sight
-  double min_mask_quality = 0.5;      // chosen
-  double max_view_angle_deg = 35;     // chosen: object within the middle of the image
-  int max_viewpoints = 4;             // chosen: tries before the blacklist
+  double min_visibility = 0.3;     // chosen: share of the object's voxels in line of sight
+  double min_mask_quality = 0.5;   // chosen
+  double max_view_angle_deg = 35;  // chosen: object within the middle of the image
+  int max_viewpoints = 4;          // chosen: tries before the blacklist
 };
 
 struct PolicyConfig {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Final approach and verification (paper, "Final Target-Object Approach and Verification"): where
+// to stand, how to look, and whether the current frame proves the object. The evaluator's success
+// radius is not known here.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "crossnav/core/action.h"
+#include "crossnav/core/camera.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/policy/candidates.h"
+#include "crossnav/policy/live_poi.h"
+#include "crossnav/policy/policy_config.h"
+
+namespace crossnav::policy {
+
+/// Standing voxels within `range_m` of the object from whose camera height enough of it is in free
+/// line of sight. Sorted by key; empty if there are none. `tried` are places not to offer again.
+std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey>& object,
+                                 double range_m, const ApproachConfig& config,
+                                 double camera_height_m, const std::vector<Vector3d>& tried = {});
+
+/// Distance from the agent's upright axis (foot to camera) to the nearest voxel of the object [m].
+double DistanceToObject(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
+                        double camera_height_m, double voxel_m);
+
+/// Where to point the camera: the centre of the object's voxels that lie near the agent.
+Vector3d AimPoint(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
+                  double voxel_m);
+
+/// One turn or pitch that brings `p_world` nearer to the image centre; nullopt when no step helps.
+std::optional<Action> CenteringAction(const AgentPose& agent, const Vector3d& p_world,
+                                      double camera_height_m, const ActionConfig& action);
+
+struct Verification {
+  bool passed = false;
+  std::string failed_check;  ///< the first that did not pass
+  double confidence = 0, mask_quality = 0, visibility = 0, view_angle_rad = 0, distance_m = 0;
+};
+
+/// Checks the current frame: detection confidence, mask quality, visibility, viewing direction and
+/// 3D distance must all pass.
+Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
+                    const Observation& obs, const PolicyConfig& config, double camera_height_m,
+                    double voxel_m);
+
+}  // namespace crossnav::policy

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What the agent may go to (paper, eq:supp_candidate_set). A candidate is a place to stand and what
+// it is about. World frame, metres.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "crossnav/core/pose.h"
+#include "crossnav/geometry/voxel_map.h"
+
+namespace crossnav::policy {
+
+using geometry::VoxelKey;
+using geometry::VoxelMap;
+
+/// In order of priority (eq:supp_candidate_priority); stair frontiers exist only inside a session.
+enum class CandidateKind {
+  kLivePoi,
+  kHistoryPoi,
+  kTraversableFrontier,
+  kDescendFrontier,
+  kAscentFrontier,
+  kStairFrontier,
+};
+
+std::string_view NameOf(CandidateKind kind);
+
+struct Candidate {
+  CandidateKind kind = CandidateKind::kTraversableFrontier;
+  Vector3d p_focus_world = Vector3d::Zero();  ///< what it is about, e.g. the cluster's centre
+  std::vector<VoxelKey> standing;             ///< voxels from which it counts as reached
+  std::vector<VoxelKey> beyond;               ///< frontiers: what each standing voxel borders on
+  int size = 0;                               ///< [voxels]
+  double score = 0;                           ///< higher is better, within its class
+  int id = -1;                                ///< of the POI or entrance behind it
+};
+
+/// A vertical cylinder in which nothing is tried again.
+struct BlacklistedPlace {
+  Vector3d p_world = Vector3d::Zero();
+  double radius_m = 0.8;
+  double half_height_m = 0.6;
+};
+
+bool IsBlacklisted(const std::vector<BlacklistedPlace>& places, const Vector3d& p_world);
+
+}  // namespace crossnav::policy
