@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Query-conditioned retrieval (paper, "Query-Conditioned 3D Retrieval"): the voxels whose similarity
-// stands out, clustered in 3D, best four first. Pure functions of the memory.
+// Query-conditioned retrieval (paper, "Query-Conditioned 3D Retrieval"): the voxels whose
+// similarity stands out, clustered in 3D, best four first. Pure functions of the memory. Standing
+// out: a robust z-score against the whole field (median and MAD), an absolute floor on the cosine,
+// and a share of the field's own peak, so that look-alikes do not crowd out the real thing. Score
+// of a cluster: mean excess of its best quarter over the field's median, in robust deviations,
+// times log2(1 + voxels). The best quarter forgives blurred borders; the logarithm prefers a body
+// to a few stray voxels without letting a large look-alike beat a small true one.
 #pragma once
 
 #include <span>
@@ -13,12 +18,14 @@
 namespace crossnav::memory {
 
 struct QueryConfig {
-  int top_k = 4;                      ///< tab:supp_configuration, "Retrieved clusters"
-  std::string relevancy = "cosine";   ///< cosine | contrastive
-  double min_similarity = 0.2;        // chosen: tuned on the generated development houses
-  double min_z_score = 3.0;           // chosen: robust z against the whole field
-  int min_voxels = 5;                 // chosen: as the frontier's minimum cluster
-  double cluster_radius_vox = 2.0;    // chosen: bridges one missing voxel
+  int top_k = 4;                     ///< tab:supp_configuration, "Retrieved clusters"
+  std::string relevancy = "cosine";  ///< cosine | contrastive
+  double min_similarity = 0.2;       // chosen: tuned on the generated development houses
+  double min_z_score = 3.0;          // chosen: robust z against the whole field
+  double min_peak_share = 0.5;       // chosen: of the peak's excess over the median; 0 = off
+  double contrast = 10.0;            // chosen: inverse temperature of the contrastive relevancy
+  int min_voxels = 5;                // chosen: as the frontier's minimum cluster
+  double cluster_radius_vox = 2.0;   // chosen: bridges one missing voxel
 };
 
 template <class V>
@@ -27,19 +34,28 @@ void Visit(V& visit, QueryConfig& c) {
   visit("relevancy", c.relevancy, {"cosine", "contrastive"});
   visit("min_similarity", c.min_similarity, -1.0, 1.0);
   visit("min_z_score", c.min_z_score, 0.0, 100.0);
+  visit("min_peak_share", c.min_peak_share, 0.0, 1.0);
+  visit("contrast", c.contrast, 0.1, 1000.0);
   visit("min_voxels", c.min_voxels, 1, 100000);
   visit("cluster_radius_vox", c.cluster_radius_vox, 1.0, 20.0);
 }
 
 /// One place in the memory that answers a query.
 struct MemoryCluster {
-  std::vector<std::int64_t> rows;  ///< supporting rows, ascending
-  std::vector<VoxelKey> voxels;    ///< their keys, sorted
-  Vector3d p_center_world = Vector3d::Zero();  ///< weighted centre [m]
+  std::vector<std::int64_t> rows;              ///< supporting rows, ascending
+  std::vector<VoxelKey> voxels;                ///< their keys, sorted
+  Vector3d p_center_world = Vector3d::Zero();  ///< centre, weighted by excess similarity [m]
   Box3 box;                                    ///< [m]
-  double score = 0;
+  double score = 0;       ///< as described above; comparable within one query only
+  double similarity = 0;  ///< mean cosine of the best quarter [-1, 1]
   Vector3d p_best_view_world = Vector3d::Zero();  ///< camera position it was best seen from [m]
 };
+
+/// The field that ranks: cosine, or with `relevancy = contrastive` and at least one background
+/// vector min_b softmax(contrast * (cos text, cos b)) in [0, 1]; row order.
+std::vector<float> RelevancyField(const SemanticMemory& memory, std::span<const float> text,
+                                  const QueryConfig& config,
+                                  std::span<const std::vector<float>> background = {});
 
 /// Best `top_k` clusters for `text`, best first. Empty memory or nothing that stands out: empty.
 /// `background` holds text vectors for the contrastive relevancy; unused by cosine.

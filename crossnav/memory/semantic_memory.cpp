@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/memory/semantic_memory.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "crossnav/core/check.h"
+#include "crossnav/geometry/sparse_grid.h"
+#include "crossnav/memory/frame_lift.h"
+#include "crossnav/memory/row_store.h"
+
+namespace crossnav::memory {
+namespace {
+
+struct RowBlock {
+  std::array<std::int32_t, geometry::kBlockVoxels> row;
+  RowBlock() { row.fill(-1); }
+};
+using RowGrid = geometry::SparseGrid<RowBlock>;
+
+struct RowFacts {
+  float weight = 0;
+  float best_confidence = 0;
+  Vector3f p_best_view_world = Vector3f::Zero();
+};
+
+}  // namespace
+
+struct SemanticMemory::Impl {
+  FusionConfig config;
+  double voxel_m;
+  RowStore rows;
+  std::vector<VoxelKey> keys;
+  std::vector<RowFacts> facts;
+  RowGrid index;
+  MemoryCounters counters;
+
+  // Scratch of one frame, kept to avoid allocation.
+  Image<float> quality;
+  GridAxis u_axis, v_axis;
+  CellWeights weights;
+  std::vector<std::int32_t> slot_of_row;  // -1 outside Fuse
+  std::vector<std::int32_t> row_of_slot;
+
+  Impl(const FusionConfig& c, double voxel, int dim)
+      : config(c), voxel_m(voxel), rows(c.storage != "float", dim) {}
+
+  std::int32_t AppendKey(const VoxelKey& key, std::int32_t& index_cell) {
+    index_cell = static_cast<std::int32_t>(rows.Append());
+    keys.push_back(key);
+    facts.emplace_back();
+    slot_of_row.push_back(-1);
+    return index_cell;
+  }
+
+  std::int32_t SlotOf(std::int32_t& index_cell, const VoxelKey& key) {
+    const std::int32_t row = index_cell >= 0 ? index_cell : AppendKey(key, index_cell);
+    if (slot_of_row[row] < 0) {
+      slot_of_row[row] = weights.AddSlot();
+      row_of_slot.push_back(row);
+    }
+    return slot_of_row[row];
+  }
+
+  void PrepareAxes(const DepthImage& depth_m, const FeatureGridView& grid) {
+    if (u_axis.cells != grid.cols || static_cast<int>(u_axis.first.size()) != depth_m.width)
+      u_axis = GridAxis::Make(depth_m.width, grid.cols);
+    if (v_axis.cells != grid.rows || static_cast<int>(v_axis.first.size()) != depth_m.height)
+      v_axis = GridAxis::Make(depth_m.height, grid.rows);
+    weights.Reset(u_axis, v_axis);
+    row_of_slot.clear();
+  }
+
+  void GatherWeights(const std::vector<PixelVoxel>& pixels, int width);
+  void FuseSlot(std::int32_t slot, const float* grid, const Vector3f& p_camera_world);
+  void EnforceLimit();
+};
+
+// Walks the pixels once, cutting them into runs of one image row, voxel and cell interval.
+void SemanticMemory::Impl::GatherWeights(const std::vector<PixelVoxel>& pixels, int width) {
+  geometry::GridCursor<RowBlock> cursor(index);
+  CellWeights::Run run;
+  VoxelKey run_key;
+  const auto flush = [&] {
+    if (run.total <= 0) return;
+    std::int32_t& cell = cursor.Touch(run_key).row[geometry::CellIndexOf(run_key)];
+    weights.Add(SlotOf(cell, run_key), run);
+    run.total = run.right = 0;
+  };
+  int v = 0, row_begin = 0, row_end = 0;
+  for (const PixelVoxel& p : pixels) {
+    const float q = quality.data[p.pixel];
+    if (q <= 0) continue;
+    const bool is_new_row = p.pixel < row_begin || p.pixel >= row_end;
+    if (is_new_row) {
+      flush();
+      v = p.pixel / width;
+      row_begin = v * width;
+      row_end = row_begin + width;
+    }
+    const int u = p.pixel - row_begin;
+    if (is_new_row || run_key != p.key || run.u_cell != u_axis.first[u]) {
+      flush();
+      run_key = p.key;
+      run.u_cell = u_axis.first[u];
+      run.v_cell = v_axis.first[v];
+      run.v_fraction = v_axis.fraction[v];
+    }
+    run.total += q;
+    run.right += static_cast<double>(q) * u_axis.fraction[u];
+  }
+  flush();
+}
+
+// eq:intra_frame_fusion and eq:supp_feature_fusion in one pass over the row.
+void SemanticMemory::Impl::FuseSlot(std::int32_t slot, const float* grid,
+                                    const Vector3f& p_camera_world) {
+  const std::int32_t row = row_of_slot[slot];
+  RowFacts& fact = facts[row];
+  const double confidence = weights.Total(slot);
+  const double sum = fact.weight + confidence;
+  const double divisor = (confidence + config.epsilon) * sum / confidence;
+  rows.Fuse(row, static_cast<float>(fact.weight / sum), grid, weights.Shares(slot, divisor));
+  fact.weight = static_cast<float>(sum);
+  if (confidence > fact.best_confidence) {
+    fact.best_confidence = static_cast<float>(confidence);
+    fact.p_best_view_world = p_camera_world;
+  }
+}
+
+// Drops the least confident rows, a tenth more than needed so that it is rare. Ties go by key.
+void SemanticMemory::Impl::EnforceLimit() {
+  const auto size = static_cast<std::int64_t>(keys.size());
+  if (config.max_rows <= 0 || size <= config.max_rows) return;
+  const std::int64_t kept = std::max<std::int64_t>(1, config.max_rows - config.max_rows / 10);
+  std::vector<std::int64_t> order(size);
+  std::iota(order.begin(), order.end(), 0);
+  std::nth_element(order.begin(), order.begin() + kept, order.end(), [&](auto a, auto b) {
+    if (facts[a].weight != facts[b].weight) return facts[a].weight > facts[b].weight;
+    return keys[a] < keys[b];
+  });
+  order.resize(kept);
+  std::sort(order.begin(), order.end());
+  rows.Keep(order);
+  index = RowGrid();
+  for (std::int64_t to = 0; to < kept; ++to) {
+    keys[to] = keys[order[to]];
+    facts[to] = facts[order[to]];
+    index.Touch(geometry::BlockKeyOf(keys[to])).row[geometry::CellIndexOf(keys[to])] =
+        static_cast<std::int32_t>(to);
+  }
+  keys.resize(kept);
+  facts.resize(kept);
+  slot_of_row.resize(kept);
+  counters.dropped_rows += size - kept;
+}
+
+SemanticMemory::SemanticMemory(const FusionConfig& config, double voxel_m, int dim)
+    : impl_(std::make_unique<Impl>(config, voxel_m, dim)) {}
+SemanticMemory::~SemanticMemory() = default;
+SemanticMemory::SemanticMemory(SemanticMemory&&) noexcept = default;
+SemanticMemory& SemanticMemory::operator=(SemanticMemory&&) noexcept = default;
+
+void SemanticMemory::Fuse(const std::vector<PixelVoxel>& pixels, const DepthImage& depth_m,
+                          const CameraIntrinsics& camera, const Pose& T_world_camera,
+                          const FeatureGridView& features) {
+  Impl& m = *impl_;
+  CROSSNAV_CHECK(features.rows > 0 && features.cols > 0 && features.dim > 0 &&
+                     features.data.size() ==
+                         static_cast<std::size_t>(features.rows) * features.cols * features.dim,
+                 "a feature grid of rows x cols x dim");
+  if (m.rows.dim() == 0) m.rows.SetDim(features.dim);
+  CROSSNAV_CHECK(features.dim == m.rows.dim(), "the feature dimension does not change");
+  if (!AllFinite(features.data)) {
+    ++m.counters.rejected_frames;
+    return;
+  }
+  ObservationQuality(depth_m, camera, m.config, m.quality);
+  m.PrepareAxes(depth_m, features);
+  m.GatherWeights(pixels, depth_m.width);
+  const Vector3f p_camera_world = T_world_camera.translation().cast<float>();
+  for (std::int32_t slot = 0; slot < m.weights.size(); ++slot)
+    m.FuseSlot(slot, features.data.data(), p_camera_world);
+  for (std::int32_t row : m.row_of_slot) m.slot_of_row[row] = -1;
+  m.EnforceLimit();
+}
+
+int SemanticMemory::Dim() const {
+  return impl_->rows.dim();
+}
+std::int64_t SemanticMemory::Size() const {
+  return impl_->rows.size();
+}
+std::span<const VoxelKey> SemanticMemory::Keys() const {
+  return impl_->keys;
+}
+float SemanticMemory::WeightAt(std::int64_t row) const {
+  return impl_->facts[row].weight;
+}
+std::vector<float> SemanticMemory::FeatureAt(std::int64_t row) const {
+  return impl_->rows.Read(row);
+}
+
+std::optional<std::int64_t> SemanticMemory::RowOf(const VoxelKey& key) const {
+  const RowBlock* block = impl_->index.Find(geometry::BlockKeyOf(key));
+  if (block == nullptr) return std::nullopt;
+  const std::int32_t row = block->row[geometry::CellIndexOf(key)];
+  return row < 0 ? std::nullopt : std::optional<std::int64_t>(row);
+}
+
+Vector3f SemanticMemory::BestViewOf(std::int64_t row) const {
+  return impl_->facts[row].p_best_view_world;
+}
+float SemanticMemory::BestConfidenceOf(std::int64_t row) const {
+  return impl_->facts[row].best_confidence;
+}
+
+std::int64_t SemanticMemory::Bytes() const {
+  const Impl& m = *impl_;
+  return m.rows.Bytes() +
+         static_cast<std::int64_t>(m.index.Bytes() + m.keys.capacity() * sizeof(VoxelKey) +
+                                   m.facts.capacity() * sizeof(RowFacts) +
+                                   m.slot_of_row.capacity() * sizeof(std::int32_t) +
+                                   m.weights.Bytes() + m.quality.data.capacity() * sizeof(float));
+}
+
+MemoryCounters SemanticMemory::Counters() const {
+  return impl_->counters;
+}
+const FusionConfig& SemanticMemory::config() const {
+  return impl_->config;
+}
+double SemanticMemory::VoxelSize() const {
+  return impl_->voxel_m;
+}
+
+MemoryRow SemanticMemory::RowAt(std::int64_t row) const {
+  const RowFacts& fact = impl_->facts[row];
+  MemoryRow out{impl_->keys[row], fact.weight, fact.best_confidence, fact.p_best_view_world, {}};
+  out.half.resize(impl_->rows.dim());
+  impl_->rows.ReadHalf(row, out.half);
+  return out;
+}
+
+void SemanticMemory::AppendRow(const MemoryRow& row) {
+  Impl& m = *impl_;
+  if (m.rows.dim() == 0) m.rows.SetDim(static_cast<int>(row.half.size()));
+  std::int32_t& cell =
+      m.index.Touch(geometry::BlockKeyOf(row.key)).row[geometry::CellIndexOf(row.key)];
+  CROSSNAV_CHECK(cell < 0, "each voxel has one row");
+  m.AppendKey(row.key, cell);
+  m.rows.WriteHalf(cell, row.half);
+  m.facts.back() = {row.weight, row.best_confidence, row.p_best_view_world};
+}
+
+std::vector<float> SemanticMemory::Similarity(std::span<const float> text) const {
+  return impl_->rows.Cosines(text);
+}
+
+}  // namespace crossnav::memory

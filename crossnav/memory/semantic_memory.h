@@ -31,6 +31,7 @@ struct FusionConfig {
   double gradient_scale = 0;       ///< 0 = width / fx, which is independent of resolution
   double epsilon = 1e-6;           ///< eq:intra_frame_fusion
   int max_rows = 0;                ///< 0 = unbounded; above it the least confident rows go
+  std::string storage = "half";    ///< half | float; float doubles the memory, for comparison
 };
 
 template <class V>
@@ -41,6 +42,7 @@ void Visit(V& visit, FusionConfig& c) {
   visit("gradient_scale", c.gradient_scale, 0.0, 1e6);
   visit("epsilon", c.epsilon, 0.0, 1.0);
   visit("max_rows", c.max_rows, 0, 1000000000);
+  visit("storage", c.storage, {"half", "float"});
 }
 
 /// Dense features of one frame; a view of perception's grid (this room does not know perception).
@@ -49,9 +51,28 @@ struct FeatureGridView {
   std::span<const float> data;  ///< rows x cols x dim
 };
 
-/// Observation quality q(u, v) of every pixel, 0 where depth is invalid (eq:supp_observation_quality).
+/// Observation quality q(u, v) of every pixel, 0 where depth is invalid
+/// (eq:supp_observation_quality).
 Image<float> ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
                                 const FusionConfig& config);
+/// The same into an image that is reused.
+void ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
+                        const FusionConfig& config, Image<float>& quality);
+
+/// One row as it is saved.
+struct MemoryRow {
+  VoxelKey key;
+  float weight = 0;           ///< cumulative confidence
+  float best_confidence = 0;  ///< of the best single frame
+  Vector3f p_best_view_world = Vector3f::Zero();
+  std::vector<std::uint16_t> half;  ///< Dim() half-precision bit patterns
+};
+
+/// What the memory had to give up.
+struct MemoryCounters {
+  std::int64_t dropped_rows = 0;     ///< by max_rows
+  std::int64_t rejected_frames = 0;  ///< features that were not finite
+};
 
 class SemanticMemory {
  private:
@@ -65,20 +86,30 @@ class SemanticMemory {
   SemanticMemory& operator=(SemanticMemory&&) noexcept;
 
   /// Lifts the frame's features to the end voxels `pixels` (from VoxelMap::Integrate) and fuses
-  /// them (eq:intra_frame_fusion, eq:supp_feature_fusion).
+  /// them (eq:intra_frame_fusion, eq:supp_feature_fusion). A grid that holds NaN or infinity is
+  /// left out and counted. With `max_rows` set, row numbers may change here and only here.
   void Fuse(const std::vector<PixelVoxel>& pixels, const DepthImage& depth_m,
             const CameraIntrinsics& camera, const Pose& T_world_camera,
             const FeatureGridView& features);
 
   int Dim() const;
-  std::int64_t Size() const;                  ///< feature-bearing voxels
-  std::span<const VoxelKey> Keys() const;     ///< row order: order of first observation
+  std::int64_t Size() const;               ///< feature-bearing voxels
+  std::span<const VoxelKey> Keys() const;  ///< row order: order of first observation
   float WeightAt(std::int64_t row) const;
   std::vector<float> FeatureAt(std::int64_t row) const;
   std::optional<std::int64_t> RowOf(const VoxelKey& key) const;
   /// Where the camera stood when the row was seen best (largest frame confidence).
   Vector3f BestViewOf(std::int64_t row) const;
+  float BestConfidenceOf(std::int64_t row) const;
   std::int64_t Bytes() const;
+  MemoryCounters Counters() const;
+  const FusionConfig& config() const;
+  double VoxelSize() const;  ///< [m]
+
+  /// For saving: everything about a row, and a row put back as the last one. The key must be new
+  /// and `half` of Dim() numbers, none of them infinite or NaN.
+  MemoryRow RowAt(std::int64_t row) const;
+  void AppendRow(const MemoryRow& row);
 
   /// Cosine of every row with `text` (any norm > 0), in row order (eq:supp_similarity).
   std::vector<float> Similarity(std::span<const float> text) const;

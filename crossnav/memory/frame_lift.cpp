@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/memory/frame_lift.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossnav::memory {
+
+GridAxis GridAxis::Make(int pixels, int cells) {
+  GridAxis axis;
+  axis.cells = cells;
+  axis.first.resize(pixels);
+  axis.fraction.resize(pixels);
+  for (int p = 0; p < pixels; ++p) {
+    const double x = std::clamp((p + 0.5) * cells / pixels - 0.5, 0.0, cells - 1.0);
+    axis.first[p] = static_cast<std::int32_t>(std::floor(x));
+    axis.fraction[p] = static_cast<float>(x - axis.first[p]);
+  }
+  return axis;
+}
+
+void CellWeights::Reset(const GridAxis& u, const GridAxis& v) {
+  u_cells_ = u.cells;
+  v_cells_ = v.cells;
+  heads_.clear();
+  corners_.clear();
+  dense_.assign(static_cast<std::size_t>(u_cells_) * v_cells_, 0.0);
+}
+
+std::int32_t CellWeights::AddSlot() {
+  heads_.emplace_back();
+  return size() - 1;
+}
+
+void CellWeights::Add(std::int32_t slot, const Run& run) {
+  Head& head = heads_[slot];
+  head.total += run.total;
+  const std::int32_t cell = run.v_cell * u_cells_ + run.u_cell;
+  std::int32_t index = head.first;
+  while (index >= 0 && corners_[index].cell != cell) index = corners_[index].next;
+  if (index < 0) {
+    index = static_cast<std::int32_t>(corners_.size());
+    corners_.push_back(Corner{cell, head.first, {}});
+    head.first = index;
+  }
+  double* weight = corners_[index].weight;
+  const double left = run.total - run.right;
+  const double below = run.v_fraction, above = 1.0 - below;
+  weight[0] += above * left;
+  weight[1] += above * run.right;
+  weight[2] += below * left;
+  weight[3] += below * run.right;
+}
+
+std::span<const CellShare> CellWeights::Shares(std::int32_t slot, double divisor) {
+  touched_.clear();
+  for (std::int32_t i = heads_[slot].first; i >= 0; i = corners_[i].next) {
+    const Corner& corner = corners_[i];
+    const int step_u = corner.cell % u_cells_ + 1 < u_cells_ ? 1 : 0;
+    const int step_v = corner.cell / u_cells_ + 1 < v_cells_ ? u_cells_ : 0;
+    const std::int32_t cells[4] = {corner.cell, corner.cell + step_u, corner.cell + step_v,
+                                   corner.cell + step_u + step_v};
+    for (int k = 0; k < 4; ++k) {
+      if (corner.weight[k] <= 0) continue;
+      if (dense_[cells[k]] == 0) touched_.push_back(cells[k]);
+      dense_[cells[k]] += corner.weight[k];
+    }
+  }
+  std::sort(touched_.begin(), touched_.end());
+  shares_.clear();
+  for (std::int32_t cell : touched_) {
+    shares_.push_back({cell, static_cast<float>(dense_[cell] / divisor)});
+    dense_[cell] = 0;
+  }
+  return shares_;
+}
+
+std::size_t CellWeights::Bytes() const {
+  return heads_.capacity() * sizeof(Head) + corners_.capacity() * sizeof(Corner) +
+         dense_.capacity() * sizeof(double) + touched_.capacity() * sizeof(std::int32_t) +
+         shares_.capacity() * sizeof(CellShare);
+}
+
+}  // namespace crossnav::memory

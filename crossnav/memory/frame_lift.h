@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// One frame's features, gathered per voxel without ever building the upsampled tensor. Bilinear
+// interpolation is linear, so a voxel's weighted mean over its pixels (eq:intra_frame_fusion) is a
+// weighted mean over the few grid cells those pixels touch; only these scalar weights are summed
+// here. Along a run of pixels in one voxel and one cell interval the horizontal fraction enters
+// linearly too, so a run costs two sums and four additions.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crossnav/core/image.h"
+#include "crossnav/memory/row_kernels.h"
+
+namespace crossnav::memory {
+
+/// Where image columns (or rows) fall in the grid: half-pixel centres, edges clamped.
+struct GridAxis {
+  std::vector<std::int32_t> first;  ///< lower cell of the interval, per pixel
+  std::vector<float> fraction;      ///< [0, 1) towards the next cell
+  int cells = 0;
+
+  static GridAxis Make(int pixels, int cells);
+  int Next(int cell) const { return cell + 1 < cells ? cell + 1 : cell; }
+};
+
+/// Weights of the cells that each voxel touches. Slots are small numbers the caller hands out.
+class CellWeights {
+ public:
+  void Reset(const GridAxis& u, const GridAxis& v);
+
+  /// A new slot.
+  std::int32_t AddSlot();
+  std::int32_t size() const { return static_cast<std::int32_t>(heads_.size()); }
+
+  /// Adds a run of pixels of one image row: `total` = sum q, `right` = sum q * fraction.
+  struct Run {
+    int u_cell = 0, v_cell = 0;
+    float v_fraction = 0;
+    double total = 0, right = 0;
+  };
+  void Add(std::int32_t slot, const Run& run);
+
+  double Total(std::int32_t slot) const { return heads_[slot].total; }  ///< sum of q
+  /// Distinct cells, each with weight / `divisor`; valid until the next call.
+  std::span<const CellShare> Shares(std::int32_t slot, double divisor);
+
+  std::size_t Bytes() const;
+
+ private:
+  struct Head {
+    std::int32_t first = -1;
+    double total = 0;
+  };
+  struct Corner {  // the four cells around an interval: (v, u), (v, u+1), (v+1, u), (v+1, u+1)
+    std::int32_t cell = 0;
+    std::int32_t next = -1;
+    double weight[4] = {};
+  };
+
+  int u_cells_ = 0, v_cells_ = 0;
+  std::vector<Head> heads_;
+  std::vector<Corner> corners_;
+  std::vector<double> dense_;  // per grid cell, zero between calls
+  std::vector<std::int32_t> touched_;
+  std::vector<CellShare> shares_;
+};
+
+}  // namespace crossnav::memory

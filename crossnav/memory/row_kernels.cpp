@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/memory/row_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+// This file is compiled once per instruction set by the include below.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crossnav/memory/row_kernels.cpp"  // NOLINT
+#include <hwy/foreach_target.h>                               // IWYU pragma: keep
+
+#include <hwy/highway.h>
+
+#include <hwy/contrib/math/math-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace crossnav::memory::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Wide = hn::CappedTag<float, 16>;
+using Single = hn::CappedTag<float, 1>;
+constexpr std::size_t kLanes = hn::MaxLanes(Wide());
+constexpr std::size_t kVectors = kRowPad / kLanes;  // of one block of kRowPad elements
+
+template <class D>
+HWY_INLINE hn::Vec<D> LoadElements(D d, const std::uint16_t* p) {
+  const hn::Rebind<std::uint16_t, D> du;
+  const hn::Rebind<hwy::float16_t, D> dh;
+  return hn::PromoteTo(d, hn::BitCast(dh, hn::LoadU(du, p)));
+}
+template <class D>
+HWY_INLINE hn::Vec<D> LoadElements(D d, const float* p) {
+  return hn::LoadU(d, p);
+}
+
+// Stores and returns what a later load will give.
+template <class D>
+HWY_INLINE hn::Vec<D> StoreElements(D d, hn::Vec<D> v, std::uint16_t* p) {
+  const hn::Rebind<std::uint16_t, D> du;
+  const hn::Rebind<hwy::float16_t, D> dh;
+  v = hn::Max(hn::Min(v, hn::Set(d, 65504.0f)), hn::Set(d, -65504.0f));
+  const auto half = hn::DemoteTo(dh, v);
+  hn::StoreU(hn::BitCast(du, half), du, p);
+  return hn::PromoteTo(d, half);
+}
+template <class D>
+HWY_INLINE hn::Vec<D> StoreElements(D d, hn::Vec<D> v, float* p) {
+  hn::StoreU(v, d, p);
+  return v;
+}
+
+// The 32 virtual lanes, halved five times: the same order on every instruction set.
+HWY_INLINE float SumBlock(float* lanes) {
+  for (int half = kRowPad / 2; half > 0; half /= 2)
+    for (int i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+  return lanes[0];
+}
+
+template <class T>
+HWY_INLINE float FuseRowT(T* HWY_RESTRICT row, int dim, float keep, const float* HWY_RESTRICT grid,
+                          std::span<const CellShare> shares) {
+  const Wide d;
+  const auto vkeep = hn::Set(d, keep);
+  hn::Vec<Wide> squares[kVectors];
+  for (auto& s : squares) s = hn::Zero(d);
+  int i = 0;
+  for (; i + kRowPad <= dim; i += kRowPad) {
+    hn::Vec<Wide> sum[kVectors];
+    for (std::size_t k = 0; k < kVectors; ++k)
+      sum[k] = hn::Mul(vkeep, LoadElements(d, row + i + k * kLanes));
+    for (const CellShare& s : shares) {
+      const float* cell = grid + static_cast<std::ptrdiff_t>(s.cell) * dim + i;
+      const auto share = hn::Set(d, s.share);
+      for (std::size_t k = 0; k < kVectors; ++k)
+        sum[k] = hn::MulAdd(share, hn::LoadU(d, cell + k * kLanes), sum[k]);
+    }
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      const auto stored = StoreElements(d, sum[k], row + i + k * kLanes);
+      squares[k] = hn::MulAdd(stored, stored, squares[k]);
+    }
+  }
+  alignas(64) float lanes[kRowPad];
+  for (std::size_t k = 0; k < kVectors; ++k) hn::Store(squares[k], d, lanes + k * kLanes);
+  float total = SumBlock(lanes);
+  const Single d1;
+  for (; i < dim; ++i) {
+    auto sum = hn::Mul(hn::Set(d1, keep), LoadElements(d1, row + i));
+    for (const CellShare& s : shares)
+      sum = hn::MulAdd(hn::Set(d1, s.share),
+                       hn::LoadU(d1, grid + static_cast<std::ptrdiff_t>(s.cell) * dim + i), sum);
+    const float stored = hn::GetLane(StoreElements(d1, sum, row + i));
+    total += stored * stored;
+  }
+  return total;
+}
+
+template <class T>
+HWY_INLINE void DotRowsT(const T* HWY_RESTRICT rows, int stride, std::size_t count,
+                         const float* HWY_RESTRICT text, float* HWY_RESTRICT out) {
+  const Wide d;
+  alignas(64) float lanes[kRowPad];
+  for (std::size_t r = 0; r < count; ++r, rows += stride) {
+    hn::Vec<Wide> sum[kVectors];
+    for (auto& s : sum) s = hn::Zero(d);
+    for (int i = 0; i < stride; i += kRowPad)
+      for (std::size_t k = 0; k < kVectors; ++k)
+        sum[k] = hn::MulAdd(LoadElements(d, rows + i + k * kLanes),
+                            hn::LoadU(d, text + i + k * kLanes), sum[k]);
+    for (std::size_t k = 0; k < kVectors; ++k) hn::Store(sum[k], d, lanes + k * kLanes);
+    out[r] = SumBlock(lanes);
+  }
+}
+
+float FuseHalf(std::uint16_t* row, int dim, float keep, const float* grid,
+               std::span<const CellShare> shares) {
+  return FuseRowT(row, dim, keep, grid, shares);
+}
+float FuseFloat(float* row, int dim, float keep, const float* grid,
+                std::span<const CellShare> shares) {
+  return FuseRowT(row, dim, keep, grid, shares);
+}
+void DotHalf(const std::uint16_t* rows, int stride, std::size_t count, const float* text,
+             float* out) {
+  DotRowsT(rows, stride, count, text, out);
+}
+void DotFloat(const float* rows, int stride, std::size_t count, const float* text, float* out) {
+  DotRowsT(rows, stride, count, text, out);
+}
+
+void ConvertToHalf(std::span<const float> in, std::uint16_t* out) {
+  const Wide d;
+  const Single d1;
+  std::size_t i = 0;
+  for (; i + kLanes <= in.size(); i += kLanes) StoreElements(d, hn::LoadU(d, &in[i]), out + i);
+  for (; i < in.size(); ++i) StoreElements(d1, hn::LoadU(d1, &in[i]), out + i);
+}
+void ConvertFromHalf(std::span<const std::uint16_t> in, float* out) {
+  const Wide d;
+  const Single d1;
+  std::size_t i = 0;
+  for (; i + kLanes <= in.size(); i += kLanes) hn::StoreU(LoadElements(d, &in[i]), d, out + i);
+  for (; i < in.size(); ++i) hn::StoreU(LoadElements(d1, &in[i]), d1, out + i);
+}
+
+// 0 * x is 0 for finite x and NaN otherwise.
+bool CheckFinite(std::span<const float> values) {
+  const Wide d;
+  auto sum = hn::Zero(d);
+  const auto zero = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + kLanes <= values.size(); i += kLanes)
+    sum = hn::MulAdd(hn::LoadU(d, &values[i]), zero, sum);
+  float rest = 0;
+  for (; i < values.size(); ++i) rest += 0.0f * values[i];
+  return rest == 0.0f && hn::AllTrue(d, hn::Eq(sum, zero));
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> Gradient(D d, hn::Vec<D> before, hn::Vec<D> center, hn::Vec<D> after) {
+  const auto zero = hn::Zero(d);
+  const auto has_before = hn::Gt(before, zero);
+  const auto has_after = hn::Gt(after, zero);
+  const auto step =
+      hn::Sub(hn::IfThenElse(has_after, after, center), hn::IfThenElse(has_before, before, center));
+  const auto scale =
+      hn::IfThenElse(hn::And(has_before, has_after), hn::Set(d, 0.5f), hn::Set(d, 1.0f));
+  return hn::Mul(step, scale);
+}
+
+// eq:supp_observation_quality with 1 - tanh(x) = 2 / (1 + e^2x), which keeps relative precision.
+template <class D>
+HWY_INLINE void QualityAt(D d, const DepthRows& depth, int u, const QualityFactors& f,
+                          float* HWY_RESTRICT quality) {
+  const auto center = hn::LoadU(d, depth.row + u + 1);
+  const auto gx = Gradient(d, hn::LoadU(d, depth.row + u), center, hn::LoadU(d, depth.row + u + 2));
+  const auto gy =
+      Gradient(d, hn::LoadU(d, depth.above + u + 1), center, hn::LoadU(d, depth.below + u + 1));
+  const auto norm = hn::Sqrt(hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy)));
+  // e^60 is far above what matters and far below overflow.
+  const auto x2 = hn::Min(hn::Mul(norm, hn::Set(d, f.gradient)), hn::Set(d, 60.0f));
+  const auto off = hn::Sub(hn::Set(d, f.preferred_m), center);
+  const auto e = hn::Max(hn::Neg(hn::Mul(hn::Mul(off, off), hn::Set(d, f.inverse_spread))),
+                         hn::Set(d, -80.0f));
+  const auto q =
+      hn::Div(hn::Mul(hn::Set(d, 2.0f), hn::Exp(d, e)), hn::Add(hn::Set(d, 1.0f), hn::Exp(d, x2)));
+  hn::StoreU(hn::IfThenElseZero(hn::Gt(center, hn::Zero(d)), q), d, quality + u);
+}
+
+void QualityOfRow(const DepthRows& depth, int width, const QualityFactors& f, float* quality) {
+  const Wide d;
+  const Single d1;
+  int u = 0;
+  for (; u + static_cast<int>(kLanes) <= width; u += kLanes) QualityAt(d, depth, u, f, quality);
+  for (; u < width; ++u) QualityAt(d1, depth, u, f, quality);
+}
+
+const char* Target() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace crossnav::memory::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace crossnav::memory {
+
+HWY_EXPORT(FuseHalf);
+HWY_EXPORT(FuseFloat);
+HWY_EXPORT(DotHalf);
+HWY_EXPORT(DotFloat);
+HWY_EXPORT(ConvertToHalf);
+HWY_EXPORT(ConvertFromHalf);
+HWY_EXPORT(CheckFinite);
+HWY_EXPORT(QualityOfRow);
+HWY_EXPORT(Target);
+
+float FuseRow(std::uint16_t* row, int dim, float keep, const float* grid,
+              std::span<const CellShare> shares) {
+  return HWY_DYNAMIC_DISPATCH(FuseHalf)(row, dim, keep, grid, shares);
+}
+float FuseRow(float* row, int dim, float keep, const float* grid,
+              std::span<const CellShare> shares) {
+  return HWY_DYNAMIC_DISPATCH(FuseFloat)(row, dim, keep, grid, shares);
+}
+void DotRows(const std::uint16_t* rows, int stride, std::size_t count, const float* text,
+             float* out) {
+  HWY_DYNAMIC_DISPATCH(DotHalf)(rows, stride, count, text, out);
+}
+void DotRows(const float* rows, int stride, std::size_t count, const float* text, float* out) {
+  HWY_DYNAMIC_DISPATCH(DotFloat)(rows, stride, count, text, out);
+}
+void ToHalf(std::span<const float> in, std::uint16_t* out) {
+  HWY_DYNAMIC_DISPATCH(ConvertToHalf)(in, out);
+}
+void FromHalf(std::span<const std::uint16_t> in, float* out) {
+  HWY_DYNAMIC_DISPATCH(ConvertFromHalf)(in, out);
+}
+bool AllFinite(std::span<const float> values) {
+  return HWY_DYNAMIC_DISPATCH(CheckFinite)(values);
+}
+void QualityRow(const DepthRows& depth, int width, const QualityFactors& factors, float* quality) {
+  HWY_DYNAMIC_DISPATCH(QualityOfRow)(depth, width, factors, quality);
+}
+const char* KernelTarget() {
+  return HWY_DYNAMIC_DISPATCH(Target)();
+}
+
+}  // namespace crossnav::memory
+#endif  // HWY_ONCE

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The three inner loops of the memory, compiled for several instruction sets and chosen at run time
+// (Highway). Sums run over 32 fixed virtual lanes, so that AVX2 and AVX-512 give the same bytes.
+// Rows are half precision (bit patterns) or float32, padded with zeros to a multiple of kRowPad.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace crossnav::memory {
+
+inline constexpr int kRowPad = 32;  ///< [elements]
+
+/// Elements of a stored row of `dim` features.
+constexpr int RowStride(int dim) {
+  return (dim + kRowPad - 1) / kRowPad * kRowPad;
+}
+
+/// Share of one grid cell in a voxel's new feature.
+struct CellShare {
+  std::int32_t cell = 0;  ///< row * cols + col
+  float share = 0;
+};
+
+/// row = keep * row + sum_i share_i * grid[cell_i], rounded to the row's type. Returns the squared
+/// norm of what was stored. `grid` holds cells of `dim` floats, not padded.
+float FuseRow(std::uint16_t* row, int dim, float keep, const float* grid,
+              std::span<const CellShare> shares);
+float FuseRow(float* row, int dim, float keep, const float* grid,
+              std::span<const CellShare> shares);
+
+/// out[i] = rows[i] . text, `count` rows of `stride` elements; `text` is padded likewise.
+void DotRows(const std::uint16_t* rows, int stride, std::size_t count, const float* text,
+             float* out);
+void DotRows(const float* rows, int stride, std::size_t count, const float* text, float* out);
+
+/// Bit patterns of the nearest half-precision numbers and back; finite values stay finite.
+void ToHalf(std::span<const float> in, std::uint16_t* out);
+void FromHalf(std::span<const std::uint16_t> in, float* out);
+
+/// True if every value is finite.
+bool AllFinite(std::span<const float> values);
+
+/// Constants of eq:supp_observation_quality, as the kernel wants them.
+struct QualityFactors {
+  float gradient = 0;        ///< 2 gamma gradient_scale
+  float preferred_m = 0;     ///< d0
+  float inverse_spread = 0;  ///< 1 / (3 sigma_d^2)
+};
+
+/// Quality of one image row of `width` pixels. The three depth rows carry one zero before and
+/// after, and zero where depth is invalid; `row[1]` is pixel 0.
+struct DepthRows {
+  const float* above;
+  const float* row;
+  const float* below;
+};
+void QualityRow(const DepthRows& depth, int width, const QualityFactors& factors, float* quality);
+
+/// Name of the instruction set in use, e.g. "AVX3".
+const char* KernelTarget();
+
+}  // namespace crossnav::memory

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "crossnav/core/rng.h"
+#include "crossnav/memory/semantic_memory.h"
+#include "memory/golden_file.h"
+#include "memory/literal_memory.h"
+
+namespace crossnav::memory {
+namespace {
+
+TEST(ObservationQualityTest, EqualsTheGoldenVectors) {
+  const auto golden = testing::ReadGolden("quality.json");
+  if (!golden) GTEST_SKIP() << "no golden vectors beside the project";
+  const DepthImage depth = testing::DepthOf((*golden)["depth"]);
+  for (const auto& test : (*golden)["cases"]) {
+    FusionConfig config;
+    config.gamma = test["gamma"];
+    config.preferred_depth_m = test["d0"];
+    config.depth_scale_m = test["sigma"];
+    config.gradient_scale = test["gradient_scale"];
+    const Image<float> q = ObservationQuality(depth, {}, config);
+    for (int v = 0; v < depth.height; ++v)
+      for (int u = 0; u < depth.width; ++u)
+        EXPECT_NEAR(q.At(u, v), test["q"][v][u].get<double>(), 1e-5) << u << "," << v;
+  }
+}
+
+TEST(ObservationQualityTest, IsZeroExactlyWhereDepthIsInvalid) {
+  Rng rng(3);
+  DepthImage depth(37, 11);
+  for (float& d : depth.data) d = static_cast<float>(rng.Uniform(0.2, 9.0));
+  depth.At(0, 0) = 0;
+  depth.At(36, 10) = std::numeric_limits<float>::quiet_NaN();
+  depth.At(5, 5) = std::numeric_limits<float>::infinity();
+  depth.At(6, 5) = -1;
+  const Image<float> q = ObservationQuality(depth, IntrinsicsFromHfov(37, 11, 1.5), {});
+  for (int v = 0; v < depth.height; ++v)
+    for (int u = 0; u < depth.width; ++u) {
+      const bool is_valid = testing::IsValidDepth(depth.At(u, v));
+      EXPECT_EQ(q.At(u, v) > 0, is_valid) << u << "," << v;
+    }
+}
+
+TEST(ObservationQualityTest, KeepsRelativePrecisionWhereTheWeightIsTiny) {
+  DepthImage depth(64, 3);
+  for (int v = 0; v < 3; ++v)
+    for (int u = 0; u < 64; ++u) depth.At(u, v) = u % 2 ? 0.5f + 0.1f * u : 7.0f;
+  FusionConfig config;
+  config.gradient_scale = 2;
+  const Image<float> q = ObservationQuality(depth, {}, config);
+  testing::LiteralFactors factors;
+  factors.gradient_scale = 2;
+  for (int u = 0; u < 64; ++u) {
+    const double expected = testing::LiteralQuality(depth, u, 1, factors);
+    EXPECT_NEAR(q.At(u, 1) / expected, 1.0, 1e-5) << u;
+  }
+}
+
+TEST(ObservationQualityTest, DefaultGradientScaleIsImageWidthOverFocalLength) {
+  DepthImage depth(64, 4);
+  for (int v = 0; v < 4; ++v)
+    for (int u = 0; u < 64; ++u) depth.At(u, v) = 2.0f + 0.1f * static_cast<float>(u);
+  const CameraIntrinsics camera = IntrinsicsFromHfov(64, 4, 1.2);
+  FusionConfig explicit_scale;
+  explicit_scale.gradient_scale = 64 / camera.fx;
+  EXPECT_EQ(ObservationQuality(depth, camera, {}).data,
+            ObservationQuality(depth, camera, explicit_scale).data);
+}
+
+}  // namespace
+}  // namespace crossnav::memory
