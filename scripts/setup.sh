@@ -8,9 +8,9 @@ set -euo pipefail
 
 declare -A PACKAGES=(
   [build]="g++ cmake ninja-build ccache python3 \
-    libeigen3-dev libexpected-dev libfmt-dev libembree-dev libtbb-dev libtinygltf-dev librecast-dev \
-    nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev zlib1g-dev \
-    libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
+    libeigen3-dev libexpected-dev libfmt-dev libembree-dev libtbb-dev libtinygltf-dev \
+    librecast-dev nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
+    zlib1g-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
     protobuf-compiler libgtest-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
   [lint]="clang clang-format clang-tidy"
@@ -36,7 +36,7 @@ check_system() {
   fi
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     say "this is '$id $version', and only Debian 12/13 and Ubuntu 24.04 are set up automatically."
-    say "Install the equivalents of these Debian packages, then run again with CROSSNAV_SKIP_SETUP=1:"
+    say "Install the equivalents of these packages, then run again with CROSSNAV_SKIP_SETUP=1:"
     printf '  %s\n' "${wanted[@]}" >&2
     exit 1
   fi

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+# The front door. `make` alone lists what there is; docs/architecture.md says what it builds.
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-print-directory
+
+PRESET ?= release
+BUILD := build/$(PRESET)
+DEMO ?= 1
+# One compiler per core, as far as 1.5 GB of free memory each goes.
+JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
+  END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
+SOURCES := $(shell find crossnav apps tests benchmarks -name '*.h' -o -name '*.cpp' | sort)
+FILES ?= $(SOURCES)
+
+# The compiler cache then hits from another checkout too.
+export CCACHE_BASEDIR := $(CURDIR)
+export CCACHE_NOHASHDIR := 1
+
+.PHONY: help setup demo test test-long bench format lint asan tsan docs clean program everything
+
+help:  ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' Makefile
+	@echo "  Settings: DEMO=1|2  PRESET=release|dev|ci  JOBS=$(JOBS)"
+	@echo "            FILES='a.cpp b.h' for format and lint (default: all)"
+
+setup:  ## install what the build needs (asks for sudo only when something is missing)
+	@scripts/setup.sh
+
+$(BUILD)/build.ninja: | setup
+	@cmake --preset $(PRESET)
+
+program: setup $(BUILD)/build.ninja
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target crossnav
+
+everything: setup $(BUILD)/build.ninja
+	@cmake --build --preset $(PRESET) -j $(JOBS)
+
+demo: program  ## one three-goal episode over two floors; DEMO=2 is another, which goes down
+	@$(BUILD)/apps/crossnav/crossnav demo $(DEMO)
+
+test: everything  ## every test
+	@ctest --preset $(PRESET) -j $(JOBS)
+
+test-long: export CROSSNAV_LONG_TESTS := 1
+test-long: everything  ## every test, the long ones included
+	@ctest --preset $(PRESET) -j $(JOBS)
+
+bench:  ## timings of the kernels and of the whole step (see BENCHMARKS.md)
+	@scripts/setup.sh build bench
+	@$(MAKE) everything PRESET=bench
+	@for program in $$(find build/bench/benchmarks -maxdepth 1 -type f -executable | sort); do \
+	  "$$program"; done
+	@build/bench/apps/crossnav/crossnav bench
+
+format:  ## clang-format, in place
+	@scripts/setup.sh lint
+	@clang-format -i $(FILES)
+
+lint: $(BUILD)/build.ninja  ## clang-format and clang-tidy, without changing anything
+	@scripts/setup.sh lint
+	@clang-format --dry-run -Werror $(FILES)
+	@cmake --build --preset $(PRESET) -j $(JOBS)  # generated headers
+	@run-clang-tidy -quiet -p $(BUILD) -j $(JOBS) $(addprefix $(CURDIR)/,$(filter %.cpp,$(FILES)))
+
+asan: export LSAN_OPTIONS := suppressions=$(CURDIR)/scripts/lsan.supp
+asan:  ## every test under AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(MAKE) test PRESET=asan
+
+tsan: export TSAN_OPTIONS := suppressions=$(CURDIR)/scripts/tsan.supp
+tsan:  ## every test under ThreadSanitizer
+	@$(MAKE) test PRESET=tsan
+
+docs:  ## the API as pages under build/docs
+	@scripts/setup.sh docs
+	@mkdir -p build/docs && doxygen docs/Doxyfile && echo "open build/docs/html/index.html"
+
+clean:  ## remove build/ (the compiler cache stays)
+	@rm -rf build

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks the documents against the tree.
+
+    scripts/check_docs.py [ROOT]
+
+Relative links in Markdown files lead somewhere; every label of the paper that the code cites has a
+row in docs/paper_map.md; every file and name in such a row exists. Exit status 1 if anything fails.
+"""
+import pathlib
+import re
+import sys
+
+LABEL = re.compile(r"\b(?:eq|tab|alg|sec|fig):[a-z][a-z0-9_]*")
+CODE_FOLDERS = ("crossnav", "apps", "tests", "benchmarks")
+SKIPPED = {"build", "out", "node_modules", ".git"}
+
+
+def files(root, folders, suffixes):
+    """Files under the folders with one of the suffixes, sorted; build output left out."""
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            inside = path.relative_to(root).parts
+            if path.suffix in suffixes and path.is_file() and not SKIPPED.intersection(inside):
+                yield path
+
+
+def check_links(root):
+    """Problems with relative links."""
+    for path in files(root, ["."], {".md"}):
+        text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.S)
+        for target in re.findall(r"\]\(([^)\s]+)\)", text):
+            target = target.split("#")[0]
+            if target and "://" not in target and not target.startswith("mailto:"):
+                if not (path.parent / target).exists():
+                    yield f"{path.relative_to(root)}: broken link to {target}"
+
+
+def check_row(root, number, row):
+    """Problems with the files and names of one row of the paper map."""
+    cells = [cell.strip() for cell in row.strip().strip("|").split("|")]
+    for cell in cells[2:]:
+        quoted = re.findall(r"`([^`]+)`", cell)
+        paths = [q for q in quoted if "/" in q]
+        text = ""
+        for name in paths:
+            if (root / name).is_file():
+                text += (root / name).read_text(encoding="utf-8")
+            elif not (root / name).is_dir():
+                yield f"docs/paper_map.md:{number}: no file {name}"
+        for name in quoted:
+            if "/" not in name and name not in text:
+                yield f"docs/paper_map.md:{number}: {name} is not in {', '.join(paths) or 'any file'}"
+
+
+def check_paper_map(root):
+    """Problems between the code's citations and the paper map."""
+    lines = (root / "docs/paper_map.md").read_text(encoding="utf-8").splitlines()
+    mapped = set()
+    for number, line in enumerate(lines, 1):
+        labels = LABEL.findall(line.split("|")[1]) if line.startswith("| `") else []
+        mapped.update(labels)
+        if labels:
+            yield from check_row(root, number, line)
+    for path in files(root, CODE_FOLDERS, {".h", ".cpp"}):
+        text = path.read_text(encoding="utf-8")
+        for label in sorted(set(LABEL.findall(text)) - mapped):
+            yield f"{path.relative_to(root)}: cites {label}, which docs/paper_map.md lacks"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
+    if root.is_file():
+        root = root.parent.parent
+    problems = list(check_links(root)) + list(check_paper_map(root))
+    print("\n".join(problems) if problems else "docs: links and paper map hold")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

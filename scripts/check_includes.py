@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks who includes whom (docs/architecture.md): rooms one way, third-party headers in adapters.
+
+    scripts/check_includes.py [ROOT]
+
+Prints one line for each include or CMake DEPS entry that is not allowed; exit status 1 if any.
+"""
+import pathlib
+import re
+import sys
+
+_LEFT = {"core", "geometry", "perception", "memory", "planner"}
+_AGENT = _LEFT | {"policy", "trace", "agent"}
+
+# What each room may include besides itself. `bench` is where the agent meets the simulator.
+ROOMS = {
+    "core": set(),
+    "geometry": {"core"},
+    "perception": {"core"},
+    "memory": {"core", "geometry"},
+    "planner": {"core", "geometry"},
+    "policy": _LEFT,
+    "trace": {"core", "geometry", "policy"},
+    "agent": _AGENT - {"agent"},
+    "sim": {"core", "geometry", "perception"},
+    "world": {"core", "sim"},
+    "store": {"core", "geometry", "memory"},
+    "bench": _AGENT | {"sim", "world", "store"},
+}
+
+# Third-party headers that any file may include: they are part of our own vocabulary.
+COMMON = re.compile(r"^(Eigen/|fmt/|gtest/|gmock/|benchmark/)")
+
+# The adapters: library -> (its headers, the files that may include them). Tests may use what they
+# like. A library appears in as few files as possible, one for each room that needs it.
+ADAPTERS = {
+    "tl-expected": (r"^tl/", {"crossnav/core/result.h"}),
+    "Embree": (r"^embree[34]/", {"crossnav/sim/embree_shim.h"}),
+    "tinygltf": (r"^tiny_gltf", {"crossnav/sim/gltf_accessor.h"}),
+    "Recast and Detour": (r"^recastnavigation/", {"crossnav/sim/navmesh.cpp"}),
+    "Highway": (r"^hwy/", {"crossnav/memory/row_kernels.cpp"}),
+    "libjpeg": (r"^jpeglib", {"crossnav/sim/image_codec.cpp", "crossnav/trace/preview.cpp"}),
+    "libpng": (r"^png", {"crossnav/sim/image_codec.cpp", "crossnav/trace/preview.cpp",
+                         "crossnav/world/png_writer.cpp"}),
+    "xxHash": (r"^xxhash", {"crossnav/sim/scene.cpp"}),
+    "zlib": (r"^zlib", {"crossnav/trace/mcap_writer.cpp"}),
+    "zstd": (r"^zstd", {"crossnav/trace/mcap_writer.cpp", "crossnav/trace/mcap_reader.cpp"}),
+    "simdjson": (r"^simdjson", {"crossnav/trace/json_reader.h"}),
+    "nlohmann-json": (r"^nlohmann/", {"crossnav/bench/result_json.cpp",
+                                      "crossnav/world/glb_writer.cpp"}),
+    "toml++": (r"^toml", {"crossnav/bench/config_file.cpp"}),
+    "CLI11": (r"^CLI/", {"apps/crossnav/main.cpp"}),
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+# Headers of the language and of the system: no slash and no dot, or C and POSIX names.
+SYSTEM = re.compile(r"^([a-z_]+|(std|string|errno|stdio|stdlib|stdint|math|time|signal|fcntl|dlfcn|"
+                    r"unistd|cxxabi|execinfo|cpuid|immintrin|sched|pthread|poll|termios)\.h|"
+                    r"(sys|linux|arpa|netinet|bits)/.*)$")
+
+
+def included(path):
+    """Yields (line number, name, is it ours or generated) of every include of a file."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1) or match.group(2), bool(match.group(1))
+
+
+def check_room_include(room, name):
+    """The problem with including one of our headers from a room, or None."""
+    parts = name.split("/")
+    if parts[0] == "apps":
+        return "a room includes the program"
+    other = parts[1] if len(parts) > 2 else None
+    if other not in ROOMS:
+        return f"no such room: {name}"
+    if other != room and other not in ROOMS[room]:
+        return f"{room} may not include {other} ({name})"
+    return None
+
+
+def check_third_party(relative, name):
+    """The problem with a third-party include, or None."""
+    if COMMON.match(name) or SYSTEM.match(name):
+        return None
+    for library, (headers, files) in ADAPTERS.items():
+        if re.match(headers, name):
+            if relative in files:
+                return None
+            return f"{library} belongs behind {', '.join(sorted(files))}, not here (<{name}>)"
+    return f"unknown third-party header <{name}>: give it an adapter in scripts/check_includes.py"
+
+
+def check_cmake_deps(path, room):
+    """Problems with the DEPS of a room's CMakeLists.txt."""
+    text = re.sub(r"#.*", "", path.read_text(encoding="utf-8"))
+    for call in re.findall(r"crossnav_library\(([^)]*)\)", text):
+        words = call.split()
+        listing = False
+        for word in words[1:]:
+            if word in ("SOURCES", "DEPS", "PUBLIC", "PRIVATE"):
+                listing = word == "DEPS"
+            elif listing and word not in ROOMS[room]:
+                yield f"{room} may not link {word}"
+        for target in re.findall(r"crossnav::(\w+)", call):
+            if target not in ROOMS[room]:
+                yield f"{room} may not link {target}"
+
+
+def check_file(root, path, room):
+    """Problems of one file; `room` is None for the program, which may include every room."""
+    relative = path.relative_to(root).as_posix()
+    for number, name, is_ours in included(path):
+        if not is_ours:
+            problem = check_third_party(relative, name)
+        elif room and name.startswith(("crossnav/", "apps/")):
+            problem = check_room_include(room, name)
+        else:
+            problem = None  # a generated header
+        if problem:
+            yield f"{relative}:{number}: {problem}"
+
+
+def check(root):
+    """All problems under `root`, as 'file:line: text'."""
+    problems = []
+    for folder in sorted(p for p in (root / "crossnav").iterdir() if p.is_dir()):
+        room = folder.name
+        if room not in ROOMS:
+            problems.append(f"crossnav/{room}: a room that scripts/check_includes.py does not know")
+            continue
+        for path in sorted(p for p in folder.rglob("*") if p.suffix in (".h", ".cpp")):
+            problems += check_file(root, path, room)
+        lists = folder / "CMakeLists.txt"
+        if lists.exists():
+            problems += [f"crossnav/{room}/CMakeLists.txt: {p}"
+                         for p in check_cmake_deps(lists, room)]
+    for path in sorted(p for p in (root / "apps").rglob("*") if p.suffix in (".h", ".cpp")):
+        problems += check_file(root, path, None)
+    return problems
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
+    if root.is_file():
+        root = root.parent.parent
+    problems = check(root)
+    print("\n".join(problems) if problems else "includes: all as docs/architecture.md says")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
