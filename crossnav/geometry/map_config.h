@@ -13,15 +13,16 @@ struct MapConfig {
   bool clip_to_extent = false;
   double inflation_m = 0.20;
   double support_depth_m = 0.40;
-  double max_climb_m = 0.30;     ///< surfaces up to this above the support do not inflate
-  double agent_height_m = 1.50;  ///< surfaces up to this above the support do
-  double agent_radius_m = 0.10;  ///< of the agent's own free cylinder
-  double depth_min_m = 0.1;      // chosen: sensor limits of common RGB-D cameras
-  double depth_max_m = 10.0;     // chosen: likewise
+  double max_climb_m = 0.30;       ///< surfaces up to this above the support do not inflate
+  double agent_height_m = 1.50;    ///< surfaces up to this above the support do
+  double agent_radius_m = 0.10;    ///< of the agent's own free cylinder
+  double depth_min_m = 0.1;        // chosen: sensor limits of common RGB-D cameras
+  double depth_max_m = 10.0;       // chosen: likewise
   std::string rays = "fast";       ///< exact | fast
   std::string clearing = "never";  ///< never | evidence
   int min_hits = 2;                // chosen: one stray return is not a wall
   double hit_ratio = 0.25;         // chosen: occupied while hits >= ratio x passes
+  int max_hits = 6;                // chosen: five frames that look through an object remove it
 };
 
 template <class V>
@@ -41,6 +42,7 @@ void Visit(V& visit, MapConfig& c) {
   visit("clearing", c.clearing, {"never", "evidence"});
   visit("min_hits", c.min_hits, 1, 1000);
   visit("hit_ratio", c.hit_ratio, 0.0, 1.0);
+  visit("max_hits", c.max_hits, 1, 1000);
 }
 
 }  // namespace crossnav::geometry

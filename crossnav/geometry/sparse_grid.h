@@ -54,8 +54,17 @@ class SparseGrid {
     return const_cast<Block*>(static_cast<const SparseGrid*>(this)->Find(block_key));
   }
 
+  /// The same with its key.
+  Entry* FindEntry(const VoxelKey& block_key) {
+    const std::int32_t index = slots_[SlotOf(block_key)];
+    return index == kEmpty ? nullptr : &entries_[index];
+  }
+
   /// The block at `block_key`, made with `Block()` if absent.
-  Block& Touch(const VoxelKey& block_key) {
+  Block& Touch(const VoxelKey& block_key) { return TouchEntry(block_key).block; }
+
+  /// The same with its key; its address stays valid as long as the grid lives.
+  Entry& TouchEntry(const VoxelKey& block_key) {
     std::size_t slot = SlotOf(block_key);
     if (slots_[slot] == kEmpty) {
       if (2 * (entries_.size() + 1) > slots_.size()) {
@@ -65,7 +74,7 @@ class SparseGrid {
       slots_[slot] = static_cast<std::int32_t>(entries_.size());
       entries_.push_back(Entry{block_key, Block()});
     }
-    return entries_[slots_[slot]].block;
+    return entries_[slots_[slot]];
   }
 
   std::size_t size() const { return entries_.size(); }
@@ -73,7 +82,9 @@ class SparseGrid {
   std::deque<Entry>& entries() { return entries_; }
 
   /// Bytes held, without what blocks allocate themselves.
-  std::size_t Bytes() const { return slots_.size() * sizeof(std::int32_t) + entries_.size() * sizeof(Entry); }
+  std::size_t Bytes() const {
+    return slots_.size() * sizeof(std::int32_t) + entries_.size() * sizeof(Entry);
+  }
 
  private:
   static constexpr std::int32_t kEmpty = -1;
@@ -81,7 +92,8 @@ class SparseGrid {
   std::size_t SlotOf(const VoxelKey& block_key) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = VoxelKeyHash()(block_key) & mask;
-    while (slots_[slot] != kEmpty && entries_[slots_[slot]].key != block_key) slot = (slot + 1) & mask;
+    while (slots_[slot] != kEmpty && entries_[slots_[slot]].key != block_key)
+      slot = (slot + 1) & mask;
     return slot;
   }
 

@@ -14,16 +14,11 @@
 #include "crossnav/core/image.h"
 #include "crossnav/core/pose.h"
 #include "crossnav/geometry/map_config.h"
+#include "crossnav/geometry/voxel_block.h"
 #include "crossnav/geometry/voxel_key.h"
 #include "crossnav/geometry/voxel_states.h"
 
 namespace crossnav::geometry {
-
-/// What is known about one voxel.
-struct Voxel {
-  VoxelState state = VoxelState::kUnknown;
-  bool is_inflated = false;
-};
 
 /// Stair evidence laid over an OCCUPIED voxel.
 enum class StairMark : std::uint8_t { kNone = 0, kStair = 1, kExpanded = 2, kFake = 3 };
@@ -45,10 +40,10 @@ struct MapStats {
   std::int64_t bytes = 0;  ///< memory held by the map
 };
 
-class VoxelMap {
- private:
-  struct Impl;
+struct MapData;
+struct MapAccess;
 
+class VoxelMap {
  public:
   explicit VoxelMap(const MapConfig& config = {});
   ~VoxelMap();
@@ -62,7 +57,8 @@ class VoxelMap {
   /// End voxels of valid depth pixels become occupied, voxels before them ray-observed free.
   /// `depth_m` H x W planar metres. Returns the end voxel of every valid pixel within depth limits
   /// (memory lifts features through it); valid until the next call.
-  const std::vector<PixelVoxel>& Integrate(const DepthImage& depth_m, const CameraIntrinsics& camera,
+  const std::vector<PixelVoxel>& Integrate(const DepthImage& depth_m,
+                                           const CameraIntrinsics& camera,
                                            const Pose& T_world_camera);
 
   /// The agent's own cylinder is free from foot to camera; the voxel under the foot supports it.
@@ -90,6 +86,10 @@ class VoxelMap {
   void ForEachInBox(const VoxelKey& lo, const VoxelKey& hi,
                     const std::function<void(const VoxelKey&, const Voxel&)>& visit) const;
 
+  /// Observed voxels with z_lo <= z <= z_hi, block by block. Cost O(blocks + voxels in the slab).
+  void ForEachInSlab(int z_lo, int z_hi,
+                     const std::function<void(const VoxelKey&, const Voxel&)>& visit) const;
+
   /// First surface voxel below `key` within the support depth, or false.
   bool FindSupport(const VoxelKey& key, VoxelKey* support) const;
 
@@ -108,18 +108,21 @@ class VoxelMap {
   /// stale after the map was written.
   class Cursor {
    public:
-    explicit Cursor(const VoxelMap& map);
-    Voxel At(const VoxelKey& key);
+    explicit Cursor(const VoxelMap& map) : reader_(map.grid()) {}
+    Voxel At(const VoxelKey& key) {
+      const VoxelBlock* block = reader_.Find(key);
+      return block ? DecodeCell(block->cells[CellIndexOf(key)]) : Voxel{};
+    }
 
    private:
-    const Impl* impl_;
-    const void* block_ = nullptr;
-    VoxelKey block_key_;
-    bool is_set_ = false;
+    GridReader<VoxelBlock> reader_;
   };
 
  private:
-  std::unique_ptr<Impl> impl_;
+  friend struct MapAccess;
+  const SparseGrid<VoxelBlock>& grid() const;
+
+  std::unique_ptr<MapData> data_;
 };
 
 }  // namespace crossnav::geometry

@@ -44,7 +44,11 @@ inline constexpr std::array<StateFacts, kVoxelStateCount> kStateFacts = {{
 constexpr const StateFacts& FactsOf(VoxelState state) {
   return kStateFacts[static_cast<std::size_t>(state)];
 }
-constexpr bool IsSurface(VoxelState state) { return FactsOf(state).is_surface; }
-constexpr bool IsPathable(VoxelState state) { return FactsOf(state).is_pathable; }
+constexpr bool IsSurface(VoxelState state) {
+  return FactsOf(state).is_surface;
+}
+constexpr bool IsPathable(VoxelState state) {
+  return FactsOf(state).is_pathable;
+}
 
 }  // namespace crossnav::geometry

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What one frame saw, collected in the blocks' frame masks, and how it becomes evidence
+// (`map.clearing`). Occupied beats free within a frame. Internal to the map.
+#pragma once
+
+#include "crossnav/geometry/map_data.h"
+
+namespace crossnav::geometry {
+
+/// Sets bits of the current frame; remembers the last block, neighbours mostly share one.
+class FrameMarker {
+ public:
+  explicit FrameMarker(MapData& map) : map_(&map) {}
+
+  void MarkFree(const VoxelKey& key) {
+    if (VoxelBlock* block = BlockOf(key)) block->frame_free.Set(CellIndexOf(key));
+  }
+
+  /// False if the key lies outside a clipped map. `is_new`: first hit in this frame.
+  bool MarkHit(const VoxelKey& key, bool* is_new) {
+    VoxelBlock* block = BlockOf(key);
+    if (block == nullptr) return false;
+    const int cell = CellIndexOf(key);
+    *is_new = !block->frame_hit.Test(cell);
+    block->frame_hit.Set(cell);
+    return true;
+  }
+
+ private:
+  VoxelBlock* BlockOf(const VoxelKey& key);
+
+  MapData* map_;
+  VoxelBlock* block_ = nullptr;
+  VoxelKey block_key_;
+};
+
+/// True if the map keeps `key` (always, unless map.clip_to_extent).
+inline bool IsKept(const MapData& map, const VoxelKey& key) {
+  if (!map.config.clip_to_extent) return true;
+  const int xy = map.cells.extent_xy, z = map.cells.extent_z;
+  return key.x >= -xy && key.x < xy && key.y >= -xy && key.y < xy && key.z >= -z && key.z < z;
+}
+
+/// Adds the entry to the frame's list of touched blocks.
+void ListInFrame(MapData& map, GridEntry& entry);
+
+/// Turns the frame masks into evidence, lists what changed, and empties them.
+void MergeFrame(MapData& map);
+
+}  // namespace crossnav::geometry

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What a VoxelMap is made of, shared by the room's own source files. Internal.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crossnav/geometry/voxel_map.h"
+
+namespace crossnav::geometry {
+
+/// The configuration's lengths in voxels.
+struct MapCells {
+  int support_depth = 4;
+  int max_climb = 3;
+  int agent_height = 15;
+  double inflation = 2;  ///< radius
+  int extent_xy = 0;     ///< keys in [-extent, extent) where clipped; 0 = unbounded
+  int extent_z = 0;
+};
+
+MapCells CellsOf(const MapConfig& config);
+
+using Grid = SparseGrid<VoxelBlock>;
+using GridEntry = Grid::Entry;
+
+struct MapData {
+  MapConfig config;
+  MapCells cells;
+  Grid grid;
+  std::vector<GridEntry*> changed;  ///< blocks whose evidence changed since UpdateStates()
+  std::vector<GridEntry*> frame;    ///< blocks the current frame touched
+  std::vector<PixelVoxel> pixels;
+  std::vector<StateChange> changes;
+  std::uint64_t revision = 0;
+};
+
+/// Puts `entry` on the list of changed blocks.
+inline void ListChanged(MapData& map, GridEntry& entry) {
+  if (entry.block.is_listed) return;
+  entry.block.is_listed = true;
+  map.changed.push_back(&entry);
+}
+
+/// The map's data, for the room's own files.
+struct MapAccess {
+  static MapData& Of(VoxelMap& map);
+  static const MapData& Of(const VoxelMap& map);
+};
+
+}  // namespace crossnav::geometry
