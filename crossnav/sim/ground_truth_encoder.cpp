@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/sim/ground_truth_encoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crossnav/core/categories.h"
+#include "crossnav/core/rng.h"
+
+namespace crossnav::sim {
+namespace {
+
+using perception::FeatureGrid;
+
+constexpr double kCommonShare = 0.5;  // chosen: cosine of unrelated names, below CLIP's 0.7
+constexpr double kBiasShare = 0.5;    // chosen: of feature_noise, fixed per instance
+constexpr double kPatchShare = 0.8;   // chosen: of the frame's noise, alike in a patch of cells
+constexpr int kPatchCells = 3;        // chosen: side of such a patch
+constexpr int kNoiseVectors = 64;     // chosen: enough that repeats do not add up
+constexpr int kPixelStride = 2;       // chosen: a quarter of the pixels tells a cell's content
+
+struct LookAlike {
+  std::string_view category;
+  std::string_view word;  ///< another category, or a word in a raw name
+};
+constexpr std::array<LookAlike, 24> kLookAlikes = {{
+    {"bed", "sofa"},          {"sofa", "bed"},           {"sofa", "chair"},
+    {"chair", "sofa"},        {"chair", "stool"},        {"chair", "bench"},
+    {"sofa", "ottoman"},      {"sofa", "cushion"},       {"bed", "mattress"},
+    {"bed", "blanket"},       {"tv monitor", "picture"}, {"tv monitor", "painting"},
+    {"tv monitor", "mirror"}, {"tv monitor", "laptop"},  {"tv monitor", "screen"},
+    {"plant", "vase"},        {"plant", "flower"},       {"plant", "tree"},
+    {"plant", "basket"},      {"toilet", "bidet"},       {"toilet", "sink"},
+    {"toilet", "washbasin"},  {"toilet", "bathtub"},     {"toilet", "bath"},
+}};
+
+using Feature = std::vector<float>;
+
+void AddScaled(double scale, std::span<const float> from, std::span<float> to) {
+  const auto s = static_cast<float>(scale);
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += s * from[i];
+}
+
+void Normalize(std::span<float> v) {
+  double squared = 0;
+  for (float x : v) squared += static_cast<double>(x) * x;
+  const auto inverse = static_cast<float>(1.0 / std::sqrt(std::max(squared, 1e-30)));
+  for (float& x : v) x *= inverse;
+}
+
+Feature RandomUnit(std::uint64_t seed, int dim) {
+  Rng rng(seed);
+  Feature v(dim);
+  for (float& x : v) x = static_cast<float>(rng.Normal());
+  Normalize(v);
+  return v;
+}
+
+// "TV_monitor " -> "tv monitor"; names of the category table become their category.
+std::string CanonicalName(std::string_view text) {
+  std::string name;
+  for (char c : text)
+    name += c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  while (!name.empty() && name.back() == ' ') name.pop_back();
+  name.erase(0, name.find_first_not_of(' ') == std::string::npos ? 0 : name.find_first_not_of(' '));
+  const auto known = DefaultCategories().find(name);
+  if (known == DefaultCategories().end()) return name;
+  std::string category = known->second;
+  std::replace(category.begin(), category.end(), '_', ' ');
+  return category;
+}
+
+bool IsCategory(std::string_view name) {
+  for (std::string_view category : kCategories) {
+    std::string spaced(category);
+    std::replace(spaced.begin(), spaced.end(), '_', ' ');
+    if (spaced == name) return true;
+  }
+  return false;
+}
+
+bool HasWord(std::string_view name, std::string_view word) {
+  for (std::size_t at = name.find(word); at != std::string_view::npos;
+       at = name.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || name[at - 1] == ' ') && (end == name.size() || name[end] == ' ')) return true;
+  }
+  return false;
+}
+
+// The names that `name` is easily taken for.
+std::vector<std::string> LookAlikesOf(const std::string& name) {
+  std::vector<std::string> out;
+  for (const LookAlike& pair : kLookAlikes) {
+    if (pair.category == name && IsCategory(pair.word)) out.emplace_back(pair.word);
+    if (!IsCategory(name) && HasWord(name, pair.word)) out.emplace_back(pair.category);
+  }
+  return out;
+}
+
+// Unit vectors of names; one common direction plus each name's own, mixed among look-alikes.
+class TextSpace {
+ public:
+  TextSpace(int dim, std::uint64_t seed, double confusion)
+      : dim_(dim), seed_(seed), confusion_(confusion), common_(RandomUnit(MixSeed(seed, 7), dim)) {}
+
+  const Feature& Of(const std::string& name) {
+    const auto found = vectors_.find(name);
+    if (found != vectors_.end()) return found->second;
+    Feature own = Own(name);
+    const double c = confusion_;
+    const std::vector<std::string> others = LookAlikesOf(name);
+    // Two that mix in each other meet at the cosine c with this much; one that leans, with c.
+    const double mutual = c > 0 ? (1 - std::sqrt(1 - c * c)) / c : 0;
+    const double lean = c / std::sqrt(1 - c * c);
+    for (const std::string& other : others)
+      AddScaled(IsCategory(name) ? mutual : lean, Own(other), own);
+    Normalize(own);
+    Feature v(dim_, 0.0f);
+    AddScaled(std::sqrt(kCommonShare), common_, v);
+    AddScaled(std::sqrt(1 - kCommonShare), own, v);
+    Normalize(v);
+    return vectors_.emplace(name, std::move(v)).first->second;
+  }
+
+ private:
+  Feature Own(const std::string& name) const {
+    return RandomUnit(MixSeed(seed_, HashString(name)), dim_);
+  }
+
+  int dim_;
+  std::uint64_t seed_;
+  double confusion_;
+  Feature common_;
+  std::map<std::string, Feature> vectors_;
+};
+
+std::uint64_t SeedOfPose(std::uint64_t seed, const Pose& pose) {
+  for (int i = 0; i < 12; ++i) {
+    const double value = pose.matrix()(i % 3, i / 3);
+    seed = MixSeed(seed, static_cast<std::uint64_t>(std::llround(value * 1e4)));
+  }
+  return seed;
+}
+
+// How much of each cell shows each of the frame's instances: cells x instances.
+struct CellContents {
+  std::vector<std::int32_t> instances;  // ids, in order of appearance
+  std::vector<float> share;             // rows x cols x instances
+};
+
+CellContents CountCells(const InstanceImage& image, int rows, int cols) {
+  CellContents out;
+  std::map<std::int32_t, std::int32_t> index;
+  std::int32_t last_id = -1, last_index = -1;
+  std::vector<std::pair<std::int32_t, std::int32_t>> samples;  // cell, position in `instances`
+  samples.reserve(image.data.size() / (kPixelStride * kPixelStride) + image.width + image.height);
+  for (int v = kPixelStride / 2; v < image.height; v += kPixelStride)
+    for (int u = kPixelStride / 2; u < image.width; u += kPixelStride) {
+      const std::int32_t id = image.At(u, v);
+      if (id != last_id || last_index < 0) {
+        const auto next = static_cast<std::int32_t>(out.instances.size());
+        const auto [it, is_new] = index.emplace(id, next);
+        if (is_new) out.instances.push_back(id);
+        last_id = id;
+        last_index = it->second;
+      }
+      samples.emplace_back(v * rows / image.height * cols + u * cols / image.width, last_index);
+    }
+  const std::size_t n = out.instances.size();
+  out.share.assign(static_cast<std::size_t>(rows) * cols * n, 0.0f);
+  for (const auto& [cell, instance] : samples) out.share[cell * n + instance] += 1;
+  return out;
+}
+
+// Binomial 3 x 3 blur over the grid, edges clamped; each cell's shares then sum to 1.
+void BlurCells(CellContents& contents, int rows, int cols) {
+  const std::size_t n = contents.instances.size();
+  std::vector<float> out(contents.share.size(), 0.0f);
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < cols; ++c) {
+      float* to = &out[(static_cast<std::size_t>(r) * cols + c) * n];
+      for (int dr = -1; dr <= 1; ++dr)
+        for (int dc = -1; dc <= 1; ++dc) {
+          const int rr = std::clamp(r + dr, 0, rows - 1), cc = std::clamp(c + dc, 0, cols - 1);
+          const auto weight = static_cast<float>((2 - std::abs(dr)) * (2 - std::abs(dc)));
+          const float* from = &contents.share[(static_cast<std::size_t>(rr) * cols + cc) * n];
+          for (std::size_t k = 0; k < n; ++k) to[k] += weight * from[k];
+        }
+      float total = 0;
+      for (std::size_t k = 0; k < n; ++k) total += to[k];
+      for (std::size_t k = 0; k < n; ++k) to[k] /= std::max(total, 1e-6f);
+    }
+  contents.share = std::move(out);
+}
+
+class GroundTruthEncoder : public perception::DenseEncoder {
+ public:
+  GroundTruthEncoder(const Simulator& simulator, const GroundTruthConfig& config)
+      : simulator_(simulator),
+        config_(config),
+        texts_(config.feature_dim, config.seed, config.confusion) {
+    for (int i = 0; i < kNoiseVectors; ++i)
+      noise_.push_back(RandomUnit(MixSeed(config.seed, 1000 + i), config.feature_dim));
+  }
+
+  int Dim() const override { return config_.feature_dim; }
+  std::string Name() const override { return "ground-truth"; }
+
+  Result<std::vector<float>> EncodeText(std::string_view text) override {
+    return texts_.Of(CanonicalName(text));
+  }
+
+  Result<FeatureGrid> EncodeImage(const Observation& obs) override {
+    const InstanceImage& image = simulator_.last_frame().instance;
+    if (image.empty() || image.width != obs.rgb.width || image.height != obs.rgb.height)
+      return Fail(ErrorCode::kMismatch, "the observation is not the simulator's last frame");
+    const int rows = config_.feature_rows, cols = config_.feature_cols;
+    CellContents contents = CountCells(image, rows, cols);
+    BlurCells(contents, rows, cols);
+    std::vector<const Feature*> looks;
+    for (std::int32_t id : contents.instances) looks.push_back(&LookOf(id));
+
+    FeatureGrid grid{rows, cols, config_.feature_dim, {}};
+    grid.data.resize(static_cast<std::size_t>(rows) * cols * grid.dim);
+    const std::uint64_t frame_seed = SeedOfPose(config_.seed, obs.T_world_camera);
+    for (int cell = 0; cell < rows * cols; ++cell) {
+      const std::span<float> out(&grid.data[static_cast<std::size_t>(cell) * grid.dim],
+                                 static_cast<std::size_t>(grid.dim));
+      for (std::size_t k = 0; k < looks.size(); ++k) {
+        const float share = contents.share[cell * looks.size() + k];
+        if (share > 0) AddScaled(share, *looks[k], out);
+      }
+      AddNoise(frame_seed, cell / cols, cell % cols, out);
+    }
+    return grid;
+  }
+
+ private:
+  // How instance `id` looks in every frame: its name's vector, leaning towards one look-alike, with
+  // a bias of its own.
+  const Feature& LookOf(std::int32_t id) {
+    const auto found = looks_.find(id);
+    if (found != looks_.end()) return found->second;
+    const SceneInstance* instance = simulator_.scene().FindInstance(id);
+    std::string name = "unknown";
+    if (instance != nullptr)
+      name = CanonicalName(instance->category.empty() ? instance->name : instance->category);
+    Rng rng(MixSeed(config_.seed, static_cast<std::uint64_t>(id)), 17);
+    Feature look = texts_.Of(name);
+    const std::vector<std::string> others = LookAlikesOf(name);
+    if (!others.empty()) {
+      const double lean = rng.Uniform(0, config_.confusion);
+      const Feature& other =
+          texts_.Of(others[rng.Below(static_cast<std::uint32_t>(others.size()))]);
+      for (std::size_t i = 0; i < look.size(); ++i)
+        look[i] += static_cast<float>(lean) * (other[i] - look[i]);
+    }
+    AddScaled(kBiasShare * config_.feature_noise, RandomUnit(rng.Next(), config_.feature_dim),
+              look);
+    Normalize(look);
+    return looks_.emplace(id, std::move(look)).first->second;
+  }
+
+  // Norm `feature_noise`: one vector shared by a patch of cells, one of the cell's own.
+  void AddNoise(std::uint64_t frame_seed, int row, int col, std::span<float> out) const {
+    const auto add = [&](std::uint64_t key, double share) {
+      const std::uint64_t bits = MixSeed(frame_seed, key);
+      const double sign = bits >> 63 != 0 ? -1.0 : 1.0;
+      AddScaled(sign * share * config_.feature_noise, noise_[bits % kNoiseVectors], out);
+    };
+    const auto patch = static_cast<std::uint64_t>(row / kPatchCells) << 16 | (col / kPatchCells);
+    const auto cell = static_cast<std::uint64_t>(row) << 16 | static_cast<std::uint64_t>(col);
+    add(patch << 1, kPatchShare);
+    add(cell << 1 | 1, std::sqrt(1 - kPatchShare * kPatchShare));
+  }
+
+  const Simulator& simulator_;
+  GroundTruthConfig config_;
+  TextSpace texts_;
+  std::vector<Feature> noise_;
+  std::map<std::int32_t, Feature> looks_;
+};
+
+}  // namespace
+
+std::unique_ptr<perception::DenseEncoder> MakeGroundTruthEncoder(const Simulator& simulator,
+                                                                 const GroundTruthConfig& config) {
+  return std::make_unique<GroundTruthEncoder>(simulator, config);
+}
+
+}  // namespace crossnav::sim
