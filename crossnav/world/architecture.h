@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The shell of a house: floors, ceilings, walls with doors and windows, stairs, railings, as
+// instances with HM3D-like names.
+#pragma once
+
+#include "crossnav/world/plan.h"
+#include "crossnav/world/scene_builder.h"
+
+namespace crossnav::world {
+
+void BuildFloorsAndCeilings(const HousePlan& plan, SceneBuilder& scene);
+void BuildWalls(const HousePlan& plan, SceneBuilder& scene);
+void BuildStairs(const HousePlan& plan, SceneBuilder& scene);
+void BuildRailing(const Railing& railing, SceneBuilder& scene);
+
+/// The whole house, furniture included.
+sim::Scene BuildHouse(const HousePlan& plan);
+
+}  // namespace crossnav::world

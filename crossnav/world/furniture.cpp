@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/furniture.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace crossnav::world {
+namespace {
+
+struct Kind {
+  std::string_view name;
+  ObjectModel (*make)(Rng&);
+};
+
+// Sorted by name.
+constexpr Kind kKinds[] = {
+    {"armchair", MakeArmchair},
+    {"bathtub", MakeBathtub},
+    {"bed", MakeBed},
+    {"bedside table", MakeBedsideTable},
+    {"bench", MakeBench},
+    {"bookcase", MakeBookcase},
+    {"chair", MakeChair},
+    {"chest of drawers", MakeChest},
+    {"coffee table", MakeCoffeeTable},
+    {"computer monitor", MakeMonitor},
+    {"couch", MakeSofa},
+    {"desk", MakeDesk},
+    {"dining chair", MakeDiningChair},
+    {"dining table", MakeDiningTable},
+    {"floor lamp", MakeFloorLamp},
+    {"kitchen cabinet", MakeKitchenUnit},
+    {"kitchen upper cabinet", MakeUpperCabinet},
+    {"laptop", MakeLaptop},
+    {"mirror", MakeMirror},
+    {"office chair", MakeOfficeChair},
+    {"picture", MakePicture},
+    {"potted plant", MakePlant},
+    {"refrigerator", MakeRefrigerator},
+    {"rug", MakeRug},
+    {"shower", MakeShower},
+    {"sink", MakeSink},
+    {"stool", MakeStool},
+    {"stove", MakeCooker},
+    {"toilet", MakeToilet},
+    {"tv", MakeTv},
+    {"tv stand", MakeTvStand},
+    {"wardrobe", MakeWardrobe},
+    {"washbasin", MakeWashbasin},
+};
+
+}  // namespace
+
+std::vector<std::string_view> FurnitureKinds() {
+  std::vector<std::string_view> names;
+  for (const Kind& k : kKinds) names.push_back(k.name);
+  return names;
+}
+
+std::optional<ObjectModel> MakeFurniture(std::string_view kind, Rng& rng) {
+  const auto it = std::lower_bound(std::begin(kKinds), std::end(kKinds), kind,
+                                   [](const Kind& k, std::string_view n) { return k.name < n; });
+  if (it == std::end(kKinds) || it->name != kind) return std::nullopt;
+  return it->make(rng);
+}
+
+}  // namespace crossnav::world

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Binary glTF 2.0 out of a scene: the rendered mesh and the semantic mesh of HM3D's layout. Inside
+// the file x_f = -y_world, y_f = x_world, z_f = z_world (z up, as HM3D's files). Deterministic: the
+// same scene gives the same bytes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "crossnav/core/image.h"
+#include "crossnav/sim/scene.h"
+
+namespace crossnav::world {
+
+/// One primitive per material, textures embedded as PNG, vertex colours where the scene has them.
+std::string EncodeRenderGlb(const sim::Scene& scene);
+
+/// One unlit primitive whose vertex colours name the instance (SemanticColour of its id).
+std::string EncodeSemanticGlb(const sim::Scene& scene);
+
+/// Colour of an instance in the semantic mesh and text; different ids below 2^24 differ.
+Rgb8 SemanticColour(int instance_id);
+
+/// PNG bytes; with alpha where the texture has a mask.
+std::string EncodePng(const sim::Texture& texture);
+
+}  // namespace crossnav::world
