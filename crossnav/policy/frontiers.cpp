@@ -15,7 +15,6 @@ using geometry::Voxel;
 using geometry::VoxelState;
 using Cursor = VoxelMap::Cursor;
 
-constexpr int kMapLimit = 1 << 20;  // beyond any map [voxels]
 constexpr std::array<VoxelKey, 4> kSides = {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
 
 /// Nothing observed at `key` nor within +-`reach_vox` in its column.
@@ -31,13 +30,11 @@ bool IsGenuineUnknown(Cursor& map, const VoxelKey& key, int reach_vox) {
 template <class F>
 void ForEachStanding(const VoxelMap& map, const planner::LevelBand& level, const F& visit) {
   Cursor cursor(map);
-  map.ForEachInBox(
-      {-kMapLimit, -kMapLimit, level.min_z + 1}, {kMapLimit, kMapLimit, level.max_z + 2},
-      [&](const VoxelKey& key, const Voxel& voxel) {
-        if (voxel.state != VoxelState::kTraversable || voxel.is_inflated) return;
-        if (IsSurface(cursor.At({key.x, key.y, key.z - 1}).state) && level.Contains(key.z - 1))
-          visit(key);
-      });
+  map.ForEachInSlab(level.min_z + 1, level.max_z + 1, [&](const VoxelKey& key, const Voxel& voxel) {
+    if (voxel.state != VoxelState::kTraversable || voxel.is_inflated) return;
+    if (IsSurface(cursor.At({key.x, key.y, key.z - 1}).state) && level.Contains(key.z - 1))
+      visit(key);
+  });
 }
 
 /// Air beside the level that nothing supports, rejected stairs, or ground below the level's band.

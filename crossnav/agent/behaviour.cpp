@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/behaviour.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossnav::agent {
+
+using geometry::VoxelKey;
+using policy::BlacklistedPlace;
+using policy::CandidateKind;
+using policy::CenteringAction;
+
+namespace {
+
+constexpr double kArrived_m = 0.20;           // chosen: less than one forward step
+constexpr int kLooksAtHistoryPoi = 3;         // chosen: one more than a live POI needs to be stable
+constexpr int kLooksAtFrontier = 2;           // chosen
+constexpr double kFrontierBlacklist_m = 0.4;  // chosen: a few voxels that cannot be seen
+
+/// Centre of what the frontier borders on near the agent: where to look on arrival.
+Vector3d LocalFocus(const Situation& now, const policy::Candidate& candidate) {
+  const double voxel_m = now.config.map.voxel_m;
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < candidate.beyond.size(); ++i) {
+    const Vector3d p = CenterOf(candidate.standing[i], voxel_m);
+    if ((p - now.agent.p_world).head<2>().norm() > 0.8) continue;  // chosen
+    sum += CenterOf(candidate.beyond[i], voxel_m);
+    ++count;
+  }
+  return count ? Vector3d(sum / count) : candidate.p_focus_world;
+}
+
+/// The turn, without pitch, that brings `p_world` ahead.
+std::optional<Action> FaceAction(const Situation& now, const Vector3d& p_world) {
+  const double camera_m = now.config.sensor.camera_height_m;
+  Vector3d p_level = p_world;
+  p_level.z() = now.agent.p_world.z() + camera_m +
+                std::tan(now.agent.pitch_rad) * (p_world - now.agent.p_world).head<2>().norm();
+  return CenteringAction(now.agent, p_level, camera_m, now.config.action);
+}
+
+const policy::Flight* NearestFlight(const std::vector<policy::Flight>& flights,
+                                    const Vector3d& p_world) {
+  const policy::Flight* nearest = nullptr;
+  double best_m = 1.6;  // chosen: the entrance is in front of the agent
+  for (const policy::Flight& flight : flights) {
+    const double d = (flight.p_entrance_world - p_world).head<2>().norm();
+    if (d >= best_m) continue;
+    best_m = d;
+    nearest = &flight;
+  }
+  return nearest;
+}
+
+bool IsVerified(const policy::Flight& flight, const policy::StairConfig& config) {
+  if (flight.direction > 0)
+    return flight.is_confirmed && flight.geometry_score >= config.geometry_threshold;
+  return (flight.probability + flight.geometry_score) / 2 >= config.descent_confirmation;
+}
+
+void RejectEntrance(Situation& now, const Vector3d& p_focus_world) {
+  const auto& poi = now.config.policy.poi;
+  const auto keys =
+      now.world.stairs.Reject(p_focus_world, poi.blacklist_xy_m, now.config.map.voxel_m);
+  now.world.map.MarkStair(keys, geometry::StairMark::kFake);
+  now.goal.set_aside.push_back({p_focus_world, poi.blacklist_xy_m, poi.blacklist_z_m});
+  now.goal.commitment.reset();
+  now.goal.entrance.reset();
+  now.goal.events.push_back("entrance rejected");
+}
+
+void StartSession(Situation& now, const policy::Flight& flight) {
+  std::vector<VoxelKey> first;
+  for (const VoxelKey& key : flight.voxels) {
+    const Vector3d d = CenterOf(key, now.config.map.voxel_m) - flight.p_entrance_world;
+    if (d.norm() <= now.config.policy.stair.admission_radius_m) first.push_back(key);
+  }
+  now.goal.session =
+      policy::BeginSession(flight.direction, now.world.level_m, now.agent.p_world, first);
+  now.goal.steps_without_stair_target = 0;
+  now.goal.scanned_landing_m = -1e9;
+  now.goal.commitment.reset();
+  now.goal.entrance.reset();
+  now.goal.script.clear();
+  now.goal.events.push_back(flight.direction > 0 ? "stairs up verified" : "stairs down verified");
+}
+
+}  // namespace
+
+void QueueLookAround(GoalState& goal, const ActionConfig& action) {
+  const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
+  goal.script.assign(static_cast<std::size_t>(turns), Action::kTurnLeft);
+}
+
+double DistanceToGoal(const Situation& now, const Target& target) {
+  const Vector3d p = CenterOf(target.plan.path.back(), now.config.map.voxel_m);
+  return (p - now.agent.p_world).head<2>().norm();
+}
+
+std::optional<Action> FollowPath(const Situation& now, const Target& target,
+                                 double wanted_pitch_rad) {
+  if (auto pitch = policy::PitchTowards(now.agent, wanted_pitch_rad, now.config.action))
+    return pitch;
+  if (DistanceToGoal(now, target) < 0.05) return std::nullopt;
+  const Vector3d p =
+      policy::VisibleWaypoint(now.world.map, target.plan.path, now.agent.p_world, target.rules);
+  return policy::SteerTowards(now.agent, p, now.config.action);
+}
+
+EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look) {
+  if (!now.goal.entrance) return EntranceVerdict::kNone;
+  EntranceCheck& check = *now.goal.entrance;
+  if (auto turn = FaceAction(now, check.p_focus_world)) {
+    if (++check.frames < 12) {
+      *look = turn;
+      return EntranceVerdict::kLooking;
+    }
+  }
+  const int direction = check.kind == CandidateKind::kAscentFrontier ? 1 : -1;
+  const auto flights =
+      policy::FlightsFrom(now.world.stairs, now.world.map, now.world.level_m, direction);
+  const policy::Flight* flight = NearestFlight(flights, now.agent.p_world);
+  if (check.looks > 0 && flight && IsVerified(*flight, now.config.policy.stair)) {
+    StartSession(now, *flight);
+    return EntranceVerdict::kVerified;
+  }
+  const int max_looks = direction > 0 ? 1 : 2;
+  if (check.looks >= max_looks) {
+    RejectEntrance(now, check.p_focus_world);
+    return EntranceVerdict::kRejected;
+  }
+  ++check.looks;
+  *look = direction > 0 ? Action::kLookUp : Action::kLookDown;
+  return EntranceVerdict::kLooking;
+}
+
+SessionVerdict CheckSession(Situation& now) {
+  if (!now.goal.session) return SessionVerdict::kNone;
+  GoalState& goal = now.goal;
+  policy::StairSession& session = *goal.session;
+  policy::PromoteStairs(session, now.world.stairs, now.world.map, now.config.policy.stair);
+  const auto status =
+      policy::AdvanceSession(session, now.world.map, now.agent.p_world, now.config.policy.stair);
+  if (!goal.script.empty()) return SessionVerdict::kClimbing;  // still looking around
+  if (status == policy::SessionStatus::kOnLanding) {
+    const bool is_scanned = std::abs(goal.scanned_landing_m - now.agent.p_world.z()) < 0.3;
+    if (!is_scanned) {
+      goal.scanned_landing_m = now.agent.p_world.z();
+      goal.events.push_back("looking around on the landing");
+      QueueLookAround(goal, now.config.action);
+      return SessionVerdict::kClimbing;
+    }
+    if (policy::FlightContinues(session, now.world.stairs, now.world.map, now.agent.p_world,
+                                now.config.policy.stair))
+      return SessionVerdict::kClimbing;
+    return SessionVerdict::kLandingReached;
+  }
+  const bool is_lost = goal.steps_without_stair_target > 14;  // chosen: one look around and a bit
+  if (status == policy::SessionStatus::kStalled || is_lost) return SessionVerdict::kFailed;
+  return SessionVerdict::kClimbing;
+}
+
+void EndSession(Situation& now, bool is_success) {
+  const policy::StairSession session = *now.goal.session;
+  now.goal.session.reset();
+  now.goal.script.clear();
+  if (is_success) {
+    now.world.links.push_back({session.p_entrance_world, now.agent.p_world});
+    now.world.level_m = now.agent.p_world.z();
+    now.world.last_direction = session.direction;
+    now.goal.events.push_back(session.direction > 0 ? "new level above" : "new level below");
+    return;
+  }
+  const auto& poi = now.config.policy.poi;
+  now.goal.set_aside.push_back(
+      {session.p_entrance_world, 2 * poi.blacklist_xy_m, poi.blacklist_z_m});
+  now.goal.events.push_back("stairs given up");
+}
+
+std::optional<Action> Explore(Situation& now, const Target& target) {
+  GoalState& goal = now.goal;
+  const CandidateKind kind = target.candidate.kind;
+  const bool is_frontier = kind == CandidateKind::kTraversableFrontier;
+  const double arrival_m =
+      is_frontier ? now.config.policy.frontier.arrival_m : now.config.policy.stair.arrival_m;
+  if (DistanceToGoal(now, target) > arrival_m) {
+    goal.commitment->arrived_looks = 0;
+    return FollowPath(now, target);
+  }
+  const Vector3d p_focus = LocalFocus(now, target.candidate);
+  if (!is_frontier) {
+    goal.entrance = EntranceCheck{kind, p_focus, 0, 0};
+    goal.events.push_back("at a stair entrance");
+    std::optional<Action> look;
+    CheckEntrance(now, &look);
+    return look;
+  }
+  if (auto look =
+          CenteringAction(now.agent, p_focus, now.config.sensor.camera_height_m, now.config.action);
+      look && goal.commitment->arrived_looks < 8)
+    return ++goal.commitment->arrived_looks, look;
+  if (goal.commitment->arrived_looks < 8 + kLooksAtFrontier) {
+    goal.commitment->arrived_looks += 8;
+    if (auto step = FollowPath(now, target)) return step;
+  }
+  goal.frontier_blacklist.push_back(
+      {p_focus, kFrontierBlacklist_m, now.config.policy.poi.blacklist_z_m});
+  goal.commitment.reset();
+  return Action::kTurnLeft;
+}
+
+std::optional<Action> Climb(Situation& now, const std::optional<Target>& target) {
+  GoalState& goal = now.goal;
+  if (!goal.script.empty()) {
+    const Action next = goal.script.front();
+    goal.script.pop_front();
+    return next;
+  }
+  const double wanted_pitch =
+      goal.session->direction > 0 ? 0 : -DegToRad(now.config.action.pitch_deg);
+  if (target) {
+    goal.steps_without_stair_target = 0;
+    if (auto action = FollowPath(now, *target, wanted_pitch)) return action;
+  }
+  if (goal.steps_without_stair_target++ == 0) QueueLookAround(goal, now.config.action);
+  return Action::kTurnLeft;
+}
+
+std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target) {
+  HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(target.candidate.id)];
+  if (DistanceToGoal(now, target) > kArrived_m && poi.looked == 0) {
+    if (auto action = FollowPath(now, target)) return action;
+  }
+  const Vector3d p_aim = policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
+  if (poi.looked < 8) {
+    if (auto look =
+            CenteringAction(now.agent, p_aim, now.config.sensor.camera_height_m, now.config.action))
+      return ++poi.looked, look;
+    poi.looked = 8;
+  }
+  // Aimed: a wobble to either side gives the detector a few more frames.
+  constexpr Action kWobble[kLooksAtHistoryPoi] = {Action::kTurnLeft, Action::kTurnRight,
+                                                  Action::kTurnRight};
+  if (poi.looked < 8 + kLooksAtHistoryPoi) return kWobble[poi.looked++ - 8];
+  poi.is_exhausted = true;
+  const auto& config = now.config.policy.poi;
+  now.goal.blacklist.push_back({poi.p_center_world, config.blacklist_xy_m, config.blacklist_z_m});
+  now.goal.events.push_back("history POI without success");
+  return Action::kTurnLeft;
+}
+
+std::optional<Action> Approach(Situation& now, const Target& target, const policy::LivePoi& poi,
+                               const policy::Verification& verification) {
+  if (verification.passed) return Action::kStop;
+  GoalState& goal = now.goal;
+  if (DistanceToGoal(now, target) > kArrived_m) {
+    if (auto action = FollowPath(now, target)) return action;
+  }
+  const Vector3d p_aim = policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
+  if (auto look =
+          CenteringAction(now.agent, p_aim, now.config.sensor.camera_height_m, now.config.action))
+    return look;
+  goal.tried_viewpoints.push_back(now.agent.p_world);
+  if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
+    const auto& config = now.config.policy.poi;
+    goal.blacklist.push_back({poi.p_center_world, config.blacklist_xy_m, config.blacklist_z_m});
+    goal.live.Discard(poi.id);
+    goal.events.push_back("verification failed: " + verification.failed_check);
+  }
+  return Action::kTurnLeft;
+}
+
+bool Relax(Situation& now) {
+  GoalState& goal = now.goal;
+  if (goal.is_relaxed) return false;
+  goal.is_relaxed = true;
+  goal.set_aside.clear();
+  goal.frontier_blacklist.clear();
+  goal.blacklist.clear();
+  goal.live.ForgiveDiscarded();
+  goal.tried_viewpoints.clear();
+  goal.failed_views = 0;
+  Config relaxed = now.config;
+  relaxed.query.min_similarity *= 0.8;  // chosen: looser, still a response
+  relaxed.query.min_z_score *= 0.6;
+  goal.history = RememberedPlaces(now.world, goal, relaxed);
+  goal.active_history = -1;
+  goal.events.push_back("nothing left: trying once more with relaxed limits");
+  return true;
+}
+
+}  // namespace crossnav::agent

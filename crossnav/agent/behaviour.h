@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What the agent does in each mode, once a target is chosen: one action per call. Also the checks
+// that decide about modes: is this entrance a stair, is the session over.
+#pragma once
+
+#include <optional>
+
+#include "crossnav/agent/targets.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/policy/approach.h"
+
+namespace crossnav::agent {
+
+/// A full turn on the spot.
+void QueueLookAround(GoalState& goal, const ActionConfig& action);
+
+/// One action along the plan: pitch first, then turn or walk. nullopt at its end.
+std::optional<Action> FollowPath(const Situation& now, const Target& target,
+                                 double wanted_pitch_rad = 0);
+
+/// Ground distance from the agent to the end of the plan [m].
+double DistanceToGoal(const Situation& now, const Target& target);
+
+enum class EntranceVerdict { kNone, kLooking, kVerified, kRejected };
+
+/// Looks at the entrance in front of the agent and decides (paper, "Stair-State Promotion"). While
+/// looking, `*look` is the next action. kVerified has begun a session; kRejected has set it aside.
+EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look);
+
+enum class SessionVerdict { kNone, kClimbing, kLandingReached, kFailed };
+
+/// Promotes evidence and tells how the session stands.
+SessionVerdict CheckSession(Situation& now);
+
+/// Ends the session: a new exploration level, or back to where it began.
+void EndSession(Situation& now, bool is_success);
+
+/// One step of Basic Explore towards `target`; may begin an entrance check.
+std::optional<Action> Explore(Situation& now, const Target& target);
+
+/// One step of Stair Explore; nullopt when no stair frontier can be reached.
+std::optional<Action> Climb(Situation& now, const std::optional<Target>& target);
+
+/// One step towards a history POI; looks at it on arrival and gives it up when nothing shows.
+std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target);
+
+/// One step towards a live POI, with verification; kStop when the frame proves the object.
+std::optional<Action> Approach(Situation& now, const Target& target, const policy::LivePoi& poi,
+                               const policy::Verification& verification);
+
+/// The one relaxed retry when nothing is left. False if it was used before.
+bool Relax(Situation& now);
+
+}  // namespace crossnav::agent

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// What the agent remembers, in two structs: what lives as long as the episode, and what a new goal
+// starts anew (paper, "Experimental Configuration" in the supplement). Plain data.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crossnav/agent/config.h"
+#include "crossnav/geometry/voxel_map.h"
+#include "crossnav/memory/history_poi.h"
+#include "crossnav/memory/semantic_memory.h"
+#include "crossnav/policy/candidates.h"
+#include "crossnav/policy/live_poi.h"
+#include "crossnav/policy/modes.h"
+#include "crossnav/policy/stair_evidence.h"
+#include "crossnav/policy/stair_session.h"
+#include "crossnav/policy/steering.h"
+
+namespace crossnav::agent {
+
+/// A flight that was walked: its two ends.
+struct StairLink {
+  Vector3d p_from_world = Vector3d::Zero();
+  Vector3d p_to_world = Vector3d::Zero();
+};
+
+/// Survives a change of goal.
+struct World {
+  geometry::VoxelMap map;
+  memory::SemanticMemory memory;
+  policy::StairEvidence stairs;
+  std::vector<StairLink> links;
+  double level_m = 0;  ///< height of the exploration level
+  bool has_level = false;
+  int step = 0;
+  int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
+
+  explicit World(const Config& config)
+      : map(config.map), memory(config.fusion, config.map.voxel_m) {}
+};
+
+/// A place of the memory that answered the goal's query.
+struct HistoryPoi {
+  std::vector<geometry::VoxelKey> voxels;
+  Vector3d p_center_world = Vector3d::Zero();
+  double score = 0;
+  bool is_exhausted = false;
+  int looked = 0;  ///< frames spent looking at it on arrival
+};
+
+/// Verification of a stair entrance, while the agent stands there and looks.
+struct EntranceCheck {
+  policy::CandidateKind kind = policy::CandidateKind::kDescendFrontier;
+  Vector3d p_focus_world = Vector3d::Zero();
+  int frames = 0;
+  int looks = 0;  ///< pitch actions spent
+};
+
+/// The exploration target being followed.
+struct Commitment {
+  policy::CandidateKind kind = policy::CandidateKind::kTraversableFrontier;
+  Vector3d p_focus_world = Vector3d::Zero();
+  std::vector<geometry::VoxelKey> standing;
+  int since_step = 0;
+  int arrived_looks = 0;
+};
+
+/// Reinitialised by every new goal.
+struct GoalState {
+  std::string goal;
+  int index = -1;
+  std::vector<float> text;
+  policy::Mode mode = policy::Mode::kBasicExplore;
+  bool is_new = true;
+  policy::LivePois live;
+  std::vector<HistoryPoi> history;
+  int active_history = -1;  ///< index into `history`, -1 = none
+  int active_live = -1;     ///< id of the POI being approached, -1 = none
+  std::vector<Vector3d> tried_viewpoints;
+  int failed_views = 0;
+  std::vector<policy::BlacklistedPlace> blacklist;           ///< POIs
+  std::vector<policy::BlacklistedPlace> frontier_blacklist;  ///< frontiers that did not open up
+  std::vector<policy::BlacklistedPlace> set_aside;           ///< rejected stair entrances
+  std::optional<Commitment> commitment;
+  std::optional<EntranceCheck> entrance;
+  std::optional<policy::StairSession> session;
+  int steps_without_stair_target = 0;
+  double scanned_landing_m = -1e9;  ///< height of the landing that was looked around on
+  std::deque<Action> script;        ///< a look around, a correction of pitch
+  bool is_relaxed = false;          ///< the one relaxed retry was used
+  std::vector<std::string> events;  ///< of this step
+};
+
+}  // namespace crossnav::agent

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/targets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crossnav/policy/approach.h"
+#include "crossnav/policy/frontiers.h"
+
+namespace crossnav::agent {
+
+using geometry::VoxelKey;
+using planner::FindPath;
+using planner::GraphKind;
+using planner::GraphRules;
+using planner::Plan;
+using policy::Candidate;
+using policy::CandidateKind;
+
+namespace {
+
+constexpr double kLinkReach_m =
+    1.6;  // chosen: an entrance this near a walked flight's end is that flight
+constexpr double kSameFocus_m = 0.75;  // chosen: a frontier that shrank is still the same frontier
+
+planner::LevelBand LevelOf(const Situation& now, double level_m) {
+  return policy::BandAround(level_m, now.config.policy.frontier, now.config.map.voxel_m);
+}
+
+/// Drops members near blacklisted places, and candidates that lose all of them.
+std::vector<Candidate> Without(std::vector<Candidate> candidates,
+                               const std::vector<policy::BlacklistedPlace>& places,
+                               double voxel_m) {
+  if (places.empty()) return candidates;
+  std::vector<Candidate> kept;
+  for (Candidate& candidate : candidates) {
+    Candidate rest = candidate;
+    rest.standing.clear();
+    rest.beyond.clear();
+    for (std::size_t i = 0; i < candidate.standing.size(); ++i) {
+      const bool has_beyond = i < candidate.beyond.size();
+      const VoxelKey about = has_beyond ? candidate.beyond[i] : candidate.standing[i];
+      if (IsBlacklisted(places, CenterOf(about, voxel_m))) continue;
+      rest.standing.push_back(candidate.standing[i]);
+      if (has_beyond) rest.beyond.push_back(candidate.beyond[i]);
+    }
+    if (!rest.standing.empty() && !IsBlacklisted(places, rest.p_focus_world))
+      kept.push_back(std::move(rest));
+  }
+  return kept;
+}
+
+Target MakeTarget(Candidate candidate, Plan plan, const GraphRules& rules) {
+  return Target{std::move(candidate), std::move(plan), rules};
+}
+
+std::optional<Target> PlanTo(const Situation& now, const Candidate& candidate, GraphRules rules,
+                             bool may_inflate = false) {
+  if (!now.start || candidate.standing.empty()) return std::nullopt;
+  Plan plan = FindPath(now.world.map, *now.start, candidate.standing, rules, now.config.planner);
+  if (!plan.found() && may_inflate) {
+    rules.allow_inflated = true;
+    plan = FindPath(now.world.map, *now.start, candidate.standing, rules, now.config.planner);
+  }
+  if (!plan.found()) return std::nullopt;
+  return MakeTarget(candidate, std::move(plan), rules);
+}
+
+/// The candidate that continues the commitment, or -1.
+int FindCommitted(const std::vector<Candidate>& candidates, const Commitment& commitment) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& c = candidates[i];
+    if (c.kind != commitment.kind) continue;
+    if ((c.p_focus_world - commitment.p_focus_world).norm() <= kSameFocus_m)
+      return static_cast<int>(i);
+    const bool shares = std::any_of(c.standing.begin(), c.standing.end(), [&](const VoxelKey& key) {
+      return std::binary_search(commitment.standing.begin(), commitment.standing.end(), key);
+    });
+    if (shares) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+bool IsWalkedEntrance(const World& world, const Candidate& candidate) {
+  return std::any_of(world.links.begin(), world.links.end(), [&](const StairLink& link) {
+    return (candidate.p_focus_world - link.p_from_world).norm() < kLinkReach_m ||
+           (candidate.p_focus_world - link.p_to_world).norm() < kLinkReach_m;
+  });
+}
+
+/// Whether anything is left to explore on the level at `level_m`.
+bool LevelHasWork(const Situation& now, double level_m) {
+  const auto frontiers =
+      policy::TraversableFrontiers(now.world.map, LevelOf(now, level_m), now.config.policy.frontier,
+                                   now.config.policy.frontier.min_cluster);
+  if (!Without(frontiers, now.goal.frontier_blacklist, now.config.map.voxel_m).empty()) return true;
+  return !OpenEntrances(now, level_m, false).empty();
+}
+
+/// Flights walked before whose other end has something left to explore.
+std::vector<Candidate> WayBackEntrances(const Situation& now) {
+  std::vector<Candidate> back;
+  for (Candidate& candidate : OpenEntrances(now, now.world.level_m, true)) {
+    const bool leads_to_work =
+        std::any_of(now.world.links.begin(), now.world.links.end(), [&](const StairLink& link) {
+          const bool at_from = (candidate.p_focus_world - link.p_from_world).norm() < kLinkReach_m;
+          const bool at_to = (candidate.p_focus_world - link.p_to_world).norm() < kLinkReach_m;
+          const double other_m = at_from ? link.p_to_world.z() : link.p_from_world.z();
+          return (at_from || at_to) && LevelHasWork(now, other_m);
+        });
+    if (leads_to_work) back.push_back(std::move(candidate));
+  }
+  return back;
+}
+
+}  // namespace
+
+GraphRules LevelRules(const Situation& now) {
+  GraphRules rules;
+  rules.obstacles = now.obstacles;
+  const auto band = LevelOf(now, now.world.level_m);
+  const auto support = now.start ? planner::SupportZ(now.world.map, *now.start) : std::nullopt;
+  if (support && band.Contains(*support)) rules.level = band;
+  return rules;
+}
+
+GraphRules WholeMapRules(const Situation& now) {
+  GraphRules rules;
+  rules.obstacles = now.obstacles;
+  if (now.config.policy.planar) rules.level = LevelOf(now, now.world.level_m);
+  return rules;
+}
+
+std::optional<Target> ChooseFrontier(Situation& now, std::vector<Candidate> candidates) {
+  if (!now.start || candidates.empty()) return std::nullopt;
+  const GraphRules rules = LevelRules(now);
+  if (now.goal.commitment) {
+    const int kept = FindCommitted(candidates, *now.goal.commitment);
+    if (kept >= 0) {
+      if (auto target = PlanTo(now, candidates[kept], rules)) {
+        now.goal.commitment->standing = candidates[kept].standing;
+        return target;
+      }
+    }
+    now.goal.commitment.reset();
+  }
+  std::vector<VoxelKey> goals;
+  std::vector<std::size_t> owner;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    for (const VoxelKey& key : candidates[i].standing) {
+      goals.push_back(key);
+      owner.push_back(i);
+    }
+  Plan plan = FindPath(now.world.map, *now.start, goals, rules, now.config.planner);
+  if (!plan.found()) return std::nullopt;
+  const Candidate& chosen = candidates[owner[plan.goal_index]];
+  now.goal.commitment =
+      Commitment{chosen.kind, chosen.p_focus_world, chosen.standing, now.world.step, 0};
+  return MakeTarget(chosen, std::move(plan), rules);
+}
+
+std::vector<Candidate> OpenFrontiers(const Situation& now) {
+  const auto& config = now.config.policy.frontier;
+  const int min_cluster =
+      now.world.step < 12 ? config.min_cluster_init_descent : config.min_cluster;
+  return Without(policy::TraversableFrontiers(now.world.map, LevelOf(now, now.world.level_m),
+                                              config, min_cluster),
+                 now.goal.frontier_blacklist, now.config.map.voxel_m);
+}
+
+std::vector<Candidate> OpenEntrances(const Situation& now, double level_m, bool include_walked) {
+  if (now.config.policy.planar) return {};
+  const auto band = LevelOf(now, level_m);
+  const World& world = now.world;
+  auto down = policy::DescendFrontiers(world.map, band, now.config.policy.frontier);
+  auto up = policy::AscentFrontiers(policy::FlightsFrom(world.stairs, world.map, level_m, +1),
+                                    world.map, band, now.config.policy.stair);
+  // Descend before ascent, unless the last transition led up.
+  auto& first = world.last_direction > 0 ? up : down;
+  auto& second = world.last_direction > 0 ? down : up;
+  first.insert(first.end(), second.begin(), second.end());
+  auto open = Without(std::move(first), now.goal.set_aside, now.config.map.voxel_m);
+  if (!include_walked)
+    std::erase_if(open, [&](const Candidate& c) { return IsWalkedEntrance(world, c); });
+  return open;
+}
+
+std::optional<Target> ChooseExploration(Situation& now, std::vector<Candidate>* shown) {
+  *shown = OpenFrontiers(now);
+  if (auto target = ChooseFrontier(now, *shown)) return target;
+  const auto try_classes = [&](const std::vector<Candidate>& entrances) -> std::optional<Target> {
+    shown->insert(shown->end(), entrances.begin(), entrances.end());
+    // One class after the other, in the order in which OpenEntrances lists them.
+    for (std::size_t i = 0; i < entrances.size();) {
+      std::size_t end = i;
+      while (end < entrances.size() && entrances[end].kind == entrances[i].kind) ++end;
+      std::vector<Candidate> one_class(entrances.begin() + static_cast<std::ptrdiff_t>(i),
+                                       entrances.begin() + static_cast<std::ptrdiff_t>(end));
+      if (auto target = ChooseFrontier(now, std::move(one_class))) return target;
+      i = end;
+    }
+    return std::nullopt;
+  };
+  if (auto target = try_classes(OpenEntrances(now, now.world.level_m, false))) return target;
+  return try_classes(WayBackEntrances(now));
+}
+
+std::optional<Target> ChooseLivePoi(const Situation& now, int* id) {
+  const double camera_m = now.config.sensor.camera_height_m;
+  const auto& approach = now.config.policy.approach;
+  for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
+    if (IsBlacklisted(now.goal.blacklist, poi->p_center_world)) continue;
+    Candidate candidate;
+    candidate.kind = CandidateKind::kLivePoi;
+    candidate.id = poi->id;
+    candidate.p_focus_world = poi->p_center_world;
+    candidate.size = static_cast<int>(poi->voxels.size());
+    candidate.score = poi->confidence;
+    const bool is_active = poi->id == now.goal.active_live;
+    candidate.standing =
+        policy::Viewpoints(now.world.map, poi->voxels, approach.range_m - 0.1, approach, camera_m,
+                           is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{});
+    if (auto target = PlanTo(now, candidate, WholeMapRules(now), true)) {
+      *id = poi->id;
+      return target;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
+  const auto try_poi = [&](int i) -> std::optional<Target> {
+    HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(i)];
+    if (poi.is_exhausted || IsBlacklisted(now.goal.blacklist, poi.p_center_world))
+      return std::nullopt;
+    Candidate candidate;
+    candidate.kind = CandidateKind::kHistoryPoi;
+    candidate.id = i;
+    candidate.p_focus_world = poi.p_center_world;
+    candidate.size = static_cast<int>(poi.voxels.size());
+    candidate.score = poi.score;
+    const auto& approach = now.config.policy.approach;
+    for (const double range_m : {approach.range_m, 2 * approach.range_m}) {
+      candidate.standing = policy::Viewpoints(now.world.map, poi.voxels, range_m, approach,
+                                              now.config.sensor.camera_height_m);
+      if (auto target = PlanTo(now, candidate, WholeMapRules(now), true)) {
+        *index = i;
+        return target;
+      }
+    }
+    return std::nullopt;
+  };
+  if (now.goal.active_history >= 0) {
+    if (auto target = try_poi(now.goal.active_history)) return target;
+  }
+  for (int i = 0; i < static_cast<int>(now.goal.history.size()); ++i) {
+    if (i == now.goal.active_history) continue;
+    if (auto target = try_poi(i)) return target;
+  }
+  return std::nullopt;
+}
+
+std::optional<Target> ChooseStairFrontier(const Situation& now) {
+  GraphRules rules;
+  rules.kind = GraphKind::kStair;
+  rules.obstacles = now.obstacles;
+  for (const Candidate& candidate :
+       StairFrontiers(*now.goal.session, now.world.map, now.agent.p_world)) {
+    if (auto target = PlanTo(now, candidate, rules, true)) return target;
+  }
+  return std::nullopt;
+}
+
+std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& goal,
+                                         const Config& config) {
+  std::vector<HistoryPoi> places;
+  if (!config.policy.poi.use_history || world.memory.Size() == 0) return places;
+  for (const auto& cluster : memory::Query(world.memory, goal.text, config.query)) {
+    HistoryPoi poi;
+    poi.voxels = cluster.voxels;
+    poi.p_center_world = cluster.p_center_world;
+    poi.score = cluster.score;
+    places.push_back(std::move(poi));
+  }
+  return places;
+}
+
+}  // namespace crossnav::agent

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// From candidates to a planned target: which frontier, which POI, which stair frontier. Functions
+// of the world and the goal's state; each returns a target with its plan, or nothing.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "crossnav/agent/state.h"
+#include "crossnav/planner/astar.h"
+
+namespace crossnav::agent {
+
+/// What all of them look at.
+struct Situation {
+  const Config& config;
+  World& world;
+  GoalState& goal;
+  AgentPose agent;
+  std::optional<geometry::VoxelKey>
+      start;  ///< where a plan begins; nullopt = standing nowhere known
+  const std::set<geometry::VoxelKey>* obstacles = nullptr;
+};
+
+struct Target {
+  policy::Candidate candidate;
+  planner::Plan plan;
+  planner::GraphRules rules;
+};
+
+/// Rules of the graph of Basic Explore: this level only, unless the agent has strayed from it.
+planner::GraphRules LevelRules(const Situation& now);
+/// Rules of POI navigation: everything pathable, stairs included.
+planner::GraphRules WholeMapRules(const Situation& now);
+
+/// Best target of one class: the nearest candidate, or the committed one while it lasts.
+std::optional<Target> ChooseFrontier(Situation& now, std::vector<policy::Candidate> candidates);
+
+/// Traversable, then descend and ascent frontiers of the level, without what was set aside.
+std::vector<policy::Candidate> OpenFrontiers(const Situation& now);
+std::vector<policy::Candidate> OpenEntrances(const Situation& now, double level_m,
+                                             bool include_walked);
+
+/// Target of Basic Explore; nullopt when nothing is left on this level and no stairs lead on.
+std::optional<Target> ChooseExploration(Situation& now, std::vector<policy::Candidate>* shown);
+
+/// Viewpoint of the best stable live POI; `id` gets the POI.
+std::optional<Target> ChooseLivePoi(const Situation& now, int* id);
+/// Observation position of the best history POI that is left; `index` gets it.
+std::optional<Target> ChooseHistoryPoi(Situation& now, int* index);
+/// Stair frontier with the highest progress that can be reached.
+std::optional<Target> ChooseStairFrontier(const Situation& now);
+
+/// History POIs for the goal's text, from the memory as it is (paper, "Query-Conditioned
+/// Retrieval").
+std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& goal,
+                                         const Config& config);
+
+}  // namespace crossnav::agent
