@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The checks of the tree find faults that are planted, and pass a small tree that has none."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+SPDX = "// SPDX-License-Identifier: MIT\n"
+GOOD = {
+    "crossnav/core/pose.h": SPDX + "#include <Eigen/Core>\n#include <vector>\n",
+    "crossnav/core/result.h": SPDX + "#include <tl/expected.hpp>\n",
+    "crossnav/agent/agent.cpp": SPDX + '#include "crossnav/core/pose.h"\n// eq:known\n',
+    "crossnav/agent/CMakeLists.txt": "# SPDX-License-Identifier: MIT\n"
+                                     "crossnav_library(agent SOURCES agent.cpp DEPS core)\n",
+    "apps/crossnav/main.cpp": SPDX + '#include "crossnav/agent/agent.h"\n',
+    "docs/paper_map.md": "[link](../crossnav)\n| `eq:known` | what | `crossnav/agent/agent.cpp` | |\n",
+}
+
+
+class Checks(unittest.TestCase):
+    def run_check(self, name, changed):
+        """(exit status, output) of a check on the good tree with some files changed."""
+        with tempfile.TemporaryDirectory() as folder:
+            for relative, text in {**GOOD, **changed}.items():
+                path = pathlib.Path(folder) / relative
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            done = subprocess.run([sys.executable, str(SCRIPTS / f"check_{name}.py"), folder],
+                                  capture_output=True, text=True, check=False)
+            return done.returncode, done.stdout + done.stderr
+
+    def assert_found(self, check, changed, expected):
+        status, output = self.run_check(check, changed)
+        self.assertEqual(status, 1, output)
+        self.assertIn(expected, output)
+
+    def test_a_good_tree_passes(self):
+        for check in ("includes", "budgets", "docs"):
+            status, output = self.run_check(check, {})
+            self.assertEqual(status, 0, output)
+
+    def test_the_agent_including_the_simulator_is_found(self):
+        self.assert_found("includes", {"crossnav/agent/agent.cpp":
+                                       SPDX + '#include "crossnav/sim/scene.h"\n'},
+                          "agent may not include sim")
+
+    def test_the_agent_linking_the_evaluator_is_found(self):
+        self.assert_found("includes", {"crossnav/agent/CMakeLists.txt":
+                                       "crossnav_library(agent SOURCES agent.cpp DEPS core bench)\n"},
+                          "agent may not link bench")
+
+    def test_a_third_party_header_outside_its_adapter_is_found(self):
+        self.assert_found("includes", {"crossnav/core/pose.h": SPDX + "#include <tl/expected.hpp>\n"},
+                          "belongs behind crossnav/core/result.h")
+
+    def test_an_unknown_library_is_found(self):
+        self.assert_found("includes", {"crossnav/core/pose.h": SPDX + "#include <boost/any.hpp>\n"},
+                          "unknown third-party header")
+
+    def test_an_unknown_room_is_found(self):
+        self.assert_found("includes", {"crossnav/utils/misc.h": SPDX}, "crossnav/utils")
+
+    def test_a_missing_licence_line_is_found(self):
+        self.assert_found("budgets", {"crossnav/core/pose.h": "#pragma once\n"}, "pose.h:1")
+
+    def test_a_file_over_the_budget_is_found(self):
+        self.assert_found("budgets", {"crossnav/core/pose.h": SPDX + "\n" * 400}, "401 lines")
+
+    def test_a_citation_without_a_row_is_found(self):
+        self.assert_found("docs", {"crossnav/core/pose.h": SPDX + "// tab:nowhere\n"}, "tab:nowhere")
+
+    def test_a_row_that_names_a_missing_test_is_found(self):
+        row = "| `eq:known` | what | `crossnav/agent/agent.cpp` | `crossnav/core/pose.h` `NoSuch` |\n"
+        self.assert_found("docs", {"docs/paper_map.md": row}, "NoSuch is not in")
+
+    def test_a_broken_link_is_found(self):
+        self.assert_found("docs", {"README.md": "see [this](docs/gone.md)\n"}, "docs/gone.md")
+
+
+if __name__ == "__main__":
+    unittest.main()
