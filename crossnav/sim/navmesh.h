@@ -3,6 +3,8 @@
 // The agent cannot link this room.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -68,6 +70,9 @@ class NavMesh {
 
   /// Nearest point of the navmesh within `xy_m` and `z_m`.
   std::optional<Vector3d> Snap(const Vector3d& p_world, double xy_m = 0.5, double z_m = 0.5) const;
+
+  /// Heights of the walkable surfaces at (x, y) between the two limits, ascending [m].
+  std::vector<double> HeightsAt(double x_m, double y_m, double z_low_m, double z_high_m) const;
 
   /// Walks straight from `start` towards `end` along the surface and stops at the first border (no
   /// sliding). Returns where it ended.

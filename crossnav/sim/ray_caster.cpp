@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/sim/ray_caster.h"
+
+#include <array>
+#include <cmath>
+
+#include "crossnav/core/check.h"
+#include "crossnav/sim/embree_shim.h"
+#include "crossnav/sim/shading.h"
+
+namespace crossnav::sim {
+namespace {
+
+constexpr int kLanes = 16;
+constexpr int kTileWidth = 4, kTileHeight = 4;  // px, kLanes together
+
+constexpr std::array<int, kLanes> AllLanes() {
+  std::array<int, kLanes> lanes{};
+  for (int& lane : lanes) lane = -1;
+  return lanes;
+}
+
+}  // namespace
+
+struct RayCaster::Impl {
+  const Scene& scene;
+  EmbreeDevice device;
+  EmbreeScene rays;
+  // Geometry 0 is opaque; geometry 1 holds the triangles with holes and pays for the filter.
+  std::array<std::vector<std::uint32_t>, 2> triangles;  // Embree's primitive -> scene triangle
+  std::array<std::vector<TriangleLook>, 2> looks;
+
+  explicit Impl(const Scene& s) : scene(s) {}
+
+  bool HasHoles(std::size_t t) const {
+    const Material& m = scene.materials[scene.mesh.triangle_material[t]];
+    return m.texture >= 0 && !scene.mesh.uvs.empty() &&
+           !scene.textures[static_cast<std::size_t>(m.texture)].opaque.empty();
+  }
+
+  bool IsHole(std::uint32_t triangle, float s, float t) const {
+    const TriangleMesh& mesh = scene.mesh;
+    const Material& m = scene.materials[mesh.triangle_material[triangle]];
+    const MaskImage& opaque = scene.textures[static_cast<std::size_t>(m.texture)].opaque;
+    const auto& corner = mesh.triangles[triangle];
+    const auto &a = mesh.uvs[corner[0]], &b = mesh.uvs[corner[1]], &c = mesh.uvs[corner[2]];
+    const float u = (1 - s - t) * a[0] + s * b[0] + t * c[0];
+    const float v = (1 - s - t) * a[1] + s * b[1] + t * c[1];
+    const auto pick = [](float x, int size) {
+      return std::min(static_cast<int>((x - std::floor(x)) * static_cast<float>(size)), size - 1);
+    };
+    return opaque.At(pick(u, opaque.width), pick(v, opaque.height)) == 0;
+  }
+
+  TriangleLook LookOf(std::size_t t) const {
+    const Material& m = scene.materials[scene.mesh.triangle_material[t]];
+    const bool textured = m.texture >= 0 && !scene.mesh.uvs.empty();
+    const bool is_flat = !textured && scene.mesh.vertex_colours.empty();
+    return {scene.mesh.triangle_instance[t], m.colour, static_cast<std::uint8_t>(is_flat)};
+  }
+
+  static void FilterHoles(const RTCFilterFunctionNArguments* arguments) {
+    const auto& impl = *static_cast<const Impl*>(arguments->geometryUserPtr);
+    for (unsigned lane = 0; lane < arguments->N; ++lane) {
+      if (arguments->valid[lane] != -1) continue;
+      const unsigned primitive = RTCHitN_primID(arguments->hit, arguments->N, lane);
+      const float s = RTCHitN_u(arguments->hit, arguments->N, lane);
+      const float t = RTCHitN_v(arguments->hit, arguments->N, lane);
+      if (impl.IsHole(impl.triangles[1][primitive], s, t)) arguments->valid[lane] = 0;
+    }
+  }
+
+  void AddGeometry(unsigned id) {
+    const auto& chosen = triangles[id];
+    if (chosen.empty()) return;
+    const TriangleMesh& mesh = scene.mesh;
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.vertices.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), chosen.size()));
+    CROSSNAV_CHECK(vertices != nullptr && indices != nullptr, "out of memory for the scene");
+    for (const Vector3f& v : mesh.vertices) vertices = std::copy_n(v.data(), 3, vertices);
+    for (const std::uint32_t t : chosen) {
+      indices = std::copy_n(mesh.triangles[t].data(), 3, indices);
+      looks[id].push_back(LookOf(t));
+    }
+    if (id == 1) {
+      rtcSetGeometryUserData(geometry, this);
+      rtcSetGeometryIntersectFilterFunction(geometry, FilterHoles);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(rays.get(), geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+
+  void Build() {
+    device.reset(rtcNewDevice("threads=1"));
+    CROSSNAV_CHECK(device != nullptr, "Embree gives no device");
+    rays.reset(rtcNewScene(device.get()));
+    rtcSetSceneFlags(rays.get(), RTC_SCENE_FLAG_ROBUST);  // no cracks between neighbours
+    rtcSetSceneBuildQuality(rays.get(), RTC_BUILD_QUALITY_MEDIUM);
+    for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+      triangles[HasHoles(t) ? 1 : 0].push_back(static_cast<std::uint32_t>(t));
+    }
+    AddGeometry(0);
+    AddGeometry(1);
+    rtcCommitScene(rays.get());
+  }
+
+  struct Hit {
+    unsigned geometry, primitive;
+    float s, t;  // weights of the second and third corner
+  };
+
+  /// `n` and `d` need not be unit vectors.
+  Rgb8 ColourOf(const Hit& hit, const Vector3f& n, const Vector3f& d) const {
+    const float light = Light(n / std::sqrt(std::max(n.squaredNorm(), 1e-30F)),
+                              d / std::sqrt(d.squaredNorm()));
+    const TriangleLook& look = looks[hit.geometry][hit.primitive];
+    const Colour3f base =
+        look.is_flat != 0
+            ? Colour3f{float(look.colour.r), float(look.colour.g), float(look.colour.b)}
+            : SurfaceColour(scene, triangles[hit.geometry][hit.primitive], hit.s, hit.t);
+    return {static_cast<std::uint8_t>(base.r * light + 0.5F),
+            static_cast<std::uint8_t>(base.g * light + 0.5F),
+            static_cast<std::uint8_t>(base.b * light + 0.5F)};
+  }
+};
+
+RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) { impl_->Build(); }
+RayCaster::~RayCaster() = default;
+RayCaster::RayCaster(RayCaster&&) noexcept = default;
+
+namespace {
+
+/// A pinhole camera as float rays from one point; z of the direction in the camera frame is 1, so
+/// that the ray parameter is planar depth.
+struct RayGenerator {
+  Vector3f origin, forward, right, down;  // right and down per unit of normalised image plane
+  float fx, fy, cx, cy;
+
+  RayGenerator(const CameraIntrinsics& K, const Pose& T_world_camera)
+      : origin(T_world_camera.translation().cast<float>()),
+        forward(T_world_camera.linear().col(2).cast<float>()),
+        right(T_world_camera.linear().col(0).cast<float>()),
+        down(T_world_camera.linear().col(1).cast<float>()),
+        fx(static_cast<float>(K.fx)), fy(static_cast<float>(K.fy)),
+        cx(static_cast<float>(K.cx)), cy(static_cast<float>(K.cy)) {}
+
+  void Fill(int u0, int v0, RTCRayHit16& packet) const {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float x = (static_cast<float>(u0 + lane % kTileWidth) - cx) / fx;
+      const float y = (static_cast<float>(v0 + lane / kTileWidth) - cy) / fy;
+      packet.ray.org_x[lane] = origin.x();
+      packet.ray.org_y[lane] = origin.y();
+      packet.ray.org_z[lane] = origin.z();
+      packet.ray.dir_x[lane] = forward.x() + x * right.x() + y * down.x();
+      packet.ray.dir_y[lane] = forward.y() + x * right.y() + y * down.y();
+      packet.ray.dir_z[lane] = forward.z() + x * right.z() + y * down.z();
+      packet.ray.tnear[lane] = 0;
+      packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+      packet.ray.time[lane] = 0;
+      packet.ray.mask[lane] = ~0U;
+      packet.ray.id[lane] = 0;
+      packet.ray.flags[lane] = 0;
+      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+};
+
+}  // namespace
+
+Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_camera) const {
+  CROSSNAV_CHECK(camera.width_px > 0 && camera.height_px > 0, "camera without pixels");
+  CROSSNAV_CHECK(IsValidPose(T_world_camera), "camera pose is not a finite rotation");
+  Frame frame;
+  frame.rgb = RgbImage(camera.width_px, camera.height_px);
+  frame.depth_m = DepthImage(camera.width_px, camera.height_px);
+  frame.instance = InstanceImage(camera.width_px, camera.height_px);
+  const RayGenerator generator(camera, T_world_camera);
+  alignas(64) std::array<int, kLanes> valid = AllLanes();
+  alignas(64) RTCRayHit16 packet;
+  for (int v0 = 0; v0 < camera.height_px; v0 += kTileHeight) {
+    for (int u0 = 0; u0 < camera.width_px; u0 += kTileWidth) {
+      generator.Fill(u0, v0, packet);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const bool inside = u0 + lane % kTileWidth < camera.width_px &&
+                            v0 + lane / kTileWidth < camera.height_px;
+        valid[static_cast<std::size_t>(lane)] = inside ? -1 : 0;
+      }
+      IntersectPacket(impl_->rays.get(), valid.data(), &packet);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const bool hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+        if (valid[static_cast<std::size_t>(lane)] == 0 || !hit) continue;
+        const int u = u0 + lane % kTileWidth, v = v0 + lane / kTileWidth;
+        frame.rgb.At(u, v) = impl_->ColourOf(
+            {packet.hit.geomID[lane], packet.hit.primID[lane], packet.hit.u[lane],
+             packet.hit.v[lane]},
+            {packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]},
+            {packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]});
+        frame.depth_m.At(u, v) = packet.ray.tfar[lane];
+        frame.instance.At(u, v) =
+            impl_->looks[packet.hit.geomID[lane]][packet.hit.primID[lane]].instance;
+      }
+    }
+  }
+  return frame;
+}
+
+std::optional<RayHit> RayCaster::Cast(const Vector3d& p_world, const Vector3d& direction,
+                                      double max_m) const {
+  const double length = direction.norm();
+  if (!p_world.allFinite() || !(length > 0) || !std::isfinite(length)) return std::nullopt;
+  const Vector3f d = (direction / length).cast<float>();
+  RTCRayHit ray{};
+  ray.ray.org_x = static_cast<float>(p_world.x());
+  ray.ray.org_y = static_cast<float>(p_world.y());
+  ray.ray.org_z = static_cast<float>(p_world.z());
+  ray.ray.dir_x = d.x();
+  ray.ray.dir_y = d.y();
+  ray.ray.dir_z = d.z();
+  ray.ray.tfar = static_cast<float>(max_m);
+  ray.ray.mask = ~0U;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  IntersectOne(impl_->rays.get(), &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  RayHit hit;
+  hit.distance_m = ray.ray.tfar;
+  hit.instance = impl_->looks[ray.hit.geomID][ray.hit.primID].instance;
+  hit.p_world = p_world + direction / length * hit.distance_m;
+  hit.triangle = impl_->triangles[ray.hit.geomID][ray.hit.primID];
+  hit.colour = impl_->ColourOf({ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v},
+                               {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, d);
+  return hit;
+}
+
+}  // namespace crossnav::sim

@@ -24,6 +24,7 @@ struct RayHit {
   int instance = 0;
   Vector3d p_world = Vector3d::Zero();
   std::uint32_t triangle = 0;
+  Rgb8 colour;              ///< as Render would show it
 };
 
 class RayCaster {

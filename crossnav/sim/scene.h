@@ -52,9 +52,14 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<SceneInstance> instances;  ///< sorted by id
   std::uint64_t mesh_hash = 0;           ///< of geometry and semantics
+  std::vector<std::string> notes;        ///< what the reader left out, e.g. Basis textures
 
   const SceneInstance* FindInstance(int id) const;
 };
+
+/// Fills in what follows from the rest: instance order and boxes, mesh_hash, missing per-triangle
+/// data. LoadScene calls it; scenes built in code call it themselves.
+void UpdateDerived(Scene& scene);
 
 /// Raw semantic name -> category; exact names, never substrings.
 using CategoryTable = std::map<std::string, std::string, std::less<>>;

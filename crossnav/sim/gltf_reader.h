@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Binary glTF 2.0 -> one triangle mesh with all node transforms applied, in the FILE's own frame and
+// units (scene.cpp turns it into the world frame). Reads PNG and JPEG images; Basis images
+// (GOOGLE_texture_basis, KHR_texture_basisu) are left out with a note and the material's flat colour
+// is used. HM3D stores its Basis images bottom row first: a converter to PNG must flip them.
+// Every accessor is checked against its buffer before it is read; any bytes are safe to pass.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crossnav/core/result.h"
+#include "crossnav/sim/scene.h"
+
+namespace crossnav::sim {
+
+struct GltfModel {
+  TriangleMesh mesh;  ///< file frame; uvs and vertex_colours are empty or one per vertex
+  std::vector<Material> materials;  ///< never empty
+  std::vector<Texture> textures;
+  std::vector<std::string> notes;  ///< what was left out, for people
+};
+
+struct GltfOptions {
+  /// COLOR_0 is linear light and becomes sRGB; true keeps its bytes (the colours of a semantic mesh
+  /// are names, not light).
+  bool raw_vertex_colours = false;
+};
+
+/// `where` (a file name) prefixes errors; `folder` holds external images and buffers, if any.
+Result<GltfModel> ParseGlb(std::span<const std::uint8_t> bytes, const std::string& where,
+                           const std::filesystem::path& folder, const GltfOptions& options = {});
+
+Result<GltfModel> ReadGlb(const std::filesystem::path& file, const GltfOptions& options = {});
+
+}  // namespace crossnav::sim

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/sim/image_codec.h"
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+
+#include <jpeglib.h>
+#include <png.h>
+
+namespace crossnav::sim {
+namespace {
+
+constexpr std::int64_t kMaxPixels = 1LL << 28;  // chosen: 16384 x 16384, more is a broken header
+
+Texture FromRgba(const std::vector<std::uint8_t>& rgba, int width, int height) {
+  Texture texture;
+  texture.rgb = RgbImage(width, height);
+  bool any_hole = false;
+  for (std::size_t i = 0; i < texture.rgb.data.size(); ++i) {
+    texture.rgb.data[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
+    any_hole |= rgba[4 * i + 3] < 128;
+  }
+  if (!any_hole) return texture;
+  texture.opaque = MaskImage(width, height);
+  for (std::size_t i = 0; i < texture.opaque.data.size(); ++i) {
+    texture.opaque.data[i] = rgba[4 * i + 3] >= 128 ? 1 : 0;
+  }
+  return texture;
+}
+
+Result<Texture> DecodePng(std::span<const std::uint8_t> bytes, const std::string& where) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
+    return Fail(ErrorCode::kMalformed, std::string("PNG image: ") + image.message, where);
+  }
+  if (static_cast<std::int64_t>(image.width) * image.height > kMaxPixels) {
+    png_image_free(&image);
+    return Fail(ErrorCode::kMalformed, "PNG image is larger than 2^28 pixels", where);
+  }
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr) == 0) {
+    return Fail(ErrorCode::kMalformed, std::string("PNG image: ") + image.message, where);
+  }
+  return FromRgba(rgba, static_cast<int>(image.width), static_cast<int>(image.height));
+}
+
+struct JpegErrors {
+  jpeg_error_mgr manager;
+  std::jmp_buf jump;
+};
+
+// Reads into `rgb`; nothing with a destructor may live in this frame because of longjmp.
+bool ReadJpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors,
+              std::span<const std::uint8_t> bytes, RgbImage& rgb) {
+  if (setjmp(errors.jump) != 0) return false;
+  jpeg_create_decompress(&jpeg);
+  jpeg_mem_src(&jpeg, const_cast<unsigned char*>(bytes.data()),
+               static_cast<unsigned long>(bytes.size()));
+  jpeg_read_header(&jpeg, TRUE);
+  if (static_cast<std::int64_t>(jpeg.image_width) * jpeg.image_height > kMaxPixels) return false;
+  jpeg.out_color_space = JCS_RGB;
+  jpeg_start_decompress(&jpeg);
+  rgb = RgbImage(static_cast<int>(jpeg.output_width), static_cast<int>(jpeg.output_height));
+  while (jpeg.output_scanline < jpeg.output_height) {
+    auto* row = reinterpret_cast<JSAMPLE*>(&rgb.At(0, static_cast<int>(jpeg.output_scanline)));
+    jpeg_read_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_decompress(&jpeg);
+  return true;
+}
+
+Result<Texture> DecodeJpeg(std::span<const std::uint8_t> bytes, const std::string& where) {
+  static_assert(sizeof(Rgb8) == 3);
+  jpeg_decompress_struct jpeg{};
+  JpegErrors errors{};
+  jpeg.err = jpeg_std_error(&errors.manager);
+  errors.manager.error_exit = [](j_common_ptr info) {
+    std::longjmp(reinterpret_cast<JpegErrors*>(info->err)->jump, 1);
+  };
+  errors.manager.output_message = [](j_common_ptr) {};  // libraries do not print
+  Texture texture;
+  const bool ok = ReadJpeg(jpeg, errors, bytes, texture.rgb);
+  jpeg_destroy_decompress(&jpeg);
+  if (!ok) return Fail(ErrorCode::kMalformed, "broken JPEG image", where);
+  return texture;
+}
+
+}  // namespace
+
+Result<Texture> DecodeImage(std::span<const std::uint8_t> bytes, const std::string& where) {
+  if (bytes.size() > 8 && png_sig_cmp(bytes.data(), 0, 8) == 0) return DecodePng(bytes, where);
+  if (bytes.size() > 3 && bytes[0] == 0xFF && bytes[1] == 0xD8) return DecodeJpeg(bytes, where);
+  return Fail(ErrorCode::kUnsupported, "image is neither PNG nor JPEG", where);
+}
+
+}  // namespace crossnav::sim

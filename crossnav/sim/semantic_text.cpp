@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Semantic text and category table: both small line formats.
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "crossnav/core/categories.h"
+#include "crossnav/sim/scene_reader.h"
+
+namespace crossnav::sim {
+namespace {
+
+/// Takes the next line off `text`, without its end-of-line.
+std::string_view TakeLine(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+template <class T>
+bool ParseNumber(std::string_view text, T& value, int base = 10) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// `id,HEXRGB,"name, may hold commas",region`; the reason where it is not.
+const char* ParseSemanticLine(std::string_view line, SemanticLine& out) {
+  const std::size_t comma_1 = line.find(',');
+  if (comma_1 == std::string_view::npos) return "expected id,HEXRGB,\"name\",region";
+  const std::size_t comma_2 = line.find(',', comma_1 + 1);
+  const std::size_t comma_3 = line.rfind(',');
+  if (comma_2 == std::string_view::npos || comma_3 <= comma_2) {
+    return "expected id,HEXRGB,\"name\",region";
+  }
+  if (!ParseNumber(line.substr(0, comma_1), out.id) || out.id <= 0) {
+    return "the instance id is not a positive number";
+  }
+  const std::string_view hex = line.substr(comma_1 + 1, comma_2 - comma_1 - 1);
+  if (hex.size() != 6 || !ParseNumber(hex, out.colour, 16)) {
+    return "the colour is not six hexadecimal digits";
+  }
+  const std::string_view quoted = line.substr(comma_2 + 1, comma_3 - comma_2 - 1);
+  if (quoted.size() < 2 || quoted.front() != '"' || quoted.back() != '"') {
+    return "the name is not in double quotes";
+  }
+  out.name = std::string(quoted.substr(1, quoted.size() - 2));
+  if (!ParseNumber(line.substr(comma_3 + 1), out.region)) return "the region is not a number";
+  return nullptr;
+}
+
+}  // namespace
+
+Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text,
+                                                    const std::string& where) {
+  if (TakeLine(text).find("HM3D Semantic Annotations") == std::string_view::npos) {
+    return Fail(ErrorCode::kMalformed, "the header \"HM3D Semantic Annotations\" is missing",
+                where + ", line 1");
+  }
+  std::vector<SemanticLine> lines;
+  std::map<int, int> line_of_id;
+  std::map<std::uint32_t, int> line_of_colour;
+  for (int number = 2; !text.empty(); ++number) {
+    const std::string_view line = TakeLine(text);
+    if (line.empty()) continue;
+    const std::string at = where + ", line " + std::to_string(number);
+    SemanticLine parsed;
+    if (const char* reason = ParseSemanticLine(line, parsed)) {
+      return Fail(ErrorCode::kMalformed, reason, at);
+    }
+    if (const auto [it, is_new] = line_of_id.emplace(parsed.id, number); !is_new) {
+      return Fail(ErrorCode::kMalformed,
+                  "instance id is already used in line " + std::to_string(it->second), at);
+    }
+    if (const auto [it, is_new] = line_of_colour.emplace(parsed.colour, number); !is_new) {
+      return Fail(ErrorCode::kMalformed,
+                  "colour is already used in line " + std::to_string(it->second), at);
+    }
+    lines.push_back(std::move(parsed));
+  }
+  return lines;
+}
+
+Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::string& where) {
+  CategoryTable table;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::string_view line = TakeLine(text);
+    if (line.empty() || line.front() == '#') continue;
+    const std::string at = where + ", line " + std::to_string(number);
+    const std::size_t tab = line.find('\t');
+    if (tab == std::string_view::npos || tab == 0 || tab + 1 == line.size()) {
+      return Fail(ErrorCode::kMalformed, "expected \"raw name<TAB>category\"", at);
+    }
+    const std::string category(line.substr(tab + 1));
+    if (std::find(kCategories.begin(), kCategories.end(), category) == kCategories.end()) {
+      return Fail(ErrorCode::kInvalid, "\"" + category + "\" is not one of the six categories", at);
+    }
+    if (!table.emplace(line.substr(0, tab), category).second) {
+      return Fail(ErrorCode::kMalformed, "the raw name is listed twice", at);
+    }
+  }
+  return table;
+}
+
+}  // namespace crossnav::sim
