@@ -167,10 +167,10 @@ void FurnishBelow(HousePlan& plan) {
   Put(plan, "stool", kKitchenRoom, {2.6, 5.75, 0}, 0);
   Put(plan, "chest of drawers", kHallBelow, {5.9, 5.0, 0}, kToWest);
   Put(plan, "dining table", kDiningRoom, {8.2, 2.5, 0}, kToNorth);
-  Put(plan, "dining chair", kDiningRoom, {7.85, 1.75, 0}, kToNorth);
-  Put(plan, "dining chair", kDiningRoom, {8.55, 1.75, 0}, kToNorth);
-  Put(plan, "dining chair", kDiningRoom, {7.85, 3.25, 0}, kToSouth);
-  Put(plan, "dining chair", kDiningRoom, {8.55, 3.25, 0}, kToSouth);
+  Put(plan, "dining chair", kDiningRoom, {7.85, 1.65, 0}, kToNorth);
+  Put(plan, "dining chair", kDiningRoom, {8.55, 1.65, 0}, kToNorth);
+  Put(plan, "dining chair", kDiningRoom, {7.85, 3.35, 0}, kToSouth);
+  Put(plan, "dining chair", kDiningRoom, {8.55, 3.35, 0}, kToSouth);
   Put(plan, "bookcase", kDiningRoom, {9.0, 4.36, 0}, kToSouth);
   Put(plan, "desk", kOfficeRoom, {9.58, 7.2, 0}, kToWest);
   PutOnTop(plan, "laptop", {-0.05, 0, 0}, kToWest);

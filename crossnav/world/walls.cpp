@@ -45,6 +45,7 @@ void AddPiece(const Wall& wall, const WallFrame& f, const Rect& piece_xz, SceneB
   mesh.AddQuad({x1, h, z0}, {x0, h, z0}, {x0, h, z1}, {x1, h, z1});
   mesh.material = right;
   mesh.AddQuad({x0, -h, z0}, {x1, -h, z0}, {x1, -h, z1}, {x0, -h, z1});
+  mesh.material = left;  // reveals
   mesh.AddQuad({x0, h, z0}, {x0, -h, z0}, {x0, -h, z1}, {x0, h, z1});
   mesh.AddQuad({x1, -h, z0}, {x1, h, z0}, {x1, h, z1}, {x1, -h, z1});
   mesh.AddQuad({x0, -h, z1}, {x1, -h, z1}, {x1, h, z1}, {x0, h, z1});

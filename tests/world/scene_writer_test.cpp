@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/scene_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "crossnav/world/glb_writer.h"
+#include "crossnav/world/scene_builder.h"
+#include "temp_dir.h"
+
+namespace crossnav::world {
+namespace {
+
+sim::Scene TwoBoxes() {
+  SceneBuilder scene;
+  scene.BeginInstance("wall", 3);
+  scene.mesh.material = scene.Material({200, 100, 50});
+  scene.mesh.AddBox({1, 2, 3}, {2, 3, 4});
+  scene.BeginInstance("never drawn", 0);
+  scene.BeginInstance("couch", 4);
+  scene.mesh.material = scene.Material({10, 20, 30});
+  scene.mesh.AddBox({5, 5, 0}, {6, 7, 1});
+  scene.mesh.material = scene.Material({200, 100, 50});
+  scene.mesh.AddBox({8, 5, 0}, {9, 7, 1});
+  return scene.Finish("00042-Boxes");
+}
+
+std::string ReadAll(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+
+TEST(SceneWriter, WhatIsWrittenIsWhatTheReaderGives) {
+  const TempDir dir;
+  const sim::Scene scene = TwoBoxes();
+  const auto folder = WriteScene(scene, dir.path());
+  ASSERT_TRUE(folder.has_value()) << folder.error().Message();
+  const auto read = sim::LoadScene(*folder);
+  ASSERT_TRUE(read.has_value()) << read.error().Message();
+  EXPECT_EQ(read->id, "00042-Boxes");
+  ASSERT_EQ(read->instances.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read->instances[i].id, scene.instances[i].id);
+    EXPECT_EQ(read->instances[i].name, scene.instances[i].name);
+    EXPECT_EQ(read->instances[i].region, scene.instances[i].region);
+    EXPECT_TRUE(read->instances[i].box.min.isApprox(scene.instances[i].box.min, 1e-6));
+    EXPECT_TRUE(read->instances[i].box.max.isApprox(scene.instances[i].box.max, 1e-6));
+  }
+  EXPECT_EQ(read->instances[1].category, "sofa");
+  ASSERT_EQ(read->mesh.triangles.size(), 36U);
+  std::multiset<std::pair<int, int>> before, after;  // (instance, colour)
+  for (std::size_t t = 0; t < 36; ++t) {
+    before.emplace(scene.mesh.triangle_instance[t],
+                   scene.materials[scene.mesh.triangle_material[t]].colour.r);
+    after.emplace(read->mesh.triangle_instance[t],
+                  read->materials[read->mesh.triangle_material[t]].colour.r);
+  }
+  EXPECT_EQ(before, after);
+}
+
+TEST(SceneWriter, FileFrameIsZUpWithXToMinusY) {
+  SceneBuilder scene;
+  scene.BeginInstance("wall", 0);
+  scene.mesh.material = scene.Material({1, 2, 3});
+  scene.mesh.AddTriangle({1, 2, 3}, {4, 2, 3}, {1, 7, 3});
+  const std::string glb = EncodeRenderGlb(scene.Finish("00001-Frame"));
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, glb.data() + 12, 4);
+  float p[3];
+  std::memcpy(p, glb.data() + 20 + json_size + 8, sizeof p);
+  EXPECT_FLOAT_EQ(p[0], -2);  // x_f = -y_world
+  EXPECT_FLOAT_EQ(p[1], 1);   // y_f = x_world
+  EXPECT_FLOAT_EQ(p[2], 3);
+}
+
+TEST(SceneWriter, SameSceneGivesTheSameBytes) {
+  EXPECT_EQ(EncodeRenderGlb(TwoBoxes()), EncodeRenderGlb(TwoBoxes()));
+  EXPECT_EQ(EncodeSemanticGlb(TwoBoxes()), EncodeSemanticGlb(TwoBoxes()));
+}
+
+TEST(SceneWriter, SemanticTextFollowsHm3d) {
+  std::istringstream text(SemanticText(TwoBoxes()));
+  std::string line;
+  std::getline(text, line);
+  EXPECT_EQ(line, "HM3D Semantic Annotations");
+  std::getline(text, line);
+  EXPECT_EQ(line, "1,9E3779,\"wall\",3");
+}
+
+TEST(SceneWriter, SemanticColoursAreDistinct) {
+  std::set<int> seen;
+  for (int id = 1; id < 70000; ++id) {
+    const Rgb8 c = SemanticColour(id);
+    EXPECT_TRUE(seen.insert(c.r << 16 | c.g << 8 | c.b).second) << id;
+  }
+}
+
+TEST(SceneWriter, LeavesNoHalfWrittenFileAndListsTheScene) {
+  const TempDir dir;
+  ASSERT_TRUE(WriteScene(TwoBoxes(), dir.path()).has_value());
+  for (const auto& e : std::filesystem::recursive_directory_iterator(dir.path())) {
+    EXPECT_NE(e.path().extension(), ".part");
+  }
+  const std::string config = ReadAll(dir.path() / "crossnav.scene_dataset_config.json");
+  EXPECT_NE(config.find("00042-Boxes/Boxes.glb"), std::string::npos);
+}
+
+TEST(SceneWriter, RefusesBadIdsAndEmptyScenes) {
+  const TempDir dir;
+  sim::Scene scene = TwoBoxes();
+  scene.id = "nodash";
+  EXPECT_FALSE(WriteScene(scene, dir.path()).has_value());
+  EXPECT_FALSE(WriteScene(SceneBuilder().Finish("00001-Empty"), dir.path()).has_value());
+  const std::filesystem::path file = dir.path() / "file";
+  std::ofstream(file) << "x";
+  const auto below_file = WriteScene(TwoBoxes(), file);
+  ASSERT_FALSE(below_file.has_value());
+  EXPECT_EQ(below_file.error().code, ErrorCode::kIo);
+}
+
+TEST(SceneWriter, TexturesSurviveTheRoundTrip) {
+  const TempDir dir;
+  SceneBuilder scene;
+  sim::Texture texture;
+  texture.rgb = RgbImage(4, 2);
+  for (int u = 0; u < 4; ++u) {
+    for (int v = 0; v < 2; ++v)
+      texture.rgb.At(u, v) = {std::uint8_t(60 * u), std::uint8_t(90 * v), 7};
+  }
+  texture.opaque = MaskImage(4, 2, 1);
+  texture.opaque.At(3, 1) = 0;
+  const int index = scene.AddTexture(texture);
+  scene.BeginInstance("rug", 0);
+  scene.mesh.material = scene.Material({255, 255, 255}, index);
+  scene.mesh.AddQuad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  const auto folder = WriteScene(scene.Finish("00001-Rug"), dir.path());
+  ASSERT_TRUE(folder.has_value());
+  const auto read = sim::LoadScene(*folder);
+  ASSERT_TRUE(read.has_value()) << read.error().Message();
+  ASSERT_EQ(read->textures.size(), 1U);
+  EXPECT_EQ(read->textures[0].rgb.data, texture.rgb.data);
+  EXPECT_EQ(read->textures[0].opaque.data, texture.opaque.data);
+}
+
+}  // namespace
+}  // namespace crossnav::world
