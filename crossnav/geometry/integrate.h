@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// From a depth image to the frame masks: end voxels, and the voxels before them. Internal.
+// From a depth image to the frame masks: end voxels, and the voxels that rays pass before them.
+// Two ways to the second, with the same result under `map.rays = exact`: walking every pixel's ray,
+// or asking of every voxel in view whether some ray passes it, which visits a voxel once per frame
+// instead of once per pixel. Internal to the map.
 #pragma once
 
 #include "crossnav/core/camera.h"
@@ -14,7 +17,26 @@ struct DepthFrame {
   const Pose& T_world_camera;
 };
 
-/// Fills map.pixels and the frame masks by walking pixels' rays (map.rays).
-void CollectByWalking(MapData& map, const DepthFrame& frame);
+/// Smallest box that holds the camera's voxel and all ends.
+struct KeyBounds {
+  VoxelKey lo, hi;
+  void Add(const VoxelKey& key) {
+    lo = {std::min(lo.x, key.x), std::min(lo.y, key.y), std::min(lo.z, key.z)};
+    hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), std::max(hi.z, key.z)};
+  }
+};
+
+/// Marks the end voxels of the frame and lists them in map.pixels.
+KeyBounds CollectEnds(MapData& map, const DepthFrame& frame);
+
+/// Marks what rays pass, ray by ray. Cost: pixels x voxels along a ray.
+void CollectFreeByWalking(MapData& map, const DepthFrame& frame);
+
+/// The same, voxel by voxel; needs map.view of this frame. `fast`: a voxel that only few rays pass
+/// may be missed. Voxels whose evidence could not change are not asked.
+void CollectFreeByProjection(MapData& map, const DepthFrame& frame, const KeyBounds& bounds);
+
+/// True where projecting voxels costs less than walking rays: almost always, but for small images.
+bool IsProjectionCheaper(const MapData& map, const DepthFrame& frame);
 
 }  // namespace crossnav::geometry

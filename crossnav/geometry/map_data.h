@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "crossnav/geometry/depth_view.h"
 #include "crossnav/geometry/voxel_map.h"
 
 namespace crossnav::geometry {
@@ -30,6 +31,7 @@ struct MapData {
   Grid grid;
   std::vector<GridEntry*> changed;  ///< blocks whose evidence changed since UpdateStates()
   std::vector<GridEntry*> frame;    ///< blocks the current frame touched
+  DepthView view;                   ///< of the current frame
   std::vector<PixelVoxel> pixels;
   std::vector<StateChange> changes;
   std::uint64_t revision = 0;

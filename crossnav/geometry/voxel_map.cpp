@@ -55,7 +55,13 @@ const std::vector<PixelVoxel>& VoxelMap::Integrate(const DepthImage& depth_m,
   CROSSNAV_CHECK(T_world_camera.matrix().allFinite(), "the pose must be finite");
   CROSSNAV_CHECK(depth_m.width == camera.width_px && depth_m.height == camera.height_px,
                  "depth image and camera differ in size");
-  CollectByWalking(*data_, {depth_m, camera, T_world_camera});
+  const DepthFrame frame{depth_m, camera, T_world_camera};
+  data_->view.Reset(depth_m, data_->config);
+  const KeyBounds bounds = CollectEnds(*data_, frame);
+  if (IsProjectionCheaper(*data_, frame))
+    CollectFreeByProjection(*data_, frame, bounds);
+  else
+    CollectFreeByWalking(*data_, frame);
   MergeFrame(*data_);
   return data_->pixels;
 }
