@@ -14,6 +14,10 @@
 
 namespace crossnav::memory {
 
+/// Asks the system to back `bytes` at `begin` with huge pages, where it can: a query reads every
+/// row once, and small pages cost it a third. No effect on results.
+void AdviseHugePages(void* begin, std::size_t bytes);
+
 class RowStore {
  public:
   explicit RowStore(bool is_half, int dim = 0);
@@ -42,8 +46,8 @@ class RowStore {
   void Keep(std::span<const std::int64_t> rows);
 
  private:
-  static constexpr std::int64_t kChunkRows = 1024;  // chosen: 1.5 MiB at 768 features
-  static constexpr std::size_t kAlignment = 64;
+  static constexpr std::int64_t kChunkRows = 4096;  // chosen: three huge pages at 768 features
+  static constexpr std::size_t kAlignment = std::size_t{2} << 20;  // a huge page
   struct Free {
     void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t(kAlignment)); }
   };
