@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
+#include <limits>
 
 #include "crossnav/core/cells.h"
 #include "crossnav/sim/navmesh_detail.h"
-#include "crossnav/sim/ray_caster.h"
 
 namespace crossnav::sim {
 namespace {
@@ -18,8 +16,6 @@ namespace {
 constexpr int kTileCells = 256;  // chosen: 7.7 m at 0.03 m; keeps every 16-bit index of Recast far away
 constexpr int kMaxTiles = 1024;  // chosen: leaves 12 bits for the polygons of a tile
 constexpr int kVertsPerPoly = 6;
-constexpr double kMinIslandShare = 0.1;  // chosen: of the main island; smaller ones are furniture
-constexpr double kMinCover = 0.5;        // chosen: share of an indoor island that has something above
 
 template <class T, void (*Free)(T*)>
 struct RecastRelease {
@@ -213,83 +209,6 @@ std::vector<std::vector<int>> BinTriangles(const Soup& soup, const rcConfig& c, 
   return bins;
 }
 
-/// Islands = connected polygons. Keeps the one with the most floor under cover (a flat roof is large
-/// too, but nothing is above it) and others that are indoors and of a size with it.
-class IslandFilter {
- public:
-  IslandFilter(dtNavMesh& mesh, const Scene& scene, const NavMeshSettings& settings)
-      : mesh_(mesh), caster_(scene), settings_(settings) {}
-
-  void Run() {
-    FindIslands();
-    Measure();
-    const auto best = std::max_element(islands_.begin(), islands_.end(), [](auto& a, auto& b) {
-      return std::pair(a.covered_m2, a.area_m2) < std::pair(b.covered_m2, b.area_m2);
-    });
-    if (best == islands_.end()) return;
-    const double least_m2 = std::max(settings_.min_island_m2, kMinIslandShare * best->area_m2);
-    const bool best_is_indoor = best->covered_m2 >= kMinCover * best->area_m2;
-    for (Island& island : islands_) {
-      const bool is_indoor = island.covered_m2 >= kMinCover * island.area_m2;
-      island.keep = island.area_m2 >= least_m2 && (is_indoor || !best_is_indoor);
-    }
-    if (best->area_m2 >= settings_.min_island_m2) best->keep = true;
-    for (const auto& [ref, island] : island_of_) {
-      if (!islands_[island].keep) mesh_.setPolyFlags(ref, 0);
-    }
-  }
-
- private:
-  struct Island {
-    double area_m2 = 0, covered_m2 = 0;
-    bool keep = false;
-  };
-
-  void FindIslands() {
-    for (int i = 0; i < mesh_.getMaxTiles(); ++i) {
-      const dtMeshTile* tile = std::as_const(mesh_).getTile(i);
-      if (tile == nullptr || tile->header == nullptr) continue;
-      for (int p = 0; p < tile->header->polyCount; ++p) {
-        const dtPolyRef ref = mesh_.getPolyRefBase(tile) | static_cast<dtPolyRef>(p);
-        if (island_of_.count(ref) == 0) Flood(ref);
-      }
-    }
-  }
-
-  void Flood(dtPolyRef start) {
-    const std::size_t id = islands_.size();
-    islands_.emplace_back();
-    std::vector<dtPolyRef> open{start};
-    island_of_[start] = id;
-    while (!open.empty()) {
-      const dtMeshTile* tile = nullptr;
-      const dtPoly* poly = nullptr;
-      mesh_.getTileAndPolyByRefUnsafe(open.back(), &tile, &poly);
-      open.pop_back();
-      for (unsigned link = poly->firstLink; link != DT_NULL_LINK; link = tile->links[link].next) {
-        const dtPolyRef next = tile->links[link].ref;
-        if (next != 0 && island_of_.emplace(next, id).second) open.push_back(next);
-      }
-    }
-  }
-
-  void Measure() {
-    ForEachDetailTriangle(mesh_, [this](dtPolyRef ref, const WorldTriangle& t) {
-      const double area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-      Island& island = islands_[island_of_.at(ref)];
-      island.area_m2 += area;
-      const Vector3d above = (t[0] + t[1] + t[2]) / 3 + Vector3d(0, 0, 0.3);
-      if (caster_.Cast(above, Vector3d::UnitZ(), 20.0)) island.covered_m2 += area;
-    });
-  }
-
-  dtNavMesh& mesh_;
-  RayCaster caster_;
-  const NavMeshSettings& settings_;
-  std::map<dtPolyRef, std::size_t> island_of_;
-  std::vector<Island> islands_;
-};
-
 int BitsFor(int count) {
   int bits = 0;
   while ((1 << bits) < count) ++bits;
@@ -344,7 +263,7 @@ Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settin
       }
     }
   }
-  IslandFilter(*mesh, scene, settings).Run();
+  DropIslands(*mesh, scene, settings);
   return mesh;
 }
 

@@ -66,6 +66,9 @@ void ForEachDetailTriangle(const dtNavMesh& mesh, Fn&& fn) {
 /// Recast pipeline in tiles, islands removed (navmesh_build.cpp).
 Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settings);
 
+/// Takes the walk flag off islands nobody can use (navmesh_islands.cpp).
+void DropIslands(dtNavMesh& mesh, const Scene& scene, const NavMeshSettings& settings);
+
 /// Tiles of a mesh as bytes and back, for the cache (navmesh_cache.cpp).
 std::vector<std::uint8_t> SaveTiles(const dtNavMesh& mesh, std::uint64_t key);
 /// Null where the bytes are not exactly what SaveTiles wrote for `key`.
