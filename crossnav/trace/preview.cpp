@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/trace/preview.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include <jpeglib.h>
+
+#include "crossnav/core/check.h"
+
+namespace crossnav::trace {
+namespace {
+
+Rgb8 MeanOfBlock(const RgbImage& rgb, int u0, int v0, int factor) {
+  int sum[3] = {0, 0, 0};
+  for (int v = v0; v < v0 + factor; ++v) {
+    for (int u = u0; u < u0 + factor; ++u) {
+      const Rgb8& pixel = rgb.At(u, v);
+      sum[0] += pixel.r;
+      sum[1] += pixel.g;
+      sum[2] += pixel.b;
+    }
+  }
+  const int n = factor * factor;
+  const auto mean = [n](int s) { return static_cast<std::uint8_t>((s + n / 2) / n); };
+  return {mean(sum[0]), mean(sum[1]), mean(sum[2])};
+}
+
+std::uint16_t ToMm(float depth_m) {
+  if (!(depth_m > 0) || depth_m > 65.535F) return 0;
+  return static_cast<std::uint16_t>(std::lround(static_cast<double>(depth_m) * 1000));
+}
+
+std::uint8_t ToGrey(std::uint16_t depth_mm, double max_m) {
+  if (depth_mm == 0) return 0;
+  return static_cast<std::uint8_t>(1 + std::lround(254 * std::min(depth_mm / 1000.0 / max_m, 1.0)));
+}
+
+void AppendPng(png_structp png, png_bytep bytes, png_size_t count) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
+}
+
+}  // namespace
+
+int ShrinkFactor(int size_px, int max_px) {
+  return std::max(1, (size_px + max_px - 1) / std::max(1, max_px));
+}
+
+RgbImage Shrink(const RgbImage& rgb, int factor) {
+  if (factor <= 1) return rgb;
+  RgbImage small(rgb.width / factor, rgb.height / factor);
+  for (int v = 0; v < small.height; ++v) {
+    for (int u = 0; u < small.width; ++u) {
+      small.At(u, v) = MeanOfBlock(rgb, u * factor, v * factor, factor);
+    }
+  }
+  return small;
+}
+
+Image<std::uint16_t> ShrinkDepthMm(const DepthImage& depth_m, int factor) {
+  Image<std::uint16_t> small(depth_m.width / factor, depth_m.height / factor);
+  for (int v = 0; v < small.height; ++v) {
+    for (int u = 0; u < small.width; ++u) {
+      small.At(u, v) = ToMm(depth_m.At(u * factor + factor / 2, v * factor + factor / 2));
+    }
+  }
+  return small;
+}
+
+std::string EncodeJpeg(const RgbImage& rgb, int quality) {
+  CROSSNAV_CHECK(!rgb.empty(), "an empty image has no JPEG");
+  jpeg_error_mgr errors;
+  jpeg_compress_struct jpeg;
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* buffer = nullptr;
+  unsigned long size = 0;  // NOLINT(google-runtime-int): libjpeg's type
+  jpeg_mem_dest(&jpeg, &buffer, &size);
+  jpeg.image_width = static_cast<JDIMENSION>(rgb.width);
+  jpeg.image_height = static_cast<JDIMENSION>(rgb.height);
+  jpeg.input_components = 3;
+  jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, quality, TRUE);
+  jpeg.dct_method = JDCT_ISLOW;  // the same bits with and without SIMD
+  jpeg.optimize_coding = TRUE;
+  jpeg_start_compress(&jpeg, TRUE);
+  static_assert(sizeof(Rgb8) == 3);
+  for (int v = 0; v < rgb.height; ++v) {
+    auto* row = reinterpret_cast<JSAMPROW>(const_cast<Rgb8*>(&rgb.At(0, v)));
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  std::string bytes(reinterpret_cast<char*>(buffer), size);
+  jpeg_destroy_compress(&jpeg);
+  std::free(buffer);  // NOLINT(cppcoreguidelines-no-malloc): libjpeg allocated it
+  return bytes;
+}
+
+std::string EncodeDepthPng(const Image<std::uint16_t>& depth_mm, double max_m) {
+  CROSSNAV_CHECK(!depth_mm.empty(), "an empty image has no PNG");
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  CROSSNAV_CHECK(png != nullptr, "libpng gave no writer");
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(png, &bytes, AppendPng, nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(depth_mm.width),
+               static_cast<png_uint_32>(depth_mm.height), 8, PNG_COLOR_TYPE_GRAY,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  std::vector<png_byte> row(static_cast<std::size_t>(depth_mm.width));
+  for (int v = 0; v < depth_mm.height; ++v) {
+    for (int u = 0; u < depth_mm.width; ++u) {
+      row[static_cast<std::size_t>(u)] = ToGrey(depth_mm.At(u, v), max_m);
+    }
+    png_write_row(png, row.data());
+  }
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
+}  // namespace crossnav::trace

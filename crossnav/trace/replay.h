@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What a replay holds: one episode, step by step (docs/formats/replay.md). Written by ReplayWriter,
+// read by ReadReplay, shown by the page of replay_page.h. World frame, metres. Ground truth in it
+// (goal boxes, outcomes) is for display and comes from the evaluator, never from the agent.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crossnav/core/box.h"
+#include "crossnav/core/image.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/trace/step_trace.h"
+
+namespace crossnav::trace {
+
+inline constexpr int kReplayFormat = 1;
+/// A step has no clock; for viewers it lasts this long.
+inline constexpr std::uint64_t kStepNs = 100'000'000;
+
+/// A true instance of a goal, for display.
+struct GoalInstance {
+  std::string goal;
+  Box3 box;
+};
+
+/// Written once, before the first step.
+struct ReplayInfo {
+  std::string scene_id;
+  std::string episode_id;
+  std::vector<std::string> goals;  ///< in order
+  std::string variant;
+  std::string perception;
+  std::string version;
+  std::string config_hash;
+  std::uint64_t seed = 0;
+  double voxel_m = 0.10;
+  std::vector<GoalInstance> goal_instances;
+};
+
+/// The evaluator's word on a goal, when it is over.
+struct StageResult {
+  int goal_index = 0;
+  std::string goal;
+  std::string outcome;  ///< e.g. "success", "stop_out_of_range", "budget"
+  bool success = false;
+  int last_step = 0;
+  double length_m = 0;
+  double shortest_m = 0;
+};
+
+/// One step as the writer takes it. `observation` may be null: then there are no images.
+struct ReplayFrame {
+  const StepTrace& trace;
+  const Observation* observation = nullptr;
+};
+
+/// One step as the reader gives it.
+struct ReplayStep {
+  StepTrace trace;
+  std::string image_jpeg;         ///< empty where none was written
+  Image<std::uint16_t> depth_mm;  ///< 0 = invalid; empty where none was written
+};
+
+struct Replay {
+  ReplayInfo info;
+  std::vector<ReplayStep> steps;
+  std::vector<StageResult> stages;
+  bool is_complete = true;  ///< false: the file was cut off; `steps` ends at the tear
+};
+
+}  // namespace crossnav::trace

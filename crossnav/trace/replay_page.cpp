@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/trace/replay_page.h"
+
+#include <zlib.h>
+
+#include <fstream>
+
+#include "crossnav/core/check.h"
+#include "crossnav/trace/foxglove.h"
+#include "crossnav/trace/json_text.h"
+#include "crossnav/trace/preview.h"
+#include "crossnav/trace/replay_json.h"
+#include "crossnav/trace/replay_reader.h"
+#include "crossnav/trace/replay_schemas.h"
+#include "crossnav/trace/trace_json.h"
+#include "crossnav/trace/voxel_codec.h"
+
+namespace crossnav::trace {
+namespace {
+
+constexpr std::string_view kDataMark = "@REPLAY_DATA@";
+constexpr double kDepthMaxM = 10;  // chosen: the map's depth limit
+
+std::string Base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = (group << 8) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += i + k > bytes.size() ? '=' : kDigits[(group >> (18 - 6 * k)) & 63];
+    }
+  }
+  return out;
+}
+
+/// zlib stream, as a browser's DecompressionStream("deflate") reads it.
+std::string Deflate(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string out(size, '\0');
+  const int code =
+      compress2(reinterpret_cast<Bytef*>(out.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 9);
+  CROSSNAV_CHECK(code == Z_OK, "zlib failed");
+  out.resize(size);
+  return out;
+}
+
+void AppendVoxels(JsonText& json, const Replay& replay) {
+  std::string all;
+  json.Key("voxels").BeginObject().Key("ends").BeginArray();
+  for (const ReplayStep& step : replay.steps) {
+    all += EncodeVoxelRuns(step.trace.voxel_changes);
+    json.Value(all.size());
+  }
+  json.EndArray().Field("deflated", std::string_view(Base64(Deflate(all)))).EndObject();
+}
+
+void AppendStates(JsonText& json) {
+  json.Key("states").BeginArray();
+  for (int i = 0; i < geometry::kVoxelStateCount; ++i) {
+    const auto state = static_cast<geometry::VoxelState>(i);
+    const Rgb8 c = ColourOf(state);
+    json.BeginObject()
+        .Field("name", geometry::FactsOf(state).name)
+        .Field("is_surface", geometry::IsSurface(state))
+        .Key("colour")
+        .BeginArray()
+        .Value(int{c.r})
+        .Value(int{c.g})
+        .Value(int{c.b})
+        .EndArray()
+        .EndObject();
+  }
+  json.EndArray();
+}
+
+std::string PageData(const Replay& replay) {
+  JsonText json;
+  json.BeginObject().Key("info").Raw(ToJson(replay.info));
+  json.Field("is_complete", replay.is_complete).Field("depth_max_m", kDepthMaxM);
+  AppendStates(json);
+  json.Key("stages").BeginArray();
+  for (const StageResult& stage : replay.stages) json.Raw(ToJson(stage));
+  json.EndArray().Key("steps").BeginArray();
+  for (const ReplayStep& step : replay.steps) json.Raw(ToJson(step.trace, VoxelText::kOmit));
+  json.EndArray().Key("images").BeginArray();
+  for (const ReplayStep& step : replay.steps) json.Value(std::string_view(Base64(step.image_jpeg)));
+  json.EndArray().Key("depths").BeginArray();
+  for (const ReplayStep& step : replay.steps) {
+    const bool has_depth = !step.depth_mm.empty();
+    const std::string png = has_depth ? EncodeDepthPng(step.depth_mm, kDepthMaxM) : std::string();
+    json.Value(std::string_view(Base64(png)));
+  }
+  json.EndArray();
+  AppendVoxels(json, replay);
+  json.EndObject();
+  return json.Take();
+}
+
+/// In JSON, '<' stands in texts only; written so, no text can end the page's script element.
+std::string EscapeForScript(const std::string& json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+Result<void> WriteWhole(const std::filesystem::path& path, const std::string& bytes) {
+  std::filesystem::path part = path;
+  part += ".part";
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  std::error_code code;
+  if (out) std::filesystem::rename(part, path, code);
+  if (!out || code) {
+    std::filesystem::remove(part, code);
+    return Fail(ErrorCode::kIo, "cannot write the page; does its folder exist?", path.string());
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string ReplayPage(const Replay& replay) {
+  const std::string_view page = ReplayPageTemplate();
+  const std::size_t mark = page.find(kDataMark);
+  CROSSNAV_CHECK(mark != std::string_view::npos, "the page's template has no place for the data");
+  std::string out(page.substr(0, mark));
+  out += EscapeForScript(PageData(replay));
+  out += page.substr(mark + kDataMark.size());
+  return out;
+}
+
+Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
+                              const std::filesystem::path& html_path) {
+  const auto replay = ReadReplay(mcap_path);
+  if (!replay) return tl::unexpected(replay.error());
+  return WriteWhole(html_path, ReplayPage(*replay));
+}
+
+}  // namespace crossnav::trace

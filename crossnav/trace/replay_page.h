@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Makes the self-contained page of a replay: one HTML file with everything in it, which opens from
+// the disk without a network. Nothing but the replay is read.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "crossnav/core/result.h"
+#include "crossnav/trace/replay.h"
+
+namespace crossnav::trace {
+
+/// The page's HTML.
+std::string ReplayPage(const Replay& replay);
+
+/// Reads the replay at `mcap_path` and writes the page to `html_path` (whole, or not at all).
+Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
+                              const std::filesystem::path& html_path);
+
+}  // namespace crossnav::trace

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: MIT
+# What the page is made of. Scripts in the order in which they are joined: used before users.
+set(VIEWER_SCRIPTS
+  src/data.js
+  src/voxels.js
+  src/camera.js
+  src/renderer.js
+  src/scene.js
+  src/overlay.js
+  src/panels.js
+  src/timeline.js
+  src/main.js)
+set(VIEWER_FILES src/index.html src/style.css ${VIEWER_SCRIPTS})

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The replay's data as it stands in the page, brought into arrays that are quick to use.
+
+export function bytesOfBase64(text) {
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+export async function inflate(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+function zigzag(n) {
+  return n % 2 === 0 ? n / 2 : -(n + 1) / 2;
+}
+
+/// Visits the voxels of one step's runs: visit(x, y, z, value), value = state + 8 x inflated.
+export function forEachRunVoxel(bytes, begin, end, visit) {
+  let at = begin;
+  const varint = () => {
+    let value = 0, scale = 1, byte;
+    do {
+      byte = bytes[at++];
+      value += (byte & 127) * scale;
+      scale *= 128;
+    } while (byte >= 128 && at < end);
+    return value;
+  };
+  let x = 0, y = 0, z = 0;
+  while (at < end) {
+    x += zigzag(varint());
+    y += zigzag(varint());
+    z += zigzag(varint());
+    const length = varint(), value = varint();
+    for (let i = 0; i < length; ++i) visit(x, y, z + i, value);
+  }
+}
+
+/// Heights of the floors: exploration levels on which most steps were spent, at least `gap_m` apart.
+export function floorLevels(steps, gap_m = 1.8) {
+  const counts = new Map();
+  for (const step of steps) counts.set(step.level_m, (counts.get(step.level_m) || 0) + 1);
+  const byCount = [...counts.keys()].sort((a, b) => counts.get(b) - counts.get(a) || a - b);
+  const levels = [];
+  for (const level of byCount) {
+    if (levels.every((other) => Math.abs(other - level) >= gap_m)) levels.push(level);
+  }
+  return levels.sort((a, b) => a - b);
+}
+
+/// Index of the floor that a height belongs to: slabs count to the floor above them.
+export function floorOf(levels, z) {
+  let floor = 0;
+  for (let i = 1; i < levels.length; ++i) {
+    if (z > levels[i] - 0.35) floor = i;
+  }
+  return floor;
+}
+
+/// Consecutive steps for which key(step) is equal: [{from, to, key}], both ends included.
+export function segments(steps, key) {
+  const out = [];
+  steps.forEach((step, i) => {
+    const value = key(step);
+    const last = out[out.length - 1];
+    if (last && last.key === value) last.to = i;
+    else out.push({ from: i, to: i, key: value });
+  });
+  return out;
+}
+
+/// Everything worth a line in the log: [{index, kind, text}].
+export function logLines(replay) {
+  const lines = [];
+  let mode = null, reason = null;
+  const stages = [...replay.stages];
+  replay.steps.forEach((step, index) => {
+    if (step.mode !== mode || step.reason !== reason) {
+      lines.push({ index, kind: "mode", mode: step.mode, text: step.reason });
+      mode = step.mode;
+      reason = step.reason;
+    }
+    for (const text of step.events) lines.push({ index, kind: "event", text });
+    while (stages.length && stages[0].last_step <= step.step) {
+      const stage = stages.shift();
+      const kind = stage.success ? "success" : "failure";
+      lines.push({ index, kind, text: `${stage.goal}: ${stage.outcome}` });
+    }
+  });
+  return lines;
+}
+
+export function words(name) {
+  return name.replace(/_/g, " ");
+}

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+// Puts the page together: reads the embedded data, draws on demand, listens to keys and pointer.
+import { OrbitCamera } from "./camera.js";
+import { bytesOfBase64, floorLevels, inflate, words } from "./data.js";
+import { Overlay } from "./overlay.js";
+import {
+  CameraPanel, CandidatesPanel, GoalsHead, LogPanel, StatusPanel, VerificationPanel, byId, make,
+} from "./panels.js";
+import { Renderer } from "./renderer.js";
+import { KINDS, PATH_COLOUR, SceneBuilder, kindOf, rgbOf } from "./scene.js";
+import { Timeline } from "./timeline.js";
+import { VoxelHistory, blockFaces } from "./voxels.js";
+
+const WALKABLE = "#b9dcc0", INFLATED = "#dccfb8";
+const LAYERS = [
+  ["trajectory", "trajectory, a colour for each goal", "#1c7ed6"],
+  ["path", "planned path", PATH_COLOUR],
+  ["candidates", "candidates and target", "#e64980"],
+  ["goals", "true goals (the agent does not see them)", "#2f9e44"],
+];
+
+class ReplayApp {
+  constructor(replay) {
+    this.replay = replay;
+    this.index = 0;
+    this.levels = floorLevels(replay.steps);
+    this.view = {
+      levels: this.levels, spread: 0, cut: 1.5, onlyFloor: -1, isFollowing: false,
+      layers: { trajectory: true, path: true, candidates: true, goals: true },
+      isShown: replay.states.map((s) => s.is_surface),
+    };
+    this.camera = new OrbitCamera();
+    this.builder = new SceneBuilder(replay, this.view);
+    this.overlay = new Overlay(byId("labels"), this.builder);
+    const seek = (i) => this.seek(i);
+    this.candidates = new CandidatesPanel(replay, (i) => this.highlight(i));
+    this.panels = [new CameraPanel(replay), new StatusPanel(replay, this.levels), this.candidates,
+      new VerificationPanel(replay), new LogPanel(replay, seek), new GoalsHead(replay, seek)];
+    this.timeline = new Timeline(byId("timeline"), replay, seek);
+    this.startRenderer();
+  }
+
+  startRenderer() {
+    try {
+      this.renderer = new Renderer(byId("gl"));
+    } catch (error) {
+      this.renderer = null;
+      const box = byId("view-message");
+      box.textContent = `The voxel map cannot be drawn here: ${error.message}. ` +
+        "Paths and candidates are shown without it; all other panels work.";
+      box.hidden = false;
+    }
+  }
+
+  async loadVoxels() {
+    const { ends, deflated } = this.replay.voxels;
+    try {
+      const bytes = await inflate(bytesOfBase64(deflated));
+      this.voxels = new VoxelHistory(bytes, ends);
+    } catch (error) {
+      this.voxels = new VoxelHistory(new Uint8Array(0), ends.map(() => 0));
+      showNotice(`The voxel map could not be unpacked (${error.message}); a newer browser can.`);
+    }
+    this.showWhole();
+  }
+
+  showWhole() {
+    const bounds = this.voxels.bounds(), voxel = this.replay.info.voxel_m;
+    const lo = [Infinity, Infinity, Infinity], hi = [-Infinity, -Infinity, -Infinity];
+    const add = (p) => p.forEach((v, i) => {
+      lo[i] = Math.min(lo[i], v);
+      hi[i] = Math.max(hi[i], v);
+    });
+    for (const step of this.replay.steps) add(this.builder.lift(step.agent.p_world));
+    if (bounds) {
+      const corners = [bounds.lo, bounds.hi].map((key) => key.map((v) => v * voxel));
+      corners.forEach((p) => add([p[0], p[1], Math.min(hi[2] + 1, Math.max(lo[2], p[2]))]));
+    }
+    this.camera.frame(lo, hi);
+    this.redraw();
+  }
+
+  seek(index) {
+    this.index = Math.min(this.replay.steps.length - 1, Math.max(0, index));
+    this.overlay.highlight = -1;
+    for (const panel of this.panels) panel.show(this.index);
+    const last = this.replay.steps[this.replay.steps.length - 1].step;
+    byId("counter").textContent = `step ${this.replay.steps[this.index].step} of ${last}`;
+    this.redraw();
+  }
+
+  highlight(candidateIndex) {
+    if (this.overlay.highlight === candidateIndex) return;
+    this.overlay.highlight = candidateIndex;
+    this.candidates.highlight(candidateIndex);
+    this.redraw();
+  }
+
+  redraw() {
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      this.isDue = false;
+      this.draw();
+    });
+  }
+
+  updateMesh() {
+    this.voxels.seek(this.index);
+    for (const block of this.voxels.dirty) {
+      this.renderer.setBlock(block, blockFaces(this.voxels, block, this.view.isShown));
+    }
+    this.voxels.dirty.clear();
+  }
+
+  draw() {
+    const box = byId("view").getBoundingClientRect();
+    const ratio = Math.min(2, window.devicePixelRatio || 1);
+    const step = this.replay.steps[this.index];
+    const colours = themeColours();
+    if (this.view.isFollowing) this.camera.target = this.builder.lift(step.agent.p_world);
+    this.camera.aspect = box.width / Math.max(1, box.height);
+    const matrix = this.camera.matrix();
+    const { lines, triangles } = this.builder.build(this.index);
+    if (this.renderer) {
+      this.updateMesh();
+      this.renderer.resize(box.width, box.height, ratio);
+      this.renderer.draw({
+        ...this.view, matrix, ratio, background: rgbOf(colours.view),
+        voxel_m: this.replay.info.voxel_m,
+        colours: this.replay.states.map((s) => s.colour.map((v) => v / 255)),
+        walkable: rgbOf(WALKABLE), inflated: rgbOf(INFLATED),
+      }, lines, triangles);
+    }
+    this.overlay.draw({
+      width: box.width, height: box.height, ratio, matrix, step, view: this.view, colours,
+      flatLines: this.renderer ? null : lines,
+    });
+    this.timeline.show(this.index, colours);
+    document.body.dataset.drawn = String(this.index);
+  }
+
+  play(isPlaying) {
+    this.isPlaying = isPlaying;
+    byId("play").textContent = isPlaying ? "❚❚ Pause" : "▶ Play";
+    if (!isPlaying) return;
+    if (this.index === this.replay.steps.length - 1) this.seek(0);
+    const start = performance.now(), first = this.index;
+    const tick = (now) => {
+      if (!this.isPlaying || this.playToken !== token) return;
+      const rate = Number(byId("speed").value);
+      const due = first + Math.floor(((now - start) / 1000) * rate);
+      if (due !== this.index) this.seek(due);
+      if (this.index === this.replay.steps.length - 1) this.play(false);
+      else requestAnimationFrame(tick);
+    };
+    const token = (this.playToken = {});
+    requestAnimationFrame(tick);
+  }
+
+  lookFromTop() {
+    this.camera.pitch = 1.5707;
+    this.camera.yaw = -Math.PI / 2;
+    this.redraw();
+  }
+
+  showFloor(floor) {
+    this.view.onlyFloor = this.view.onlyFloor === floor ? -1 : floor;
+    [...byId("floors").children].forEach(
+      (button, i) => button.classList.toggle("on", i - 1 === this.view.onlyFloor));
+    this.redraw();
+  }
+
+  toggleFollow() {
+    this.view.isFollowing = !this.view.isFollowing;
+    byId("follow").classList.toggle("on", this.view.isFollowing);
+    this.redraw();
+  }
+}
+
+function themeColours() {
+  const style = getComputedStyle(document.documentElement);
+  const get = (name) => style.getPropertyValue(name).trim();
+  return { view: get("--view"), text: get("--text"), muted: get("--muted"), halo: get("--halo") };
+}
+
+function showNotice(text) {
+  const notice = byId("notice");
+  notice.textContent = notice.hidden ? text : `${notice.textContent} ${text}`;
+  notice.hidden = false;
+}
+
+function fillHead(replay) {
+  const { scene_id, episode_id, variant, perception, seed } = replay.info;
+  const parts = [["scene", scene_id], ["episode", episode_id], ["variant", variant],
+    ["perception", perception], ["seed", String(seed)]];
+  byId("episode").replaceChildren(...parts.filter(([, v]) => v !== "").map(
+    ([k, v]) => make("span", "", [make("i", "", k), ` ${v}`])));
+  document.title = `${scene_id} ${episode_id} – crossnav replay`;
+}
+
+/// A box to tick with a colour and a name.
+function legendRow(colour, name, isOn, onChange) {
+  const box = make("input");
+  box.type = "checkbox";
+  box.checked = isOn;
+  box.addEventListener("change", () => onChange(box.checked));
+  const patch = make("i", "patch");
+  patch.style.background = colour;
+  return make("label", "", [box, patch, make("span", "", name)]);
+}
+
+function fillLegend(app) {
+  const { replay, view } = app;
+  const cssOf = (rgb) => `rgb(${rgb.join(",")})`;
+  const states = replay.states.map((state, i) => ({ ...state, i })).filter((s) => s.i > 0);
+  byId("legend-states").replaceChildren(...states.map((state) => {
+    const suffix = state.is_surface ? "" : " (air)";
+    return legendRow(cssOf(state.colour), words(state.name.toLowerCase()) + suffix,
+      view.isShown[state.i], (isOn) => {
+        view.isShown[state.i] = isOn;
+        app.voxels.markAllDirty();
+        app.redraw();
+      });
+  }), patchRow(WALKABLE, "floor that can be walked"), patchRow(INFLATED, "floor too near an obstacle"));
+  byId("legend-layers").replaceChildren(...LAYERS.map(([key, name, colour]) =>
+    legendRow(colour, name, true, (isOn) => {
+      view.layers[key] = isOn;
+      app.redraw();
+    })), make("div", "marks", Object.values(KINDS).map((kind) => {
+    const dot = make("b", "", kind.mark);
+    dot.style.background = kind.colour;
+    return make("span", "", [dot, kind.label]);
+  })));
+}
+
+function patchRow(colour, name) {
+  const patch = make("i", "patch");
+  patch.style.background = colour;
+  return make("label", "fixed", [patch, make("span", "", name)]);
+}
+
+function connectTools(app) {
+  const floors = [["All", -1], ...app.levels.map((_, i) => [`Floor ${i + 1}`, i])];
+  byId("floors").replaceChildren(...floors.map(([name, floor]) => {
+    const button = make("button", floor === -1 ? "on" : "", name);
+    button.addEventListener("click", () => app.showFloor(floor));
+    return button;
+  }));
+  byId("floors").hidden = byId("spread-row").hidden = app.levels.length < 2;
+  const slider = (id, apply) => {
+    const update = () => {
+      const value = Number(byId(id).value);
+      byId(`${id}-value`).textContent = `${value.toFixed(1)} m`;
+      apply(value);
+      app.redraw();
+    };
+    byId(id).addEventListener("input", update);
+    update();
+  };
+  slider("cut", (v) => { app.view.cut = v; });
+  slider("spread", (v) => { app.view.spread = v; });
+  byId("from-top").addEventListener("click", () => app.lookFromTop());
+  byId("whole").addEventListener("click", () => app.showWhole());
+  byId("follow").addEventListener("click", () => app.toggleFollow());
+  byId("back").addEventListener("click", () => app.seek(app.index - 1));
+  byId("forth").addEventListener("click", () => app.seek(app.index + 1));
+  byId("play").addEventListener("click", () => app.play(!app.isPlaying));
+  byId("speed").addEventListener("change", () => { if (app.isPlaying) app.play(true); });
+  byId("help-button").addEventListener("click", () => byId("help").showModal());
+  byId("theme").addEventListener("click", () => {
+    const root = document.documentElement;
+    const isDark = getComputedStyle(root).colorScheme === "dark";
+    root.dataset.theme = isDark ? "light" : "dark";
+    app.redraw();
+  });
+}
+
+function connectKeys(app) {
+  const actions = {
+    " ": () => app.play(!app.isPlaying),
+    ArrowLeft: (e) => app.seek(app.index - (e.shiftKey ? 10 : 1)),
+    ArrowRight: (e) => app.seek(app.index + (e.shiftKey ? 10 : 1)),
+    Home: () => app.seek(0),
+    End: () => app.seek(Infinity),
+    "[": () => app.seek(app.timeline.goalFrom(app.index, -1)),
+    "]": () => app.seek(app.timeline.goalFrom(app.index, 1)),
+    "?": () => byId("help").showModal(),
+    t: () => app.lookFromTop(),
+    f: () => app.toggleFollow(),
+    0: () => app.showWhole(),
+  };
+  window.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
+    if (event.target.matches("input, select")) return;
+    const floor = Number(event.key) - 1;
+    const isFloor = /^[1-9]$/.test(event.key) && floor < app.levels.length;
+    const action = isFloor ? () => app.showFloor(floor) : actions[event.key] ||
+      actions[event.key.toLowerCase()];
+    if (!action) return;
+    event.preventDefault();
+    action(event);
+  });
+}
+
+function connectPointer(app) {
+  const canvas = byId("labels"), tooltip = byId("tooltip");
+  canvas.addEventListener("contextmenu", (e) => e.preventDefault());
+  canvas.addEventListener("pointerdown", (e) => canvas.setPointerCapture(e.pointerId));
+  canvas.addEventListener("pointermove", (e) => {
+    const box = canvas.getBoundingClientRect();
+    if (e.buttons) {
+      if (e.shiftKey || e.buttons & 6) app.camera.pan(e.movementX, e.movementY, box.height);
+      else app.camera.orbit(e.movementX, e.movementY);
+      app.redraw();
+      return;
+    }
+    const spot = app.overlay.spotAt(e.clientX - box.left, e.clientY - box.top);
+    app.highlight(spot ? spot.index : -1);
+    tooltip.hidden = !spot;
+    if (!spot) return;
+    const c = spot.candidate;
+    tooltip.textContent = `${kindOf(c.kind).label}: score ${c.score.toFixed(2)}, ` +
+      `path cost ${c.path_cost < 0 ? "not planned" : c.path_cost.toFixed(1)}, ${c.size} voxels`;
+    tooltip.style.left = `${Math.min(spot.x + 14, box.width - 260)}px`;
+    tooltip.style.top = `${spot.y + 12}px`;
+  });
+  canvas.addEventListener("wheel", (e) => {
+    e.preventDefault();
+    app.camera.zoom(Math.exp(0.0012 * e.deltaY));
+    app.redraw();
+  }, { passive: false });
+}
+
+/// "#step=120&floor=2&top": a view that can be linked to.
+function applyHash(app) {
+  const wanted = new URLSearchParams(location.hash.slice(1));
+  if (wanted.has("theme")) document.documentElement.dataset.theme = wanted.get("theme");
+  if (wanted.has("floor")) app.showFloor(Number(wanted.get("floor")) - 1);
+  if (wanted.has("spread")) byId("spread").value = wanted.get("spread");
+  byId("spread").dispatchEvent(new Event("input"));
+  if (wanted.has("spread")) app.showWhole();
+  if (wanted.has("top")) app.lookFromTop();
+  const step = Number(wanted.get("step") ?? 0);
+  app.seek(app.replay.steps.findIndex((s) => s.step >= step));
+}
+
+async function start() {
+  const replay = JSON.parse(byId("replay-data").textContent);
+  fillHead(replay);
+  if (!replay.is_complete) {
+    showNotice("The replay was cut off: it ends where the recording stopped.");
+  }
+  if (replay.steps.length === 0) {
+    showNotice("The replay holds no step.");
+    return;
+  }
+  const app = new ReplayApp(replay);
+  await app.loadVoxels();
+  connectTools(app);
+  connectKeys(app);
+  connectPointer(app);
+  fillLegend(app);
+  new ResizeObserver(() => app.redraw()).observe(byId("view"));
+  applyHash(app);
+}
+
+if (typeof document !== "undefined") start();

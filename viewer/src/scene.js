@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// What the 3D view shows at a step, as lines and triangles in world metres. Floors moved apart are
+// moved here too, by the same rule as in the renderer's shader.
+import { floorOf } from "./data.js";
+
+export const GOAL_COLOURS = ["#1c7ed6", "#e8590c", "#9c36b5", "#2b8a3e", "#c2255c", "#0b7285"];
+export const MODE_COLOURS = {
+  basic_explore: "#4c8bd0",
+  stair_explore: "#e8930c",
+  poi_navigation: "#9c5fc4",
+  target_approach: "#d6457b",
+};
+export const KINDS = {
+  live_poi: { label: "live POI", mark: "L", colour: "#d6336c" },
+  history_poi: { label: "history POI", mark: "H", colour: "#9c36b5" },
+  traversable_frontier: { label: "frontier", mark: "F", colour: "#1c7ed6" },
+  descend_frontier: { label: "descent", mark: "D", colour: "#c2410c" },
+  ascent_frontier: { label: "ascent", mark: "A", colour: "#b7791f" },
+  stair_frontier: { label: "stair frontier", mark: "S", colour: "#0b7285" },
+};
+const OTHER_KIND = { mark: "?", colour: "#868e96" };
+export const PATH_COLOUR = "#0ca678";
+const AGENT_HEIGHT_M = 0.88;
+
+export function kindOf(name) {
+  return KINDS[name] || { ...OTHER_KIND, label: name.replace(/_/g, " ") };
+}
+
+export function rgbOf(hex) {
+  return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
+}
+
+export class SceneBuilder {
+  /// view: {levels, spread, onlyFloor, layers}; read anew at each build.
+  constructor(replay, view) {
+    this.replay = replay;
+    this.view = view;
+  }
+
+  lift(p) {
+    return [p[0], p[1], p[2] + floorOf(this.view.levels, p[2]) * this.view.spread];
+  }
+
+  isShown(p) {
+    return this.view.onlyFloor < 0 || floorOf(this.view.levels, p[2]) === this.view.onlyFloor;
+  }
+
+  /// {lines: number[], triangles: number[]}
+  build(index) {
+    const out = { lines: [], triangles: [] };
+    const step = this.replay.steps[index];
+    const layers = this.view.layers;
+    if (layers.goals) this.addGoals(out, step);
+    if (layers.trajectory) this.addTrajectory(out, index);
+    if (layers.path) this.addPath(out, step);
+    this.addAgent(out, step);
+    return out;
+  }
+
+  addLine(out, p, q, rgb, alpha, width) {
+    if (this.isShown(p) || this.isShown(q)) {
+      out.lines.push(...this.lift(p), ...this.lift(q), ...rgb, alpha, width);
+    }
+  }
+
+  addTrajectory(out, index) {
+    const steps = this.replay.steps;
+    for (let i = 1; i <= index; ++i) {
+      const from = above(steps[i - 1].agent.p_world, 0.12), to = above(steps[i].agent.p_world, 0.12);
+      if (from.every((v, axis) => v === to[axis])) continue;
+      const colour = GOAL_COLOURS[steps[i].goal_index % GOAL_COLOURS.length];
+      this.addLine(out, from, to, rgbOf(colour), 1, 3.2);
+    }
+  }
+
+  addPath(out, step) {
+    const path = step.path_world;
+    for (let i = 1; i < path.length; ++i) {
+      this.addLine(out, above(path[i - 1], 0.02), above(path[i], 0.02), rgbOf(PATH_COLOUR), 1, 4);
+    }
+  }
+
+  addGoals(out, step) {
+    for (const instance of this.replay.info.goal_instances) {
+      const isCurrent = instance.goal === step.goal;
+      const rgb = rgbOf(isCurrent ? "#2f9e44" : "#868e96");
+      for (const [p, q] of boxEdges(instance.box_min, instance.box_max)) {
+        this.addLine(out, p, q, rgb, isCurrent ? 1 : 0.7, isCurrent ? 2.6 : 1.4);
+      }
+    }
+  }
+
+  addAgent(out, step) {
+    const { p_world: foot, yaw_rad: yaw } = step.agent;
+    if (!this.isShown(foot)) return;
+    const base = this.lift(foot);
+    addBody(out.triangles, base, yaw, rgbOf("#1f2933"), rgbOf("#ffd43b"));
+    const rgb = rgbOf("#ffb700");
+    for (const [p, q] of frustumEdges(step.T_world_camera)) {
+      const rise = base[2] - foot[2];
+      out.lines.push(...above(p, rise), ...above(q, rise), ...rgb, 0.9, 1.6);
+    }
+  }
+}
+
+export function above(p, height) {
+  return [p[0], p[1], p[2] + height];
+}
+
+function boxEdges(lo, hi) {
+  const corner = (i) => [i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]];
+  const edges = [];
+  for (let i = 0; i < 8; ++i) {
+    for (const bit of [1, 2, 4]) if (!(i & bit)) edges.push([corner(i), corner(i | bit)]);
+  }
+  return edges;
+}
+
+/// The camera's view as a small pyramid. T: twelve numbers, rows of the camera-to-world matrix.
+function frustumEdges(T) {
+  const toWorld = (p) => [0, 1, 2].map(
+    (r) => T[4 * r] * p[0] + T[4 * r + 1] * p[1] + T[4 * r + 2] * p[2] + T[4 * r + 3]);
+  const d = 0.55, h = 0.5 * d;
+  const tip = toWorld([0, 0, 0]);
+  const rim = [[-h, -h, d], [h, -h, d], [h, h, d], [-h, h, d]].map(toWorld);
+  const edges = [];
+  for (let i = 0; i < 4; ++i) edges.push([tip, rim[i]], [rim[i], rim[(i + 1) % 4]]);
+  return edges;
+}
+
+/// A post with an arrow on top that shows the heading.
+function addBody(triangles, base, yaw, dark, bright) {
+  const around = (angle, r, z) => [
+    base[0] + r * Math.cos(yaw + angle), base[1] + r * Math.sin(yaw + angle), base[2] + z];
+  const put = (a, b, c, normal, rgb) => {
+    for (const p of [a, b, c]) triangles.push(...p, ...normal, ...rgb);
+  };
+  const sides = 12;
+  for (let i = 0; i < sides; ++i) {
+    const a = (2 * Math.PI * i) / sides, b = (2 * Math.PI * (i + 1)) / sides;
+    const n = [Math.cos(yaw + (a + b) / 2), Math.sin(yaw + (a + b) / 2), 0.2];
+    const r = 0.12, top = AGENT_HEIGHT_M;
+    put(around(a, r, 0.05), around(b, r, 0.05), around(b, r, top), n, dark);
+    put(around(a, r, 0.05), around(b, r, top), around(a, r, top), n, dark);
+  }
+  const z = AGENT_HEIGHT_M + 0.02, up = [0, 0, 1];
+  put(around(0, 0.5, z), around(2.3, 0.34, z), around(0, -0.08, z), up, bright);
+  put(around(0, 0.5, z), around(0, -0.08, z), around(-2.3, 0.34, z), up, bright);
+}
