@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/episode_generator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "crossnav/bench/outcome.h"
+#include "crossnav/core/categories.h"
+#include "crossnav/core/check.h"
+#include "crossnav/core/rng.h"
+
+namespace crossnav::bench {
+namespace {
+
+constexpr double kRounding_m = 1e-4;  // chosen: files keep 1e-5; ids must survive a round trip
+
+double Rounded(double value) {
+  return std::round(value / kRounding_m) * kRounding_m;
+}
+
+/// A start on a floor (not on a flight); empty if the drawn point is none.
+std::optional<AgentPose> DrawStart(const SceneContext& context, const DatasetConfig& config,
+                                   Rng& rng) {
+  const auto p = context.navmesh().RandomPoint(rng);
+  const double yaw_rad = DegToRad(rng.Int(0, 359));
+  if (!p) return std::nullopt;
+  AgentPose start;
+  start.p_world = {Rounded(p->x()), Rounded(p->y()), Rounded(p->z())};
+  start.yaw_rad = WrapAngle(yaw_rad);
+  for (const sim::Floor& floor : context.navmesh().Floors()) {
+    if (std::abs(floor.height_m - start.p_world.z()) <= config.max_start_step_m) return start;
+  }
+  return std::nullopt;
+}
+
+/// Categories of the scene that can be observed from somewhere.
+std::vector<std::string> CategoriesOf(const SceneContext& context) {
+  std::vector<std::string> categories;
+  for (const std::string_view name : kCategories) {
+    const std::string category(name);
+    if (!context.FloorsOf(category).empty()) categories.push_back(category);
+  }
+  return categories;
+}
+
+std::vector<std::string> DrawGoals(std::vector<std::string> categories, const DatasetConfig& config,
+                                   Rng& rng) {
+  std::vector<std::string> goals;
+  if (config.allow_repeats) {
+    for (int k = 0; k < config.goals; ++k) {
+      goals.push_back(categories[rng.Below(static_cast<std::uint32_t>(categories.size()))]);
+    }
+    return goals;
+  }
+  rng.Shuffle(categories);
+  goals.assign(categories.begin(), categories.begin() + config.goals);
+  return goals;
+}
+
+/// Certified episode from a start and goals, or nothing where a rule is broken.
+std::optional<Episode> TryEpisode(const GeneratorScene& scene, const RunConfig& config,
+                                  const AgentPose& start, const std::vector<std::string>& goals) {
+  const SceneContext& context = *scene.context;
+  Episode episode;
+  episode.scene_id = scene.scene_id;
+  episode.start = start;
+  episode.goals = goals;
+  if (!CheckPlayable(context, episode)) return std::nullopt;
+  const auto first_m = context.DistanceToGoal(start.p_world, goals[0]);
+  if (!first_m || *first_m < config.dataset.min_first_goal_m) return std::nullopt;
+  Certify(context, episode);
+  episode.episode_id = ContentId(episode);
+  if (!CheckCertificate(context, episode, config).empty()) return std::nullopt;
+  return episode;
+}
+
+/// What the next episode should be: the stage of the first transition, 0 = none.
+std::optional<Episode> DrawEpisode(const GeneratorScene& scene, const RunConfig& config,
+                                   int first_transition_stage, Rng& rng) {
+  const auto categories = CategoriesOf(*scene.context);
+  const int needed = config.dataset.allow_repeats ? 1 : config.dataset.goals;
+  if (static_cast<int>(categories.size()) < needed) return std::nullopt;
+  for (int attempt = 0; attempt < config.dataset.tries_per_episode; ++attempt) {
+    const auto start = DrawStart(*scene.context, config.dataset, rng);
+    const auto goals = DrawGoals(categories, config.dataset, rng);
+    if (!start) continue;
+    auto episode = TryEpisode(scene, config, *start, goals);
+    if (episode && episode->first_transition_stage == first_transition_stage) return episode;
+  }
+  return std::nullopt;
+}
+
+/// Stage of the first transition for each episode: the share that requires one, evenly spread.
+std::vector<int> PlanTransitions(const RunConfig& config, const GeneratorOptions& options,
+                                 Rng& rng) {
+  const int required = static_cast<int>(std::lround(options.count * options.cross_floor_share));
+  std::vector<int> stages(options.count, 0);
+  for (int i = 0; i < required; ++i) stages[i] = 1 + i % config.dataset.goals;
+  rng.Shuffle(stages);
+  return stages;
+}
+
+/// Tries the scenes in turn, then the other stages of the same kind.
+std::optional<Episode> DrawFromAnyScene(std::span<const GeneratorScene> scenes,
+                                        const RunConfig& config, int index, int stage, Rng& rng) {
+  const int choices = stage == 0 ? 1 : config.dataset.goals;
+  for (int shift = 0; shift < choices; ++shift) {
+    const int wanted = stage == 0 ? 0 : 1 + (stage - 1 + shift) % config.dataset.goals;
+    for (std::size_t s = 0; s < scenes.size(); ++s) {
+      const GeneratorScene& scene = scenes[(index + s) % scenes.size()];
+      if (wanted > 0 && scene.context->navmesh().Floors().size() < 2) continue;
+      auto episode = DrawEpisode(scene, config, wanted, rng);
+      if (episode) return episode;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void AddGoalObjects(const GeneratorScene& scene, EpisodeFile& file) {
+  const std::string prefix = std::filesystem::path(scene.scene_id).filename().string() + "_";
+  for (const std::string_view name : kCategories) {
+    const std::string category(name);
+    std::vector<GoalObject> goals;
+    for (const Target& target : scene.context->TargetsOf(category)) {
+      if (target.viewpoints_world.empty()) continue;
+      goals.push_back(
+          {target.instance, target.name, category, target.box.Center(), target.viewpoints_world});
+    }
+    if (!goals.empty()) file.goals_by_category[prefix + category] = std::move(goals);
+  }
+}
+
+Result<Episode> MakeEpisode(const GeneratorScene& scene, const RunConfig& config,
+                            const std::vector<std::string>& goals, int start_floor,
+                            std::uint64_t seed) {
+  CROSSNAV_CHECK(!goals.empty(), "an episode needs goals");
+  Rng rng(seed);
+  for (int attempt = 0; attempt < config.dataset.tries_per_episode; ++attempt) {
+    const auto start = DrawStart(*scene.context, config.dataset, rng);
+    if (!start || scene.context->navmesh().FloorOf(start->p_world) != start_floor) continue;
+    if (auto episode = TryEpisode(scene, config, *start, goals)) return *episode;
+  }
+  return Fail(ErrorCode::kInvalid, "the chosen goals cannot be certified from this floor",
+              scene.scene_id);
+}
+
+Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
+                                     const RunConfig& config, const GeneratorOptions& options) {
+  CROSSNAV_CHECK(!scenes.empty(), "no scenes to make episodes for");
+  EpisodeFile file;
+  Rng rng(options.seed);
+  const auto stages = PlanTransitions(config, options, rng);
+  std::set<std::string> ids;
+  for (int i = 0; i < options.count; ++i) {
+    std::optional<Episode> episode;
+    for (int again = 0; again < 10; ++again) {
+      episode = DrawFromAnyScene(scenes, config, i, stages[i], rng);
+      if (!episode || ids.insert(episode->episode_id).second) break;
+    }
+    if (!episode) {
+      return Fail(ErrorCode::kInvalid,
+                  std::string("cannot certify an episode that ") +
+                      (stages[i] > 0 ? "requires a floor change" : "stays on one floor") +
+                      "; change --cross-floor or --goals, or add scenes",
+                  "episode " + std::to_string(i + 1) + " of " + std::to_string(options.count));
+    }
+    file.episodes.push_back(std::move(*episode));
+  }
+  for (const GeneratorScene& scene : scenes) AddGoalObjects(scene, file);
+  return file;
+}
+
+}  // namespace crossnav::bench

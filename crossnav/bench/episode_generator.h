@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Makes certified episodes (benchmark.md, "Episodes"): three different categories by default, a
+// start on a floor away from the first goal, every stage solvable, a given share that requires a
+// floor change. Seeded; refuses what it cannot certify.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crossnav/bench/episodes.h"
+#include "crossnav/bench/run_config.h"
+#include "crossnav/bench/scene_context.h"
+
+namespace crossnav::bench {
+
+struct GeneratorOptions {
+  int count = 0;
+  double cross_floor_share = 0.3;  // chosen: the paper's 288 of 927
+  std::uint64_t seed = 1;
+};
+
+struct GeneratorScene {
+  std::string scene_id;
+  const SceneContext* context = nullptr;
+};
+
+/// `count` episodes over all scenes, turn by turn; the first transitions of those that require one
+/// are spread over the stages. Error: what could not be certified.
+Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
+                                     const RunConfig& config, const GeneratorOptions& options);
+
+/// An episode with chosen goals from a chosen floor; `seed` picks the start. Error: not
+/// certifiable.
+Result<Episode> MakeEpisode(const GeneratorScene& scene, const RunConfig& config,
+                            const std::vector<std::string>& goals, int start_floor,
+                            std::uint64_t seed);
+
+/// The `goals_by_category` entries of a scene, for all categories it holds.
+void AddGoalObjects(const GeneratorScene& scene, EpisodeFile& file);
+
+}  // namespace crossnav::bench

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/episodes.h"
+#include "crossnav/bench/gzip_file.h"
+#include "crossnav/bench/habitat_frame.h"
+#include "crossnav/bench/result_records.h"
+#include "crossnav/core/categories.h"
+#include "crossnav/core/rng.h"
+
+namespace crossnav::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Rounded to 1e-5 m, as Habitat's files are.
+double Rounded(double value) {
+  const double rounded = std::round(value * 1e5) / 1e5;
+  return rounded == 0 ? 0 : rounded;  // no -0
+}
+
+Json PositionJson(const Vector3d& p_world) {
+  const Vector3d p = HabitatFromWorld(p_world);
+  return Json::array({Rounded(p.x()), Rounded(p.y()), Rounded(p.z())});
+}
+
+Json RotationJson(double yaw_rad) {
+  const auto q = HabitatFromYaw(yaw_rad);
+  return Json::array({q[0], Rounded(q[1]), q[2], Rounded(q[3])});
+}
+
+Json EpisodeJson(const Episode& episode) {
+  Json floors = Json::array();
+  for (const EpisodeFloor& floor : episode.floors) {
+    floors.push_back({{"id", floor.id}, {"height_m", Rounded(floor.height_m)}});
+  }
+  return {{"episode_id", episode.episode_id},
+          {"scene_id", episode.scene_id},
+          {"scene_dataset_config", "scene_dataset_config.json"},
+          {"start_position", PositionJson(episode.start.p_world)},
+          {"start_rotation", RotationJson(episode.start.yaw_rad)},
+          {"object_category", episode.goals.front()},
+          {"goals", episode.goals},
+          {"floors", std::move(floors)},
+          {"start_floor", episode.start_floor},
+          {"cross_floor_required", episode.cross_floor_required},
+          {"first_transition_stage", episode.first_transition_stage},
+          {"certificate", episode.certificate}};
+}
+
+/// Yaw at which an agent at `from` faces `to`.
+double YawTowards(const Vector3d& from, const Vector3d& to) {
+  return std::atan2(to.y() - from.y(), to.x() - from.x());
+}
+
+Json GoalJson(const GoalObject& goal) {
+  Json viewpoints = Json::array();
+  for (const Vector3d& p_world : goal.viewpoints_world) {
+    viewpoints.push_back({{"agent_state",
+                           {{"position", PositionJson(p_world)},
+                            {"rotation", RotationJson(YawTowards(p_world, goal.p_world))}}}});
+  }
+  return {{"position", PositionJson(goal.p_world)},
+          {"object_id", goal.object_id},
+          {"object_name", goal.name},
+          {"object_category", goal.category},
+          {"view_points", std::move(viewpoints)}};
+}
+
+}  // namespace
+
+std::string ContentId(const Episode& episode) {
+  Json content = {SceneName(episode.scene_id), PositionJson(episode.start.p_world),
+                  RotationJson(episode.start.yaw_rad), episode.goals};
+  return SceneName(episode.scene_id) + "-" + HexHash(HashString(content.dump())).substr(0, 10);
+}
+
+Result<void> WriteEpisodes(const std::filesystem::path& path, const EpisodeFile& file) {
+  Json goals_by_category = Json::object();
+  for (const auto& [key, goals] : file.goals_by_category) {
+    Json list = Json::array();
+    for (const GoalObject& goal : goals) list.push_back(GoalJson(goal));
+    goals_by_category[key] = std::move(list);
+  }
+  Json episodes = Json::array();
+  for (const Episode& episode : file.episodes) episodes.push_back(EpisodeJson(episode));
+  Json ids = Json::object();
+  for (std::size_t i = 0; i < kCategories.size(); ++i) ids[std::string(kCategories[i])] = i;
+  const Json json = {{"goals_by_category", std::move(goals_by_category)},
+                     {"episodes", std::move(episodes)},
+                     {"category_to_task_category_id", ids},
+                     {"category_to_scene_annotation_category_id", ids}};
+  return WriteTextFile(path, json.dump() + "\n");
+}
+
+}  // namespace crossnav::bench

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Plays one episode: simulator, ground-truth perception and agent, stage by stage, and judges it
+// (benchmark.md, "Running"). The agent sees observations and the current goal's name only.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "crossnav/agent/agent.h"
+#include "crossnav/bench/episode_record.h"
+#include "crossnav/bench/episodes.h"
+#include "crossnav/bench/run_config.h"
+#include "crossnav/bench/scene_context.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/trace/step_trace.h"
+
+namespace crossnav::bench {
+
+/// One step as an observer sees it, before its action is executed.
+struct StepView {
+  const Observation& observation;
+  const trace::StepTrace& trace;
+  const std::vector<trace::StageTime>& timing;
+  const AgentPose& agent;  ///< true pose
+  const agent::Agent& state;
+};
+
+/// What one step took, simulator included, observers not [ms].
+struct StepCost {
+  double wall_ms = 0, cpu_ms = 0;
+  double observe_wall_ms = 0, observe_cpu_ms = 0;  ///< rendering and moving
+};
+
+/// Watches an episode: progress line, replay, pictures. Must not influence it.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual Result<void> OnStep(const StepView& /*step*/) { return {}; }
+  virtual void OnStepCost(const StepCost& /*cost*/) {}
+  virtual Result<void> OnStageEnd(const StageRecord& /*stage*/) { return {}; }
+  virtual Result<void> OnEpisodeEnd(const agent::Agent& /*state*/,
+                                    const EpisodeRecord& /*record*/) {
+    return {};
+  }
+};
+
+/// Errors: an episode that does not fit the scene (CheckPlayable), a malformed observation, a
+/// failing observer. A goal that is not found is a record, not an error.
+Result<EpisodeRecord> RunEpisode(const SceneContext& context, const Episode& episode,
+                                 const RunConfig& config,
+                                 std::span<RunObserver* const> observers = {});
+
+}  // namespace crossnav::bench

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/scene_context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "crossnav/core/categories.h"
+#include "crossnav/sim/scene_info.h"
+
+namespace crossnav::bench {
+namespace {
+
+bool IsCategory(const std::string& goal) {
+  return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
+}
+
+bool EndsWith(const std::string& text, std::string_view end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SceneContext>> SceneContext::Load(const std::filesystem::path& scenes_dir,
+                                                         const std::string& scene_id,
+                                                         const RunConfig& config) {
+  const auto folder = sim::FindScene(scenes_dir, scene_id);
+  if (!folder) return tl::unexpected(folder.error());
+  auto scene = sim::LoadScene(*folder);
+  if (!scene) return tl::unexpected(scene.error());
+  std::unique_ptr<SceneContext> context(new SceneContext);
+  context->scene_ = std::make_unique<sim::Scene>(std::move(*scene));
+  auto navmesh = sim::NavMesh::BuildCached(*context->scene_, config.navmesh);
+  if (!navmesh) return tl::unexpected(navmesh.error());
+  context->navmesh_ = std::make_unique<sim::NavMesh>(std::move(*navmesh));
+  context->caster_ = std::make_unique<sim::RayCaster>(*context->scene_);
+  context->sensor_ = config.agent.sensor;
+  return context;
+}
+
+const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) const {
+  const auto known = targets_.find(goal);
+  if (known != targets_.end()) return known->second;
+  std::vector<Target> targets;
+  for (const sim::SceneInstance& instance : scene_->instances) {
+    if ((IsCategory(goal) ? instance.category : instance.name) != goal) continue;
+    Target target{instance.id, instance.name, instance.box, {}, {}};
+    target.viewpoints_world = sim::Viewpoints(*scene_, *navmesh_, *caster_, instance, sensor_);
+    std::set<int> floors;
+    for (const Vector3d& p : target.viewpoints_world) floors.insert(navmesh_->FloorOf(p));
+    target.floors.assign(floors.begin(), floors.end());
+    targets.push_back(std::move(target));
+  }
+  return targets_.emplace(goal, std::move(targets)).first->second;
+}
+
+std::vector<int> SceneContext::FloorsOf(const std::string& goal) const {
+  std::set<int> floors;
+  for (const Target& target : TargetsOf(goal)) {
+    floors.insert(target.floors.begin(), target.floors.end());
+  }
+  return {floors.begin(), floors.end()};
+}
+
+std::optional<double> SceneContext::DistanceToGoal(const Vector3d& p_world,
+                                                   const std::string& goal) const {
+  std::vector<Vector3d> viewpoints;
+  for (const Target& target : TargetsOf(goal)) {
+    viewpoints.insert(viewpoints.end(), target.viewpoints_world.begin(),
+                      target.viewpoints_world.end());
+  }
+  if (viewpoints.empty()) return std::nullopt;
+  return navmesh_->Geodesic(p_world, viewpoints);
+}
+
+int SceneContext::FloorUnder(const Vector3d& p_world) const {
+  constexpr double kSlack_m = 0.3;  // chosen: voxel centres and steps lie a little below a floor
+  int under = navmesh_->Floors().empty() ? 0 : navmesh_->Floors().front().id;
+  for (const sim::Floor& floor : navmesh_->Floors()) {
+    if (floor.height_m <= p_world.z() + kSlack_m) under = floor.id;
+  }
+  return under;
+}
+
+Result<std::vector<std::string>> ListScenes(const std::filesystem::path& scenes_dir) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(scenes_dir, error)) {
+    return Fail(ErrorCode::kNotFound, "no such folder of scenes", scenes_dir.string());
+  }
+  std::vector<std::string> ids;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes_dir, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || !EndsWith(name, ".semantic.txt")) continue;
+    const std::string stem = name.substr(0, name.size() - std::string(".semantic.txt").size());
+    const auto folder = std::filesystem::relative(entry.path().parent_path(), scenes_dir, error);
+    ids.push_back((folder / (stem + ".glb")).lexically_normal().string());
+  }
+  if (ids.empty()) {
+    return Fail(ErrorCode::kNotFound, "holds no scene (a folder with NAME.semantic.txt)",
+                scenes_dir.string());
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+Result<void> CheckPlayable(const SceneContext& context, const Episode& episode) {
+  const Vector3d& p = episode.start.p_world;
+  if (!p.allFinite() || !std::isfinite(episode.start.yaw_rad)) {
+    return Fail(ErrorCode::kInvalid, "the start pose is not finite",
+                episode.where + ": start_position");
+  }
+  const auto start = context.navmesh().Snap(p);
+  if (!start) {
+    return Fail(ErrorCode::kInvalid, "the start lies off the navmesh of " + context.scene().id,
+                episode.where + ": start_position");
+  }
+  for (const std::string& goal : episode.goals) {
+    const std::string where = episode.where + ": goals";
+    if (context.TargetsOf(goal).empty()) {
+      return Fail(ErrorCode::kNotFound, context.scene().id + " has no \"" + goal + "\"", where);
+    }
+    if (!context.DistanceToGoal(*start, goal)) {
+      return Fail(ErrorCode::kInvalid,
+                  "no \"" + goal + "\" of " + context.scene().id + " can be reached from the start",
+                  where);
+    }
+  }
+  return {};
+}
+
+}  // namespace crossnav::bench

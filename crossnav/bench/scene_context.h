@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// A scene with all that the evaluator needs of it: mesh, navmesh, ray caster and, per goal name,
+// the true instances with their viewpoints (benchmark.md, "Viewpoints and distances"). World frame.
+// Not thread-safe: one per worker.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crossnav/bench/episodes.h"
+#include "crossnav/bench/run_config.h"
+#include "crossnav/core/box.h"
+#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/ray_caster.h"
+#include "crossnav/sim/scene.h"
+
+namespace crossnav::bench {
+
+/// A true instance of a goal.
+struct Target {
+  int instance = 0;
+  std::string name;
+  Box3 box;
+  std::vector<Vector3d> viewpoints_world;  ///< X(g); empty = cannot be observed from anywhere
+  std::vector<int> floors;                 ///< of the viewpoints, sorted
+};
+
+class SceneContext {
+ public:
+  /// Resolves `scene_id` below `scenes_dir`, reads the scene and builds or loads its navmesh.
+  static Result<std::unique_ptr<SceneContext>> Load(const std::filesystem::path& scenes_dir,
+                                                    const std::string& scene_id,
+                                                    const RunConfig& config);
+
+  const sim::Scene& scene() const { return *scene_; }
+  const sim::NavMesh& navmesh() const { return *navmesh_; }
+  const sim::RayCaster& caster() const { return *caster_; }
+
+  /// Instances of a category, or of a raw name where it is no category. Computed once per goal.
+  const std::vector<Target>& TargetsOf(const std::string& goal) const;
+
+  /// Sorted ids of the floors on which `goal` can be observed.
+  std::vector<int> FloorsOf(const std::string& goal) const;
+
+  /// d*: shortest path from `p_world` to a viewpoint of `goal`; empty where there is none.
+  std::optional<double> DistanceToGoal(const Vector3d& p_world, const std::string& goal) const;
+
+  /// Floor under a point that may be up to a room's height above it.
+  int FloorUnder(const Vector3d& p_world) const;
+
+ private:
+  SceneContext() = default;
+  std::unique_ptr<sim::Scene> scene_;
+  std::unique_ptr<sim::NavMesh> navmesh_;
+  std::unique_ptr<sim::RayCaster> caster_;
+  SensorConfig sensor_;
+  mutable std::map<std::string, std::vector<Target>> targets_;
+};
+
+/// Ids ("<folder>/<file>.glb") of all scenes below `scenes_dir`, sorted.
+Result<std::vector<std::string>> ListScenes(const std::filesystem::path& scenes_dir);
+
+/// What is wrong with the episode in this scene (unknown goal, unreachable goal, start off the
+/// navmesh), or nothing.
+Result<void> CheckPlayable(const SceneContext& context, const Episode& episode);
+
+/// Fills in floors, certificate, cross_floor_required and first_transition_stage.
+void Certify(const SceneContext& context, Episode& episode);
+
+/// Everything in the episode's certificate that does not hold, in words; empty = proven.
+std::vector<std::string> CheckCertificate(const SceneContext& context, const Episode& episode,
+                                          const RunConfig& config);
+
+}  // namespace crossnav::bench
