@@ -33,13 +33,14 @@ ROOMS = {
 # Third-party headers that any file may include: they are part of our own vocabulary.
 COMMON = re.compile(r"^(Eigen/|fmt/|gtest/|gmock/|benchmark/)")
 
-# The adapters: library -> (its headers, the files that may include them, as patterns). Tests may use
+# The adapters: library -> (its headers, patterns of the files that may include them). Tests may use
 # what they like. A library appears in as few files as possible, in each room that needs it.
 ADAPTERS = {
     "tl-expected": (r"^tl/", ["crossnav/core/result.h"]),
     "Embree": (r"^embree[34]/", ["crossnav/sim/embree_shim.h"]),
     "tinygltf": (r"^tiny_gltf", ["crossnav/sim/gltf_accessor.h"]),
-    "Recast and Detour": (r"^recastnavigation/", ["crossnav/sim/navmesh*", "crossnav/sim/walk_graph.cpp"]),
+    "Recast and Detour": (r"^recastnavigation/", ["crossnav/sim/navmesh*",
+                                                  "crossnav/sim/walk_graph.cpp"]),
     "Highway": (r"^hwy/", ["crossnav/memory/row_kernels.cpp", "crossnav/geometry/end_rows.cpp"]),
     "libjpeg": (r"^jpeglib", ["crossnav/sim/image_codec.cpp", "crossnav/trace/preview.cpp"]),
     "libpng": (r"^png", ["crossnav/sim/image_codec.cpp", "crossnav/sim/picture.cpp",
