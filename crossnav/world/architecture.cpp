@@ -22,26 +22,36 @@ void AddSlabs(const Rect& rect, const std::vector<Rect>& holes, double z0, doubl
   }
 }
 
+void BuildCeiling(const HousePlan& plan, std::size_t index, SceneBuilder& scene) {
+  const Room& room = plan.rooms[index];
+  if (!room.has_ceiling) return;
+  const auto level = static_cast<std::size_t>(room.level);
+  const double ceiling = plan.levels[level].ceiling_m;
+  scene.BeginInstance("ceiling", static_cast<int>(index));
+  scene.mesh.material = scene.Surface(room.ceiling);
+  const auto holes_above = plan.VoidsOf(room.level + 1);
+  const double above = SlabHalf(plan, level);
+  for (const Rect& r : room.rects) AddSlabs(r, holes_above, ceiling, ceiling + above, scene.mesh);
+}
+
 }  // namespace
 
 void BuildFloorsAndCeilings(const HousePlan& plan, SceneBuilder& scene) {
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
     const Room& room = plan.rooms[i];
     const auto level = static_cast<std::size_t>(room.level);
-    const double floor = plan.levels[level].floor_m, ceiling = plan.levels[level].ceiling_m;
+    const double floor = plan.levels[level].floor_m + room.offset_m;
     const double below = level == 0 ? kTopSlab_m : SlabHalf(plan, level - 1);
 
-    scene.BeginInstance("floor", static_cast<int>(i));
+    if (room.type == RoomType::kVoid) {
+      BuildCeiling(plan, i, scene);
+      continue;
+    }
+    scene.BeginInstance(room.type == RoomType::kBalcony ? "balcony" : "floor", static_cast<int>(i));
     scene.mesh.material = scene.Surface(room.floor);
     const auto holes = plan.VoidsOf(room.level);
     for (const Rect& r : room.rects) AddSlabs(r, holes, floor - below, floor, scene.mesh);
-
-    if (!room.has_ceiling) continue;
-    scene.BeginInstance("ceiling", static_cast<int>(i));
-    scene.mesh.material = scene.Surface(room.ceiling);
-    const auto holes_above = plan.VoidsOf(room.level + 1);
-    const double above = SlabHalf(plan, level);
-    for (const Rect& r : room.rects) AddSlabs(r, holes_above, ceiling, ceiling + above, scene.mesh);
+    BuildCeiling(plan, i, scene);
   }
 }
 
@@ -88,13 +98,14 @@ void BuildStairs(const HousePlan& plan, SceneBuilder& scene) {
   for (const Stair& stair : plan.stairs) {
     scene.BeginInstance("stairs", std::max(0, stair.room));
     scene.mesh.material = scene.Surface(stair.finish);
-    const double ground = plan.levels[static_cast<std::size_t>(stair.lower_level)].floor_m;
+    const double ground = stair.ground_m;
     for (const Tread& tread : stair.treads) {
       double bottom = tread.top_m - stair.thickness_m;
       if (stair.body == StairBody::kSolid) bottom = ground;
       if (stair.body == StairBody::kClosed) bottom = tread.top_m - stair.riser_m - 0.06;
       scene.mesh.AddPrism(tread.polygon, std::max(bottom, ground), tread.top_m);
     }
+    if (stair.column) scene.mesh.AddPrism(stair.column->polygon, ground, stair.column->top_m);
     if (stair.railings.empty()) continue;
     scene.BeginInstance("railing", std::max(0, stair.room));
     for (const Railing& railing : stair.railings) BuildRailing(railing, scene);

@@ -209,9 +209,9 @@ HousePlan EmbeddedHousePlan() {
   AddWalls(plan, 0);
   AddWalls(plan, 1);
   StairParams stair;
-  stair.rail_right = true;
-  plan.stairs.push_back(Moved(MakeStair(stair), {kStairX, kStairY, 0}, 1));
+  plan.stairs.push_back(Moved(MakeStraightStair(stair), {kStairX, kStairY, 0}, 1));
   plan.stairs.back().room = kHallBelow;
+  RailVoids(plan, 0);
   FurnishBelow(plan);
   FurnishAbove(plan);
   return plan;

@@ -3,6 +3,7 @@
 // World frame, z up, metres. Rooms tile their level up to the centre lines of the walls.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,11 @@ enum class RoomType {
   kWc,
   kOffice,
   kHall,
+  kStairwell,
   kStorage,
   kGarage,
-  kBalcony
+  kBalcony,
+  kVoid  ///< open to the room below
 };
 
 struct Room {
@@ -45,6 +48,7 @@ struct Room {
   std::vector<Rect> rects;  ///< do not overlap
   SurfaceFinish floor, wall, ceiling;
   bool has_ceiling = true;
+  double offset_m = 0;  ///< of its floor against the level's; below 0 = sunken
 };
 
 enum class OpeningKind { kPassage, kDoorway, kDoorOpen, kDoorAjar, kDoorClosed, kWindow };
@@ -66,7 +70,8 @@ struct Wall {
   std::vector<Opening> openings;
   SurfaceFinish left, right;  ///< seen from a towards b
   int room = -1;              ///< index into HousePlan::rooms (region of the semantic text)
-  double top_m = -1;          ///< absolute height of its top; < 0 = up to the ceiling
+  int other_room = -1;        ///< on the other side, -1 = outside
+  double base_m = 0;          ///< of its foot against the level's floor
 };
 
 /// Handrail with balusters from `a` to `b` (points on the ground or on treads).
@@ -79,6 +84,11 @@ struct Railing {
 struct Tread {
   std::vector<Vector2d> polygon;  ///< convex, counter-clockwise
   double top_m = 0;
+};
+
+/// A line in the plan.
+struct Edge {
+  Vector2d a = Vector2d::Zero(), b = Vector2d::Zero();
 };
 
 enum class StairKind {
@@ -99,13 +109,17 @@ struct Stair {
   StairBody body = StairBody::kSolid;
   int lower_level = 0, upper_level = 1;
   double riser_m = 0.175;
-  double thickness_m = 0.05;  ///< of a tread without a body below
-  std::vector<Tread> treads;  ///< in climbing order, landings included; not the upper floor
+  double thickness_m = 0.05;    ///< of a tread without a body below
+  double ground_m = 0;          ///< height of the lower floor
+  std::vector<Tread> treads;    ///< in climbing order, landings included; not the upper floor
+  std::optional<Tread> column;  ///< of a spiral stair, from the ground to its top
   std::vector<Railing> railings;
   Vector3d p_bottom = Vector3d::Zero();  ///< where one stands before the first riser
   Vector3d p_top = Vector3d::Zero();     ///< where one stands after the last
   std::vector<Rect> footprint;           ///< on the lower floor, kept free of furniture
   std::vector<Rect> voids;               ///< cut out of the upper floor
+  std::vector<Edge> arrivals;    ///< edges of the voids where one steps onto the upper floor
+  std::vector<Edge> departures;  ///< where one steps onto the stair, on the lower floor
   SurfaceFinish finish{{150, 110, 75}, Pattern::kPlain};
   int room = -1;
 };

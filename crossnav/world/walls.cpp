@@ -28,7 +28,7 @@ struct WallFrame {
 WallFrame FrameOf(const Wall& wall, const Level& level) {
   const Vector2d d = wall.b - wall.a;
   WallFrame f{Pose::Identity(), d.norm(), 0.5 * wall.thickness_m,
-              (wall.top_m < 0 ? level.ceiling_m + kOverlap_m : wall.top_m) - level.floor_m};
+              level.ceiling_m + kOverlap_m - level.floor_m};
   f.T_world_wall.translate(Vector3d(wall.a.x(), wall.a.y(), level.floor_m));
   f.T_world_wall.rotate(Eigen::AngleAxisd(std::atan2(d.y(), d.x()), Vector3d::UnitZ()));
   return f;
@@ -50,7 +50,7 @@ void AddPiece(const Wall& wall, const WallFrame& f, const Rect& piece_xz, SceneB
   mesh.AddQuad({x1, -h, z0}, {x1, h, z0}, {x1, h, z1}, {x1, -h, z1});
   mesh.AddQuad({x0, -h, z1}, {x1, -h, z1}, {x1, h, z1}, {x0, h, z1});
   mesh.AddQuad({x0, h, z0}, {x1, h, z0}, {x1, -h, z0}, {x0, -h, z0});
-  if (z0 > 0.01) return;
+  if (z0 > 0.01 || z1 < kSkirting_m) return;
   mesh.material = scene.Material(kFrameWhite);
   mesh.AddBox({x0, h, 0}, {x1, h + 0.012, kSkirting_m});
   mesh.AddBox({x0, -h - 0.012, 0}, {x1, -h, kSkirting_m});
@@ -124,13 +124,14 @@ void BuildWalls(const HousePlan& plan, SceneBuilder& scene) {
     scene.mesh.T_world_part = f.T_world_wall;
     scene.BeginInstance("wall", std::max(0, wall.room));
     std::vector<Rect> holes_xz;
+    const double base = wall.base_m - kOverlap_m, foot = wall.base_m < 0 ? 0.0 : -1.0;
     for (const Opening& o : wall.openings) {
       const double frame =
           o.kind == OpeningKind::kWindow || o.kind == OpeningKind::kPassage ? 0.0 : kFrame_m;
-      holes_xz.push_back({o.center_m - 0.5 * o.width_m - frame, o.sill_m > 0 ? o.sill_m : -1.0,
+      holes_xz.push_back({o.center_m - 0.5 * o.width_m - frame, o.sill_m > 0 ? o.sill_m : foot,
                           o.center_m + 0.5 * o.width_m + frame, o.head_m + frame});
     }
-    const Rect whole_xz{0, -kOverlap_m, f.length_m, f.top_m};
+    const Rect whole_xz{0, base, f.length_m, f.top_m};
     for (const Rect& piece : Subtract(whole_xz, holes_xz)) AddPiece(wall, f, piece, scene);
     for (const Opening& o : wall.openings) AddOpening(wall, o, f, scene);
     scene.mesh.T_world_part = Pose::Identity();
