@@ -83,7 +83,7 @@ Rgb8 ColourOf(VoxelState state) {
     case VoxelState::kUnknown:
       return {0, 0, 0};
     case VoxelState::kOccupied:
-      return {168, 174, 184};
+      return {201, 205, 212};
     case VoxelState::kTraversable:
       return {120, 190, 140};
     case VoxelState::kTraversableStair:

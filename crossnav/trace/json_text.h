@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes canonical JSON: no blanks, keys in the order given, numbers in their shortest form that
-// reads back to the same double (so the same values give the same bytes on every platform).
-// Numbers that are not finite become null; bytes that are not UTF-8 become U+FFFD.
+// reads back to the same double, -0 as 0 (so the same values give the same bytes on every
+// platform). Numbers that are not finite become null; bytes that are not UTF-8 become U+FFFD.
 #pragma once
 
 #include <concepts>

@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "crossnav/trace/proto_wire.h"
 
@@ -79,13 +78,14 @@ class Scanner {
       return Fail(ErrorCode::kMalformed, "this is not an MCAP file (wrong first bytes)", name_);
     }
     rest.remove_prefix(kMcapMagic.size());
-    bool is_data = true;  // what follows the data section repeats it
-    while (is_data) {
+    // What follows the data section only repeats it.
+    for (bool is_data = true; is_data;) {
       offset_ = file_.size() - rest.size();
       contents_.good_bytes = offset_;
       const auto record = TakeRecord(rest);
       if (!record) return Torn();
-      is_data = record->op != McapOp::kDataEnd && record->op != McapOp::kFooter;
+      if (record->op == McapOp::kFooter) return Bad("a footer before the end of the data");
+      is_data = record->op != McapOp::kDataEnd;
       if (const auto good = Read(*record); !good) return tl::unexpected(good.error());
     }
     contents_.is_complete = rest.ends_with(kMcapMagic);
@@ -211,9 +211,14 @@ class Scanner {
 }  // namespace
 
 Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisitor& visit) {
+  std::error_code code;
+  const std::uint64_t size = std::filesystem::file_size(path, code);
   std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail(ErrorCode::kNotFound, "cannot open the file", path.string());
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (code || !in) return Fail(ErrorCode::kNotFound, "cannot open the file", path.string());
+  std::string bytes(size, '\0');
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    return Fail(ErrorCode::kIo, "cannot read the file", path.string());
+  }
   return Scanner(path.string(), bytes, visit).Run();
 }
 

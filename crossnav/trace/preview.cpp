@@ -47,7 +47,8 @@ void AppendPng(png_structp png, png_bytep bytes, png_size_t count) {
 }  // namespace
 
 int ShrinkFactor(int size_px, int max_px) {
-  return std::max(1, (size_px + max_px - 1) / std::max(1, max_px));
+  const int most_px = std::max(1, max_px);
+  return std::max(1, (size_px + most_px - 1) / most_px);
 }
 
 RgbImage Shrink(const RgbImage& rgb, int factor) {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An orbit camera above a z-up world: where it looks, its matrix, and where a point lands on screen.
 
-export function subtract(a, b) {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-}
-
 export function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
@@ -22,14 +18,30 @@ export class OrbitCamera {
     this.pitch = 0.95;
     this.distance = 14;
     this.aspect = 1;
+    this.shift = 0;  // of the picture to the right, in half widths
   }
 
-  /// Shows a box whole.
+  /// Shows a box whole, as large as fits beside what covers the view at its left.
   frame(lo, hi) {
     this.target = lo.map((v, i) => (v + hi[i]) / 2);
-    const radius = 0.5 * Math.hypot(...subtract(hi, lo));
-    const narrow = Math.min(1, this.aspect);
-    this.distance = Math.max(2, (0.82 * radius) / (Math.tan(FIELD_OF_VIEW / 2) * narrow));
+    let near = 1, far = 400;
+    for (let i = 0; i < 24; ++i) {
+      this.distance = (near + far) / 2;
+      if (this.holds(lo, hi)) far = this.distance;
+      else near = this.distance;
+    }
+    this.distance = far;
+  }
+
+  holds(lo, hi) {
+    const matrix = this.matrix();
+    for (let i = 0; i < 8; ++i) {
+      const corner = [i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]];
+      const at = projectPoint(matrix, corner, 2, 2);
+      if (!at || Math.abs(at[0] - 1 - this.shift) > 0.97 - this.shift) return false;
+      if (Math.abs(at[1] - 1) > 0.95) return false;
+    }
+    return true;
   }
 
   axes() {
@@ -51,11 +63,13 @@ export class OrbitCamera {
     const eye = this.eye();
     const near = Math.max(0.05, this.distance * 0.02), far = this.distance * 4 + 60;
     const f = 1 / Math.tan(FIELD_OF_VIEW / 2);
+    const across = scaleRow(right, eye, f / this.aspect);
+    const away = [-back[0], -back[1], -back[2], dot(back, eye)];
     const rows = [
-      scaleRow(right, eye, f / this.aspect),
+      across.map((v, i) => v + this.shift * away[i]),
       scaleRow(up, eye, f),
       depthRow(back, eye, near, far),
-      [-back[0], -back[1], -back[2], dot(back, eye)],
+      away,
     ];
     const m = new Float32Array(16);
     for (let row = 0; row < 4; ++row) {

@@ -51,11 +51,14 @@ export function floorLevels(steps, gap_m = 1.8) {
   return levels.sort((a, b) => a - b);
 }
 
-/// Index of the floor that a height belongs to: slabs count to the floor above them.
+/// A floor's own surface lies at most so far below its level; what is lower is a ceiling.
+export const FLOOR_MARGIN_M = 0.13;
+
+/// Index of the floor that a height belongs to.
 export function floorOf(levels, z) {
   let floor = 0;
   for (let i = 1; i < levels.length; ++i) {
-    if (z > levels[i] - 0.35) floor = i;
+    if (z > levels[i] - FLOOR_MARGIN_M) floor = i;
   }
   return floor;
 }

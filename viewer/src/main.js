@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together: reads the embedded data, draws on demand, listens to keys and pointer.
 import { OrbitCamera } from "./camera.js";
-import { bytesOfBase64, floorLevels, inflate, words } from "./data.js";
+import { bytesOfBase64, floorLevels, floorOf, inflate, words } from "./data.js";
 import { Overlay } from "./overlay.js";
 import {
   CameraPanel, CandidatesPanel, GoalsHead, LogPanel, StatusPanel, VerificationPanel, byId, make,
@@ -13,10 +13,10 @@ import { VoxelHistory, blockFaces } from "./voxels.js";
 
 const WALKABLE = "#b9dcc0", INFLATED = "#dccfb8";
 const LAYERS = [
-  ["trajectory", "trajectory, a colour for each goal", "#1c7ed6"],
+  ["trajectory", "trajectory, by goal", "#1c7ed6"],
   ["path", "planned path", PATH_COLOUR],
   ["candidates", "candidates and target", "#e64980"],
-  ["goals", "true goals (the agent does not see them)", "#2f9e44"],
+  ["goals", "true goals (agent unaware)", "#2f9e44"],
 ];
 
 class ReplayApp {
@@ -25,7 +25,8 @@ class ReplayApp {
     this.index = 0;
     this.levels = floorLevels(replay.steps);
     this.view = {
-      levels: this.levels, spread: 0, cut: 1.5, onlyFloor: -1, isFollowing: false,
+      levels: this.levels, spread: 0, cut: 1.5, floors: "auto", isFollowing: false,
+      lowFloor: 0, highFloor: 7,
       layers: { trajectory: true, path: true, candidates: true, goals: true },
       isShown: replay.states.map((s) => s.is_surface),
     };
@@ -74,8 +75,10 @@ class ReplayApp {
     for (const step of this.replay.steps) add(this.builder.lift(step.agent.p_world));
     if (bounds) {
       const corners = [bounds.lo, bounds.hi].map((key) => key.map((v) => v * voxel));
-      corners.forEach((p) => add([p[0], p[1], Math.min(hi[2] + 1, Math.max(lo[2], p[2]))]));
+      corners.forEach((p) => add([p[0], p[1], Math.min(hi[2], Math.max(lo[2], p[2]))]));
     }
+    hi[2] += 1.2;  // walls around the highest place
+    this.fitCamera(byId("view").getBoundingClientRect());
     this.camera.frame(lo, hi);
     this.redraw();
   }
@@ -105,6 +108,12 @@ class ReplayApp {
     });
   }
 
+  fitCamera(box) {
+    const dock = byId("dock").offsetWidth;
+    this.camera.aspect = box.width / Math.max(1, box.height);
+    this.camera.shift = box.width > 2.5 * dock ? dock / box.width : 0;
+  }
+
   updateMesh() {
     this.voxels.seek(this.index);
     for (const block of this.voxels.dirty) {
@@ -119,8 +128,9 @@ class ReplayApp {
     const step = this.replay.steps[this.index];
     const colours = themeColours();
     if (this.view.isFollowing) this.camera.target = this.builder.lift(step.agent.p_world);
-    this.camera.aspect = box.width / Math.max(1, box.height);
+    this.fitCamera(box);
     const matrix = this.camera.matrix();
+    this.updateFloorRange(step);
     const { lines, triangles } = this.builder.build(this.index);
     if (this.renderer) {
       this.updateMesh();
@@ -161,14 +171,24 @@ class ReplayApp {
   lookFromTop() {
     this.camera.pitch = 1.5707;
     this.camera.yaw = -Math.PI / 2;
+    this.showWhole();
+  }
+
+  /// "auto" (the robot's floor and what is below it), "all", or the number of one floor.
+  showFloors(which) {
+    this.view.floors = this.view.floors === which ? "auto" : which;
+    for (const button of byId("floors").children) {
+      button.classList.toggle("on", button.dataset.floors === String(this.view.floors));
+    }
     this.redraw();
   }
 
-  showFloor(floor) {
-    this.view.onlyFloor = this.view.onlyFloor === floor ? -1 : floor;
-    [...byId("floors").children].forEach(
-      (button, i) => button.classList.toggle("on", i - 1 === this.view.onlyFloor));
-    this.redraw();
+  updateFloorRange(step) {
+    const { floors, levels } = this.view, last = Math.max(0, levels.length - 1);
+    const isNumber = typeof floors === "number";
+    const highest = floors === "auto" ? floorOf(levels, step.agent.p_world[2]) : last;
+    this.view.lowFloor = isNumber ? floors : 0;
+    this.view.highFloor = isNumber ? floors : highest;
   }
 
   toggleFollow() {
@@ -241,13 +261,16 @@ function patchRow(colour, name) {
 }
 
 function connectTools(app) {
-  const floors = [["All", -1], ...app.levels.map((_, i) => [`Floor ${i + 1}`, i])];
-  byId("floors").replaceChildren(...floors.map(([name, floor]) => {
-    const button = make("button", floor === -1 ? "on" : "", name);
-    button.addEventListener("click", () => app.showFloor(floor));
+  const floors = [["Auto", "auto", "the robot's floor and what is below it"], ["All", "all", ""],
+    ...app.levels.map((level, i) => [String(i + 1), i, `the floor at ${level.toFixed(2)} m alone`])];
+  byId("floors").replaceChildren(...floors.map(([name, which, title]) => {
+    const button = make("button", which === "auto" ? "on" : "", name);
+    button.dataset.floors = String(which);
+    button.title = title;
+    button.addEventListener("click", () => app.showFloors(which));
     return button;
   }));
-  byId("floors").hidden = byId("spread-row").hidden = app.levels.length < 2;
+  byId("floors-row").hidden = byId("spread-row").hidden = app.levels.length < 2;
   const slider = (id, apply) => {
     const update = () => {
       const value = Number(byId(id).value);
@@ -295,7 +318,7 @@ function connectKeys(app) {
     if (event.target.matches("input, select")) return;
     const floor = Number(event.key) - 1;
     const isFloor = /^[1-9]$/.test(event.key) && floor < app.levels.length;
-    const action = isFloor ? () => app.showFloor(floor) : actions[event.key] ||
+    const action = isFloor ? () => app.showFloors(floor) : actions[event.key] ||
       actions[event.key.toLowerCase()];
     if (!action) return;
     event.preventDefault();
@@ -332,11 +355,12 @@ function connectPointer(app) {
   }, { passive: false });
 }
 
-/// "#step=120&floor=2&top": a view that can be linked to.
+/// "#step=120&floors=2&top": a view that can be linked to.
 function applyHash(app) {
   const wanted = new URLSearchParams(location.hash.slice(1));
   if (wanted.has("theme")) document.documentElement.dataset.theme = wanted.get("theme");
-  if (wanted.has("floor")) app.showFloor(Number(wanted.get("floor")) - 1);
+  const floors = wanted.get("floors");
+  if (floors) app.showFloors(/^\d+$/.test(floors) ? Number(floors) - 1 : floors);
   if (wanted.has("spread")) byId("spread").value = wanted.get("spread");
   byId("spread").dispatchEvent(new Event("input"));
   if (wanted.has("spread")) app.showWhole();

@@ -3,7 +3,7 @@
 // missing, so that the page still shows where the robot went.
 import { projectPoint } from "./camera.js";
 import { LINE_FLOATS } from "./renderer.js";
-import { above, kindOf } from "./scene.js";
+import { GOAL_COLOUR, OTHER_GOAL_COLOUR, above, kindOf } from "./scene.js";
 
 export class Overlay {
   constructor(canvas, builder) {
@@ -35,10 +35,11 @@ export class Overlay {
   drawGoals(step) {
     for (const instance of this.builder.replay.info.goal_instances) {
       const centre = instance.box_min.map((v, i) => (v + instance.box_max[i]) / 2);
-      if (!this.builder.isShown(centre)) continue;
-      const at = this.project([centre[0], centre[1], instance.box_max[2] + 0.15]);
       const isCurrent = instance.goal === step.goal;
-      if (at) this.tag(at, instance.goal.replace(/_/g, " "), isCurrent ? "#2f9e44" : "#868e96", 0);
+      if (!isCurrent && !this.builder.isShown(centre)) continue;
+      const at = this.project([centre[0], centre[1], instance.box_max[2] + 0.15]);
+      const colour = isCurrent ? GOAL_COLOUR : OTHER_GOAL_COLOUR;
+      if (at) this.tag(at, instance.goal.replace(/_/g, " "), colour);
     }
   }
 
@@ -71,7 +72,7 @@ export class Overlay {
     if (candidate.is_target || index === this.highlight) {
       ring(c, at, radius + 4, candidate.is_target ? "#0ca678" : kind.colour);
       const prefix = candidate.is_target ? "target: " : "";
-      this.tag([at[0], at[1] - radius - 14], prefix + kind.label, kind.colour, index);
+      this.tag([at[0], at[1] - radius - 14], prefix + kind.label, kind.colour);
     }
     this.spots.push({ x: at[0], y: at[1], radius: radius + 4, index, candidate });
   }

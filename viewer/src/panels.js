@@ -109,7 +109,7 @@ export class StatusPanel {
     const facts = [
       ["Goal", words(step.goal)],
       ["Action", words(step.action)],
-      ["Floor", `${floor}, level ${step.level_m.toFixed(2)} m`],
+      ["Floor", `${floor} (${step.level_m.toFixed(2)} m)`],
       ["Position", step.agent.p_world.map((v) => v.toFixed(2)).join(", ")],
       ["Heading", `${degrees(step.agent.yaw_rad)}, pitch ${degrees(step.agent.pitch_rad)}`],
       ["Detections", `${step.detections}${step.all_explored ? ", all explored" : ""}`],
@@ -228,7 +228,7 @@ export class LogPanel {
     });
     if (last < 0) return;
     const row = this.rows[last], list = this.list;
-    const top = row.offsetTop - list.offsetTop;
+    const top = row.offsetTop;  // the list is positioned
     if (top < list.scrollTop || top + row.offsetHeight > list.scrollTop + list.clientHeight) {
       list.scrollTop = top - list.clientHeight + row.offsetHeight + 4;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws with WebGL 2: voxel faces (one instance a face), wide lines, shaded triangles.
+import { FLOOR_MARGIN_M } from "./data.js";
 import { FACE_BYTES } from "./voxels.js";
 
 // Floors are cut at a height above their level and can be moved apart; the same rule as in scene.js.
@@ -7,10 +8,10 @@ const FLOOR_RULE = `
 uniform float u_levels[8];
 uniform int u_levelCount;
 uniform float u_cut, u_spread;
-uniform int u_onlyFloor;
+uniform int u_lowFloor, u_highFloor;
 int floorOf(float z) {
   int f = 0;
-  for (int i = 1; i < 8; ++i) if (i < u_levelCount && z > u_levels[i] - 0.35) f = i;
+  for (int i = 1; i < 8; ++i) if (i < u_levelCount && z > u_levels[i] - ${FLOOR_MARGIN_M}) f = i;
   return f;
 }`;
 
@@ -38,7 +39,7 @@ void main() {
   int f = floorOf(z);
   bool isStair = state >= 5;
   float height = z - u_levels[f];
-  if ((u_onlyFloor >= 0 && f != u_onlyFloor) || (!isStair && height > u_cut)) {
+  if (f < u_lowFloor || f > u_highFloor || (!isStair && height > u_cut)) {
     gl_Position = vec4(2, 2, 2, 1);
     return;
   }
@@ -51,7 +52,7 @@ void main() {
   if (direction == 4 && state == 1 && airState == 2) colour = inflated ? u_inflated : u_walkable;
   if (direction == 4 && isStair && airState == 3 && inflated) colour = mix(colour, u_inflated, 0.4);
   float light = direction == 4 ? 1.0 : direction < 2 ? 0.80 : 0.68;
-  light *= 0.86 + 0.14 * clamp(height / 1.6, 0.0, 1.0);
+  light *= 0.93 + 0.07 * clamp(height / 1.6, 0.0, 1.0);
   v_colour = colour * light;
 }`;
 
@@ -195,7 +196,7 @@ export class Renderer {
   }
 
   /// view: {matrix, background, voxel_m, colours, walkable, inflated, levels, cut, spread,
-  /// onlyFloor, ratio}; lines and triangles as flat arrays of LINE_FLOATS and SOLID_FLOATS.
+  /// lowFloor, highFloor, ratio}; lines and triangles as flat arrays of LINE_FLOATS and SOLID_FLOATS.
   draw(view, lines, triangles) {
     const gl = this.gl;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
@@ -223,7 +224,8 @@ export class Renderer {
     gl.uniform1i(u.u_levelCount, Math.min(8, view.levels.length));
     gl.uniform1f(u.u_cut, view.cut);
     gl.uniform1f(u.u_spread, view.spread);
-    gl.uniform1i(u.u_onlyFloor, view.onlyFloor);
+    gl.uniform1i(u.u_lowFloor, view.lowFloor);
+    gl.uniform1i(u.u_highFloor, view.highFloor);
     for (const entry of this.blocks.values()) {
       if (entry.count === 0) continue;
       gl.bindVertexArray(entry.vao);

@@ -20,6 +20,8 @@ export const KINDS = {
 };
 const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";
+export const GOAL_COLOUR = "#2f9e44";
+export const OTHER_GOAL_COLOUR = "#5c6773";
 const AGENT_HEIGHT_M = 0.88;
 
 export function kindOf(name) {
@@ -31,7 +33,7 @@ export function rgbOf(hex) {
 }
 
 export class SceneBuilder {
-  /// view: {levels, spread, onlyFloor, layers}; read anew at each build.
+  /// view: {levels, spread, lowFloor, highFloor, layers}; read anew at each build.
   constructor(replay, view) {
     this.replay = replay;
     this.view = view;
@@ -42,7 +44,8 @@ export class SceneBuilder {
   }
 
   isShown(p) {
-    return this.view.onlyFloor < 0 || floorOf(this.view.levels, p[2]) === this.view.onlyFloor;
+    const floor = floorOf(this.view.levels, p[2]);
+    return floor >= this.view.lowFloor && floor <= this.view.highFloor;
   }
 
   /// {lines: number[], triangles: number[]}
@@ -58,9 +61,11 @@ export class SceneBuilder {
   }
 
   addLine(out, p, q, rgb, alpha, width) {
-    if (this.isShown(p) || this.isShown(q)) {
-      out.lines.push(...this.lift(p), ...this.lift(q), ...rgb, alpha, width);
-    }
+    if (this.isShown(p) || this.isShown(q)) this.addAnyLine(out, p, q, rgb, alpha, width);
+  }
+
+  addAnyLine(out, p, q, rgb, alpha, width) {
+    out.lines.push(...this.lift(p), ...this.lift(q), ...rgb, alpha, width);
   }
 
   addTrajectory(out, index) {
@@ -83,9 +88,10 @@ export class SceneBuilder {
   addGoals(out, step) {
     for (const instance of this.replay.info.goal_instances) {
       const isCurrent = instance.goal === step.goal;
-      const rgb = rgbOf(isCurrent ? "#2f9e44" : "#868e96");
+      const rgb = rgbOf(isCurrent ? GOAL_COLOUR : OTHER_GOAL_COLOUR);
       for (const [p, q] of boxEdges(instance.box_min, instance.box_max)) {
-        this.addLine(out, p, q, rgb, isCurrent ? 1 : 0.7, isCurrent ? 2.6 : 1.4);
+        if (isCurrent) this.addAnyLine(out, p, q, rgb, 1, 2.6);
+        else this.addLine(out, p, q, rgb, 0.7, 1.4);
       }
     }
   }
