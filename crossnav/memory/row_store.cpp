@@ -127,4 +127,26 @@ void RowStore::Keep(std::span<const std::int64_t> rows) {
   chunks_.resize((to + kChunkRows - 1) / kChunkRows);
 }
 
+// Along each cycle of the permutation, with one row set aside: no second copy of all rows.
+void RowStore::Reorder(std::span<const std::int64_t> order) {
+  std::vector<bool> is_placed(order.size(), false);
+  std::vector<std::byte> aside(RowBytes());
+  for (std::size_t start = 0; start < order.size(); ++start) {
+    if (is_placed[start] || order[start] == static_cast<std::int64_t>(start)) continue;
+    std::memcpy(aside.data(), At(start), RowBytes());
+    const float aside_norm = inverse_norms_[start];
+    std::size_t to = start;
+    while (order[to] != static_cast<std::int64_t>(start)) {
+      const std::int64_t from = order[to];
+      std::memcpy(At(to), At(from), RowBytes());
+      inverse_norms_[to] = inverse_norms_[from];
+      is_placed[to] = true;
+      to = from;
+    }
+    std::memcpy(At(to), aside.data(), RowBytes());
+    inverse_norms_[to] = aside_norm;
+    is_placed[to] = true;
+  }
+}
+
 }  // namespace crossnav::memory

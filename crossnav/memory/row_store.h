@@ -44,6 +44,8 @@ class RowStore {
 
   /// Keeps only the rows listed, ascending; they move down.
   void Keep(std::span<const std::int64_t> rows);
+  /// Row i becomes what row order[i] was; a permutation.
+  void Reorder(std::span<const std::int64_t> order);
 
  private:
   static constexpr std::int64_t kChunkRows = 4096;  // chosen: three huge pages at 768 features

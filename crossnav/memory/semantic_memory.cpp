@@ -75,6 +75,7 @@ struct SemanticMemory::Impl {
   void GatherWeights(const std::vector<PixelVoxel>& pixels, int width);
   void FuseSlot(std::int32_t slot, const float* grid, const Vector3f& p_camera_world);
   void EnforceLimit();
+  void Reindex();
 };
 
 // Walks the pixels once, cutting them into runs of one image row, voxel and cell interval.
@@ -143,17 +144,22 @@ void SemanticMemory::Impl::EnforceLimit() {
   order.resize(kept);
   std::sort(order.begin(), order.end());
   rows.Keep(order);
-  index = RowGrid();
   for (std::int64_t to = 0; to < kept; ++to) {
     keys[to] = keys[order[to]];
     facts[to] = facts[order[to]];
-    index.Touch(geometry::BlockKeyOf(keys[to])).row[geometry::CellIndexOf(keys[to])] =
-        static_cast<std::int32_t>(to);
   }
   keys.resize(kept);
   facts.resize(kept);
   slot_of_row.resize(kept);
+  Reindex();
   counters.dropped_rows += size - kept;
+}
+
+void SemanticMemory::Impl::Reindex() {
+  index = RowGrid();
+  for (std::size_t row = 0; row < keys.size(); ++row)
+    index.Touch(geometry::BlockKeyOf(keys[row])).row[geometry::CellIndexOf(keys[row])] =
+        static_cast<std::int32_t>(row);
 }
 
 SemanticMemory::SemanticMemory(const FusionConfig& config, double voxel_m, int dim)
@@ -252,6 +258,21 @@ void SemanticMemory::AppendRow(const MemoryRow& row) {
   m.AppendKey(row.key, cell);
   m.rows.WriteHalf(cell, row.half);
   m.facts.back() = {row.weight, row.best_confidence, row.p_best_view_world};
+}
+
+void SemanticMemory::ReorderRows(std::span<const std::int64_t> order) {
+  Impl& m = *impl_;
+  CROSSNAV_CHECK(static_cast<std::int64_t>(order.size()) == Size(), "an order of all rows");
+  m.rows.Reorder(order);
+  std::vector<VoxelKey> keys(order.size());
+  std::vector<RowFacts> facts(order.size());
+  for (std::size_t to = 0; to < order.size(); ++to) {
+    keys[to] = m.keys[order[to]];
+    facts[to] = m.facts[order[to]];
+  }
+  m.keys = std::move(keys);
+  m.facts = std::move(facts);
+  m.Reindex();
 }
 
 std::vector<float> SemanticMemory::Similarity(std::span<const float> text) const {

@@ -110,6 +110,8 @@ class SemanticMemory {
   /// and `half` of Dim() numbers, none of them infinite or NaN.
   MemoryRow RowAt(std::int64_t row) const;
   void AppendRow(const MemoryRow& row);
+  /// Row i becomes what row order[i] was; `order` is a permutation of all rows.
+  void ReorderRows(std::span<const std::int64_t> order);
 
   /// Cosine of every row with `text` (any norm > 0), in row order (eq:supp_similarity).
   std::vector<float> Similarity(std::span<const float> text) const;

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/store/map_file.h"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "store/small_world.h"
+
+namespace crossnav::store {
+namespace {
+
+using testing::ExpectSame;
+using testing::SmallWorld;
+using testing::TempFile;
+
+const SaveInfo kInfo{.encoder_name = "test-encoder",
+                     .encoder_hash = 0xfedcba9876543210ULL,
+                     .frame = "kitchen corner"};
+
+TEST(MapFileTest, WhatIsLoadedIsWhatWasSaved) {
+  const TempFile file("roundtrip.map");
+  SmallWorld world;
+  for (int i = 0; i < 6; ++i) world.AddFrame(i);
+  const auto saved = SaveMemory(file.path(), world.map, world.memory, kInfo);
+  ASSERT_TRUE(saved) << saved.error().Message();
+  EXPECT_EQ(saved->revision, 1);
+  const auto loaded = LoadMemory(file.path());
+  ASSERT_TRUE(loaded) << loaded.error().Message();
+  ExpectSame(world.map, world.memory, loaded->map, loaded->memory);
+  EXPECT_TRUE(loaded->damaged.empty());
+  EXPECT_EQ(loaded->header.encoder_name, "test-encoder");
+  EXPECT_EQ(loaded->header.encoder_hash, 0xfedcba9876543210ULL);
+  EXPECT_EQ(loaded->header.frame, "kitchen corner");
+  EXPECT_EQ(loaded->header.voxel_m, 0.10);
+  EXPECT_EQ(loaded->header.feature_dim, testing::kDim);
+  EXPECT_EQ(loaded->header.feature_rows, world.memory.Size());
+}
+
+TEST(MapFileTest, GoingOnFromAFileGivesTheSameBytesAsNeverHavingStopped) {
+  for (const std::string clearing : {"never", "evidence"}) {
+    const TempFile file("lifelong.map");
+    geometry::MapConfig config;
+    config.clearing = clearing;
+    SmallWorld straight(config), first(config);
+    for (int i = 0; i < 4; ++i) {
+      straight.AddFrame(i);
+      first.AddFrame(i);
+    }
+    ASSERT_TRUE(SaveMemory(file.path(), first.map, first.memory, kInfo));
+    auto loaded = LoadMemory(file.path(), {.map = config});
+    ASSERT_TRUE(loaded) << loaded.error().Message();
+    for (int i = 4; i < 9; ++i) {
+      straight.AddFrame(i);
+      SmallWorld::AddFrameTo(i, loaded->map, loaded->memory);
+    }
+    ExpectSame(straight.map, straight.memory, loaded->map, loaded->memory);
+  }
+}
+
+TEST(MapFileTest, SecondSaveWritesOnlyWhatChanged) {
+  const TempFile file("incremental.map");
+  SmallWorld world;
+  for (int i = 0; i < 12; ++i) world.AddFrame(i);
+  const auto first = SaveMemory(file.path(), world.map, world.memory, kInfo);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->blocks_unchanged, 0);
+  const auto again = SaveMemory(file.path(), world.map, world.memory, kInfo);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->revision, 2);
+  EXPECT_EQ(again->blocks_written, 0);
+  EXPECT_EQ(again->blocks_unchanged, first->blocks_written);
+  world.AddFrame(40);  // far away from the rest
+  const auto more = SaveMemory(file.path(), world.map, world.memory, kInfo);
+  ASSERT_TRUE(more);
+  EXPECT_GT(more->blocks_written, 0);
+  EXPECT_GT(more->blocks_unchanged, first->blocks_written / 2);
+  const auto loaded = LoadMemory(file.path());
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->header.revision, 3);
+  ExpectSame(world.map, world.memory, loaded->map, loaded->memory);
+}
+
+TEST(MapFileTest, SavingASmallerMapOverALargerOneLeavesNothingOfTheLargerOne) {
+  const TempFile file("smaller.map");
+  SmallWorld large, small;
+  for (int i = 0; i < 12; ++i) large.AddFrame(i);
+  small.AddFrame(3);
+  ASSERT_TRUE(SaveMemory(file.path(), large.map, large.memory, kInfo));
+  const auto saved = SaveMemory(file.path(), small.map, small.memory, kInfo);
+  ASSERT_TRUE(saved);
+  EXPECT_GT(saved->blocks_removed, 0);
+  const auto loaded = LoadMemory(file.path());
+  ASSERT_TRUE(loaded);
+  ExpectSame(small.map, small.memory, loaded->map, loaded->memory);
+}
+
+TEST(MapFileTest, EmptyMapIsAMapToo) {
+  const TempFile file("empty.map");
+  const SmallWorld world;
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, {}));
+  auto loaded = LoadMemory(file.path());
+  ASSERT_TRUE(loaded) << loaded.error().Message();
+  EXPECT_EQ(loaded->memory.Size(), 0);
+  SmallWorld::AddFrameTo(0, loaded->map, loaded->memory);
+  EXPECT_GT(loaded->memory.Size(), 0);
+}
+
+TEST(MapFileTest, HeaderAloneSaysWhatIsInTheFile) {
+  const TempFile file("header.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, kInfo));
+  const auto header = ReadMapHeader(file.path());
+  ASSERT_TRUE(header);
+  EXPECT_EQ(header->feature_rows, world.memory.Size());
+  EXPECT_EQ(header->map_blocks, world.map.Stats().blocks);
+  EXPECT_EQ(header->clearing, "never");
+}
+
+TEST(MapFileTest, WrongSettingsAreRefusedByName) {
+  const TempFile file("mismatch.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, kInfo));
+  geometry::MapConfig coarse;
+  coarse.voxel_m = 0.2;
+  const auto voxel = LoadMemory(file.path(), {.map = coarse});
+  ASSERT_FALSE(voxel);
+  EXPECT_EQ(voxel.error().code, ErrorCode::kMismatch);
+  EXPECT_NE(voxel.error().what.find("voxel"), std::string::npos);
+  geometry::MapConfig counting;
+  counting.clearing = "evidence";
+  EXPECT_EQ(LoadMemory(file.path(), {.map = counting}).error().code, ErrorCode::kMismatch);
+  const auto encoder = LoadMemory(file.path(), {.encoder_name = "another"});
+  ASSERT_FALSE(encoder);
+  EXPECT_NE(encoder.error().what.find("test-encoder"), std::string::npos);
+  EXPECT_FALSE(LoadMemory(file.path(), {.encoder_hash = 5}));
+  EXPECT_TRUE(LoadMemory(file.path(), {.encoder_name = "test-encoder"}));
+}
+
+TEST(MapFileTest, OtherFilesAreNeitherReadNorOverwritten) {
+  const TempFile file("other.map");
+  EXPECT_EQ(LoadMemory(file.path()).error().code, ErrorCode::kNotFound);
+  SmallWorld world;
+  world.AddFrame(0);
+  const std::string text =
+      "these are my holiday photographs, do not touch " + std::string(999, 'x');
+  file.Write(text);
+  EXPECT_EQ(LoadMemory(file.path()).error().code, ErrorCode::kMalformed);
+  EXPECT_FALSE(SaveMemory(file.path(), world.map, world.memory, kInfo));
+  EXPECT_EQ(file.Read(), text);
+  file.Remove();
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
+  sqlite3_exec(db, "CREATE TABLE photos(x)", nullptr, nullptr, nullptr);
+  sqlite3_close(db);
+  EXPECT_EQ(LoadMemory(file.path()).error().code, ErrorCode::kMalformed);
+  EXPECT_FALSE(SaveMemory(file.path(), world.map, world.memory, kInfo));
+  EXPECT_FALSE(SaveMemory("/nowhere/at/all.map", world.map, world.memory, kInfo));
+}
+
+TEST(MapFileTest, NewerFormatIsRefusedAsSuch) {
+  const TempFile file("newer.map");
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
+  sqlite3_exec(db,
+               "PRAGMA application_id=0x434e4d50; PRAGMA user_version=7; CREATE TABLE header(x)",
+               nullptr, nullptr, nullptr);
+  sqlite3_close(db);
+  const auto loaded = LoadMemory(file.path());
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().code, ErrorCode::kUnsupported);
+}
+
+TEST(MapFileTest, SameMapGivesTheSameBytes) {
+  const TempFile a("bytes_a.map"), b("bytes_b.map");
+  SmallWorld world;
+  for (int i = 0; i < 3; ++i) world.AddFrame(i);
+  ASSERT_TRUE(SaveMemory(a.path(), world.map, world.memory, kInfo));
+  ASSERT_TRUE(SaveMemory(b.path(), world.map, world.memory, kInfo));
+  EXPECT_EQ(a.Read(), b.Read());
+}
+
+}  // namespace
+}  // namespace crossnav::store
