@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/utsname.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "crossnav/bench/episode_generator.h"
+#include "crossnav/bench/runner.h"
+#include "crossnav/bench/timing.h"
+#include "crossnav/world/embedded_house.h"
+#include "progress.h"
+#include "session.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string CpuModel() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+/// Collects what each step took.
+class CostLog : public bench::RunObserver {
+ public:
+  Result<void> OnStep(const bench::StepView& step) override {
+    for (const trace::StageTime& time : step.timing) Add(time.stage, time.ms, time.ms);
+    return {};
+  }
+  void OnStepCost(const bench::StepCost& cost) override {
+    Add("simulator", cost.observe_wall_ms, cost.observe_cpu_ms);
+    Add("step", cost.wall_ms, cost.cpu_ms);
+    total_wall_ms_ += cost.wall_ms;
+    ++steps_;
+  }
+  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord&) override {
+    voxels_ = state.map().Stats().known;
+    feature_voxels_ = state.memory().Size();
+    return {};
+  }
+
+  Json ToJson() const {
+    Json stages = Json::object();
+    for (const auto& [name, sample] : wall_.samples_ms) {
+      stages[name] = {{"p50_ms", bench::PercentileOf(sample, 0.5)},
+                      {"p95_ms", bench::PercentileOf(sample, 0.95)},
+                      {"cpu_p50_ms", bench::PercentileOf(cpu_.samples_ms.at(name), 0.5)},
+                      {"n", sample.size()}};
+    }
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    utsname system{};
+    ::uname(&system);
+    return {{"machine",
+             {{"cpu", CpuModel()},
+              {"cores", std::thread::hardware_concurrency()},
+              {"system", std::string(system.sysname) + " " + system.release},
+              {"compiler", __VERSION__},
+              {"version", CROSSNAV_VERSION}}},
+            {"stages", std::move(stages)},
+            {"peak_rss_mb", static_cast<double>(usage.ru_maxrss) / 1024},
+            {"voxels", voxels_},
+            {"feature_voxels", feature_voxels_},
+            {"steps_per_s", steps_ / std::max(1e-9, total_wall_ms_ * 1e-3)}};
+  }
+
+ private:
+  void Add(const std::string& stage, double wall_ms, double cpu_ms) {
+    wall_.Add(stage, wall_ms);
+    cpu_.Add(stage, cpu_ms);
+  }
+  bench::TimingLog wall_, cpu_;
+  double total_wall_ms_ = 0;
+  int steps_ = 0;
+  std::int64_t voxels_ = 0, feature_voxels_ = 0;
+};
+
+std::string Text(const Json& json) {
+  std::string text =
+      fmt::format("{:<12} {:>9} {:>9} {:>9} {:>6}\n", "stage", "p50 ms", "p95 ms", "cpu p50", "n");
+  for (const auto& [name, stage] : json["stages"].items()) {
+    text += fmt::format("{:<12} {:>9.2f} {:>9.2f} {:>9.2f} {:>6}\n", name,
+                        stage["p50_ms"].get<double>(), stage["p95_ms"].get<double>(),
+                        stage["cpu_p50_ms"].get<double>(), stage["n"].get<int>());
+  }
+  return text + fmt::format("{:.1f} steps/s, peak {:.0f} MB, {} voxels, {} with features ({})\n",
+                            json["steps_per_s"].get<double>(), json["peak_rss_mb"].get<double>(),
+                            json["voxels"].get<std::int64_t>(),
+                            json["feature_voxels"].get<std::int64_t>(),
+                            json["machine"]["cpu"].get<std::string>());
+}
+
+struct Subject {
+  std::filesystem::path scenes;
+  bench::Episode episode;
+};
+
+/// The given episode, or the climbing one in the embedded house.
+Result<Subject> ChooseSubject(const BenchOptions& options, const bench::RunConfig& config,
+                              SceneCache& cache, const std::filesystem::path& scenes) {
+  if (!options.episodes.empty()) {
+    const auto file = bench::ReadEpisodes(options.episodes);
+    if (!file) return tl::unexpected(file.error());
+    if (file->episodes.empty()) {
+      return Fail(ErrorCode::kInvalid, "holds no episode", options.episodes);
+    }
+    const std::string id =
+        options.episode.empty() ? file->episodes.front().episode_id : options.episode;
+    auto episode = FindEpisode(*file, id, options.episodes);
+    if (!episode) return tl::unexpected(episode.error());
+    return Subject{scenes, std::move(*episode)};
+  }
+  const auto ids = bench::ListScenes(scenes);
+  if (!ids) return tl::unexpected(ids.error());
+  const auto context = cache.Get(ids->front());
+  if (!context) return tl::unexpected(context.error());
+  auto episode = bench::MakeEpisode({ids->front(), *context}, config, {"sofa", "toilet", "bed"}, 0,
+                                    config.eval.seed);
+  if (!episode) return tl::unexpected(episode.error());
+  return Subject{scenes, std::move(*episode)};
+}
+
+}  // namespace
+
+Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  if (!options.episodes.empty() && options.scenes.empty()) {
+    return Fail(ErrorCode::kInvalid, "give the scenes of the episodes", "--scenes");
+  }
+  std::filesystem::path scenes = options.scenes;
+  if (scenes.empty()) {
+    scenes = std::filesystem::temp_directory_path() / fmt::format("crossnav-bench-{}", ::getuid());
+    if (auto house = world::WriteEmbeddedHouse(scenes); !house)
+      return tl::unexpected(house.error());
+  }
+  SceneCache cache(scenes, *config);
+  const auto subject = ChooseSubject(options, *config, cache, scenes);
+  if (!subject) return tl::unexpected(subject.error());
+  const auto context = cache.Get(subject->episode.scene_id);
+  if (!context) return tl::unexpected(context.error());
+  CostLog costs;
+  for (int i = 0; i < options.repeat; ++i) {
+    StepProgress progress(console, subject->episode, *config);
+    const std::vector<bench::RunObserver*> observers = {&costs, &progress};
+    const auto record = bench::RunEpisode(**context, subject->episode, *config, observers);
+    if (!record) return tl::unexpected(record.error());
+  }
+  const Json json = costs.ToJson();
+  console.Print(Text(json));
+  console.Document(json.dump(1));
+  return {};
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// One struct of options and one function per verb of the program (spec: docs/cli.md). main.cpp
+// fills the structs from the command line; nothing else knows how they were typed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "crossnav/bench/run_config.h"
+#include "crossnav/core/result.h"
+
+namespace crossnav::app {
+
+/// What every verb takes.
+struct CommonOptions {
+  bool json = false, quiet = false;
+  std::string config_file;
+  std::vector<std::string> overrides;  ///< key=value
+};
+
+/// The paper's defaults, then the file, then the variant, then the overrides.
+Result<bench::RunConfig> LoadConfig(const CommonOptions& options,
+                                    const std::string& variant = "full");
+
+struct WorldOptions {
+  std::uint64_t seed = 1;
+  int count = 1, floors = 2;
+  std::string out;
+  bool embedded = false;
+};
+Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& common,
+                           Console& console);
+
+struct SceneOptions {
+  std::string scene;  ///< folder
+  std::string at;     ///< "x,y,z,yaw_deg,pitch_deg"
+  std::string out;
+  std::string view = "colour";  ///< colour | depth | semantic
+  bool top_down = false;
+  int floor = -1;  ///< of the top-down view; -1 = lowest
+  double px_per_m = 50;
+};
+Result<void> SceneInfo(const SceneOptions& options, const CommonOptions& common, Console& console);
+Result<void> SceneRender(const SceneOptions& options, const CommonOptions& common,
+                         Console& console);
+
+struct EpisodesOptions {
+  std::string scenes, file, out;
+  int count = 10, goals = 0;
+  double cross_floor = 0.3;
+  std::uint64_t seed = 1;
+  bool repeats = false;
+};
+Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
+                              Console& console);
+Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& common,
+                           Console& console);
+
+struct RunOptions {
+  std::string scenes, episodes, episode;
+  std::string variant = "full";
+  std::string out;     ///< folder for pictures, record and trace
+  std::string replay;  ///< .mcap; empty = none
+  std::string success, budget_scope;
+};
+Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);
+
+struct DemoOptions {
+  int number = 1;  ///< 1 climbs, 2 descends
+  std::string out = "out/demo";
+};
+Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console);
+
+struct EvalOptions {
+  std::string scenes, episodes, out;
+  std::string variant = "full";
+  std::string success, budget_scope;
+  std::string shard = "0/1";
+  int jobs = 1;
+  bool resume = false;  ///< the default anyway; says so in scripts
+};
+Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Console& console);
+
+struct ReportOptions {
+  std::vector<std::string> runs;
+  std::string out;
+  bool partial = false;  ///< accept runs with missing episodes
+};
+Result<void> Report(const ReportOptions& options, const CommonOptions& common, Console& console);
+
+struct MetricsOptions {
+  std::vector<std::string> files;
+};
+Result<void> ShowMetrics(const MetricsOptions& options, const CommonOptions& common,
+                         Console& console);
+
+struct ReplayOptions {
+  std::string file, out;
+};
+Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& common,
+                          Console& console);
+
+struct BenchOptions {
+  std::string scenes, episodes, episode;
+  int repeat = 1;
+};
+Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Console& console);
+
+Result<void> Doctor(const CommonOptions& common, Console& console);
+
+}  // namespace crossnav::app

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "console.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/timing.h"
+
+namespace crossnav::app {
+namespace {
+
+constexpr double kTerminalEvery_ms = 100;  // chosen: readable, and no cost that shows
+constexpr double kPlainEvery_ms = 10000;   // chosen: a log of an hour stays short
+
+std::size_t TerminalWidth() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 80;
+  return size.ws_col;
+}
+
+const char* NameOf(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kNotFound:
+      return "not_found";
+    case ErrorCode::kMalformed:
+      return "malformed";
+    case ErrorCode::kUnsupported:
+      return "unsupported";
+    case ErrorCode::kInvalid:
+      return "invalid";
+    case ErrorCode::kMismatch:
+      return "mismatch";
+    case ErrorCode::kIo:
+      return "io";
+  }
+  return "unknown";
+}
+
+void Write(std::FILE* stream, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+  std::fflush(stream);
+}
+
+}  // namespace
+
+Console::Console(bool json, bool quiet)
+    : json_(json), quiet_(quiet), is_terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+void Console::Print(const std::string& text) const {
+  if (!json_) Write(stdout, text);
+}
+
+void Console::Document(const std::string& json) const {
+  if (json_) Write(stdout, json + "\n");
+}
+
+void Console::Log(const std::string& text) {
+  if (quiet_) return;
+  EndProgress();
+  Write(stderr, text + "\n");
+}
+
+void Console::Progress(const std::string& text) {
+  if (quiet_) return;
+  const double now_ms = bench::WallMs();
+  if (now_ms - last_ms_ < (is_terminal_ ? kTerminalEvery_ms : kPlainEvery_ms)) return;
+  last_ms_ = now_ms;
+  if (is_terminal_) {
+    Write(stderr, "\r\033[K" + text.substr(0, TerminalWidth() - 1));
+    has_line_ = true;
+  } else {
+    Write(stderr, text + "\n");
+  }
+}
+
+void Console::EndProgress() {
+  if (has_line_) Write(stderr, "\r\033[K");
+  has_line_ = false;
+}
+
+void Console::Fail(const Error& error) {
+  EndProgress();
+  Write(stderr, "crossnav: " + error.Message() + "\n");
+  const nlohmann::ordered_json json = {
+      {"error", {{"code", NameOf(error.code)}, {"what", error.what}, {"where", error.where}}}};
+  Document(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What the program says: results on stdout (one JSON document where --json is given, text
+// otherwise), everything else on stderr. The only place that prints.
+#pragma once
+
+#include <string>
+
+#include "crossnav/core/result.h"
+
+namespace crossnav::app {
+
+class Console {
+ public:
+  Console(bool json, bool quiet);
+
+  bool json() const { return json_; }
+  /// Text for people, on stdout; nothing under --json.
+  void Print(const std::string& text) const;
+  /// The one JSON document, on stdout; nothing without --json.
+  void Document(const std::string& json) const;
+  /// What is going on, on stderr; nothing under --quiet.
+  void Log(const std::string& text);
+  /// One line that replaces itself on a terminal; a plain line now and then otherwise.
+  void Progress(const std::string& text);
+  void EndProgress();
+  void Fail(const Error& error);
+
+ private:
+  bool json_, quiet_, is_terminal_;
+  bool has_line_ = false;
+  double last_ms_ = -1e12;
+};
+
+}  // namespace crossnav::app

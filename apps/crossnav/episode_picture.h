@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A picture per floor of what happened in an episode: the floor from above with the trajectory
+// (coloured by goal), the last frontiers, the stairs the agent found, the goals, and a legend.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "crossnav/bench/runner.h"
+#include "crossnav/geometry/voxel_key.h"
+
+namespace crossnav::app {
+
+class EpisodePicture : public bench::RunObserver {
+ public:
+  EpisodePicture(const bench::SceneContext& context, const bench::Episode& episode)
+      : context_(context), episode_(episode) {}
+
+  Result<void> OnStep(const bench::StepView& step) override;
+  Result<void> OnStageEnd(const bench::StageRecord& stage) override;
+  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord& record) override;
+
+  /// Writes `<folder>/floor_<id>.png` for every floor; returns the paths.
+  Result<std::vector<std::filesystem::path>> Write(const std::filesystem::path& folder) const;
+
+ private:
+  struct Place {
+    Vector3d p_world;
+    int goal = 0;
+  };
+  const bench::SceneContext& context_;
+  const bench::Episode& episode_;
+  std::vector<Place> trajectory_;
+  std::vector<trace::CandidateTrace> frontiers_;  ///< of the last step that had any
+  std::vector<Vector3d> stairs_world_;            ///< centres of confirmed stair voxels
+  std::vector<bench::StageRecord> stages_;
+};
+
+}  // namespace crossnav::app

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/episode_generator.h"
+#include "session.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Tally {
+  int episodes = 0, cross_floor = 0;
+  std::vector<int> first_stage;
+};
+
+Tally Count(const bench::EpisodeFile& file) {
+  Tally tally;
+  for (const bench::Episode& episode : file.episodes) {
+    ++tally.episodes;
+    tally.first_stage.resize(std::max(tally.first_stage.size(), episode.goals.size()));
+    if (!episode.cross_floor_required) continue;
+    ++tally.cross_floor;
+    ++tally.first_stage[static_cast<std::size_t>(episode.first_transition_stage - 1)];
+  }
+  return tally;
+}
+
+}  // namespace
+
+Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
+                              Console& console) {
+  auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  if (options.goals > 0) config->dataset.goals = options.goals;
+  if (options.repeats) config->dataset.allow_repeats = true;
+  const auto ids = bench::ListScenes(options.scenes);
+  if (!ids) return tl::unexpected(ids.error());
+  SceneCache cache(options.scenes, *config, ids->size());
+  std::vector<bench::GeneratorScene> scenes;
+  for (const std::string& id : *ids) {
+    console.Progress(fmt::format("scene {} of {}: {}", scenes.size() + 1, ids->size(), id));
+    const auto context = cache.Get(id);
+    if (!context) return tl::unexpected(context.error());
+    scenes.push_back({id, *context});
+  }
+  const auto file =
+      bench::GenerateEpisodes(scenes, *config, {options.count, options.cross_floor, options.seed});
+  if (!file) return tl::unexpected(file.error());
+  if (auto ok = bench::WriteEpisodes(options.out, *file); !ok) return ok;
+  const Tally tally = Count(*file);
+  std::string stages;
+  for (const int count : tally.first_stage)
+    stages += fmt::format("{}{}", stages.empty() ? "" : "/", count);
+  console.Print(
+      fmt::format("{}: {} episodes in {} scenes, {} require a floor change (first at stage {})\n",
+                  options.out, tally.episodes, scenes.size(), tally.cross_floor, stages));
+  console.Document(Json({{"file", options.out},
+                         {"episodes", tally.episodes},
+                         {"scenes", scenes.size()},
+                         {"cross_floor_required", tally.cross_floor},
+                         {"first_transition_stage", tally.first_stage}})
+                       .dump());
+  return {};
+}
+
+Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& common,
+                           Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  const auto file = bench::ReadEpisodes(options.file);
+  if (!file) return tl::unexpected(file.error());
+  SceneCache cache(options.scenes, *config);
+  Json failures = Json::array();
+  int checked = 0;
+  for (const bench::Episode& episode : file->episodes) {
+    console.Progress(fmt::format("episode {} of {}", ++checked, file->episodes.size()));
+    const auto context = cache.Get(episode.scene_id);
+    std::vector<std::string> problems;
+    if (context) {
+      problems = bench::CheckCertificate(**context, episode, *config);
+    } else {
+      problems = {context.error().Message()};
+    }
+    for (const std::string& problem : problems) {
+      console.Print(episode.episode_id + ": " + problem + "\n");
+      failures.push_back({{"episode_id", episode.episode_id}, {"problem", problem}});
+    }
+  }
+  console.EndProgress();
+  if (!failures.empty()) {
+    // One document only: the list, not the error.
+    if (console.json()) {
+      return Fail(ErrorCode::kInvalid, failures.dump(), options.file);
+    }
+    return Fail(ErrorCode::kInvalid, fmt::format("{} claims do not hold", failures.size()),
+                options.file);
+  }
+  console.Print(fmt::format("{}: all {} episodes hold\n", options.file, file->episodes.size()));
+  console.Document(
+      Json({{"file", options.file}, {"episodes", file->episodes.size()}, {"failures", failures}})
+          .dump());
+  return {};
+}
+
+}  // namespace crossnav::app

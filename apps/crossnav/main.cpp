@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// The program's command line. Exit 0 done, 1 bad data or a failed run, 2 usage.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+
+#include "commands.h"
+
+namespace crossnav::app {
+namespace {
+
+using Command = std::function<Result<void>(Console&)>;
+
+/// Holds the options of every verb while CLI11 fills them in.
+struct Options {
+  CommonOptions common;
+  WorldOptions world;
+  SceneOptions scene;
+  EpisodesOptions episodes;
+  RunOptions run;
+  DemoOptions demo;
+  EvalOptions eval;
+  ReportOptions report;
+  MetricsOptions metrics;
+  ReplayOptions replay;
+  BenchOptions bench;
+  Command command;
+};
+
+/// Adds a verb with the options that all of them take.
+CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const char* what,
+                  const char* example, Command command) {
+  CLI::App* verb = parent.add_subcommand(name, what);
+  verb->footer(std::string("Example:\n  ") + example);
+  verb->add_flag("--json", options.common.json, "One JSON document on stdout, logs on stderr");
+  verb->add_flag("--quiet", options.common.quiet, "No logs and no progress");
+  verb->add_option("--config", options.common.config_file, "Settings (TOML); empty = the paper's")
+      ->type_name("FILE");
+  verb->add_option("--set", options.common.overrides, "Override a setting; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->callback([&options, command = std::move(command)] { options.command = command; });
+  return verb;
+}
+
+void AddWorld(CLI::App& app, Options& o) {
+  CLI::App* world = app.add_subcommand("world", "Make scenes");
+  world->require_subcommand(1);
+  CLI::App* verb = AddVerb(*world, o, "generate", "Furnished multi-floor houses in HM3D layout",
+                           "crossnav world generate --seed 1 --count 4 --floors 2 --out scenes",
+                           [&o](Console& c) { return WorldGenerate(o.world, o.common, c); });
+  verb->add_option("--seed", o.world.seed, "First seed");
+  verb->add_option("--count", o.world.count, "Number of houses")->check(CLI::Range(1, 100000));
+  verb->add_option("--floors", o.world.floors, "Floors per house")->check(CLI::Range(1, 9));
+  verb->add_option("--out", o.world.out, "Folder to write to")->required();
+  verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
+}
+
+void AddScene(CLI::App& app, Options& o) {
+  CLI::App* scene = app.add_subcommand("scene", "Look at a scene");
+  scene->require_subcommand(1);
+  CLI::App* info = AddVerb(*scene, o, "info", "Floors, stairs, instances and navmesh of a scene",
+                           "crossnav scene info scenes/00001-House --json",
+                           [&o](Console& c) { return SceneInfo(o.scene, o.common, c); });
+  info->add_option("SCENE", o.scene.scene, "Scene folder")->required();
+  CLI::App* render = AddVerb(*scene, o, "render", "A picture of a scene",
+                             "crossnav scene render scenes/00001-House --top-down --out floor.png",
+                             [&o](Console& c) { return SceneRender(o.scene, o.common, c); });
+  render->add_option("SCENE", o.scene.scene, "Scene folder")->required();
+  render->add_option("--at", o.scene.at, "Foot point [m], yaw and pitch [deg], world frame")
+      ->type_name("X,Y,Z,YAW,PITCH");
+  render->add_option("--view", o.scene.view, "colour, depth or semantic")
+      ->check(CLI::IsMember({"colour", "depth", "semantic"}));
+  render->add_flag("--top-down", o.scene.top_down, "A floor from above");
+  render->add_option("--floor", o.scene.floor, "Floor of --top-down; default: the lowest");
+  render->add_option("--px-per-m", o.scene.px_per_m, "Scale of --top-down")
+      ->check(CLI::Range(1.0, 1000.0));
+  render->add_option("--out", o.scene.out, "PNG to write")->required();
+}
+
+void AddEpisodes(CLI::App& app, Options& o) {
+  CLI::App* episodes = app.add_subcommand("episodes", "Make and check episodes");
+  episodes->require_subcommand(1);
+  CLI::App* generate =
+      AddVerb(*episodes, o, "generate", "Certified episodes",
+              "crossnav episodes generate --scenes scenes --count 100 --goals 3 --cross-floor 0.3 "
+              "--seed 1 --out episodes.json.gz",
+              [&o](Console& c) { return EpisodesGenerate(o.episodes, o.common, c); });
+  generate->add_option("--scenes", o.episodes.scenes, "Folder of scenes")->required();
+  generate->add_option("--count", o.episodes.count, "Episodes")->check(CLI::Range(1, 1000000));
+  generate->add_option("--goals", o.episodes.goals, "Goals per episode; default: dataset.goals")
+      ->check(CLI::Range(1, 100));
+  generate
+      ->add_option("--cross-floor", o.episodes.cross_floor, "Share that requires a floor change")
+      ->check(CLI::Range(0.0, 1.0));
+  generate->add_option("--seed", o.episodes.seed, "Seed");
+  generate->add_flag("--repeats", o.episodes.repeats, "Allow a category twice in an episode");
+  generate->add_option("--out", o.episodes.out, "Episode file (.json or .json.gz)")->required();
+  CLI::App* check = AddVerb(*episodes, o, "check", "Proves every certificate again",
+                            "crossnav episodes check episodes.json.gz --scenes scenes",
+                            [&o](Console& c) { return EpisodesCheck(o.episodes, o.common, c); });
+  check->add_option("EPISODES", o.episodes.file, "Episode file")->required();
+  check->add_option("--scenes", o.episodes.scenes, "Folder of scenes")->required();
+}
+
+/// --variant, --success and --budget-scope.
+template <class T>
+void AddProtocol(CLI::App* verb, T& options) {
+  verb->add_option("--variant", options.variant, "full, no-history-poi or planar");
+  verb->add_option("--success", options.success, "What a STOP must be near: box or viewpoint");
+  verb->add_option("--budget-scope", options.budget_scope, "Action budget per episode or goal");
+}
+
+void AddRuns(CLI::App& app, Options& o) {
+  CLI::App* run = AddVerb(app, o, "run", "One episode",
+                          "crossnav run --scenes scenes --episodes episodes.json.gz --episode ID "
+                          "--replay episode.mcap",
+                          [&o](Console& c) { return Run(o.run, o.common, c); });
+  run->add_option("--scenes", o.run.scenes, "Folder of scenes")->required();
+  run->add_option("--episodes", o.run.episodes, "Episode file")->required();
+  run->add_option("--episode", o.run.episode, "Its id")->required();
+  run->add_option("--replay", o.run.replay, "Replay to write (.mcap)");
+  run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
+  AddProtocol(run, o.run);
+
+  CLI::App* demo =
+      AddVerb(app, o, "demo", "An episode in the house that comes with the program",
+              "crossnav demo 2", [&o](Console& c) { return Demo(o.demo, o.common, c); });
+  demo->add_option("NUMBER", o.demo.number, "1 climbs to the upper floor, 2 descends")
+      ->check(CLI::Range(1, 2));
+  demo->add_option("--out", o.demo.out, "Folder to write to; default: out/demo");
+
+  CLI::App* eval =
+      AddVerb(app, o, "eval", "Many episodes",
+              "crossnav eval --scenes scenes --episodes episodes.json.gz --out runs/full "
+              "--jobs 4",
+              [&o](Console& c) { return Eval(o.eval, o.common, c); });
+  eval->add_option("--scenes", o.eval.scenes, "Folder of scenes")->required();
+  eval->add_option("--episodes", o.eval.episodes, "Episode file")->required();
+  eval->add_option("--out", o.eval.out, "Folder of the run")->required();
+  eval->add_option("--jobs", o.eval.jobs, "Processes")->check(CLI::Range(1, 1024));
+  eval->add_option("--shard", o.eval.shard, "Part I of N of the episodes, I from 0")
+      ->type_name("I/N");
+  eval->add_flag("--resume", o.eval.resume, "Go on where the run stopped (the default)");
+  AddProtocol(eval, o.eval);
+}
+
+void AddResults(CLI::App& app, Options& o) {
+  CLI::App* report = AddVerb(app, o, "report", "Tables and plots, with the paper's numbers beside",
+                             "crossnav report runs/full runs/no-history-poi --out report",
+                             [&o](Console& c) { return Report(o.report, o.common, c); });
+  report->add_option("RUN", o.report.runs, "Run folders or result files")->required();
+  report->add_option("--out", o.report.out, "Folder to write to")->required();
+  report->add_flag("--partial", o.report.partial, "Accept runs that are not finished");
+  CLI::App* metrics = AddVerb(app, o, "metrics", "The metrics of result records alone",
+                              "crossnav metrics runs/full/results.jsonl --json",
+                              [&o](Console& c) { return ShowMetrics(o.metrics, o.common, c); });
+  metrics->add_option("RESULTS", o.metrics.files, "Result files (.jsonl)")->required();
+
+  CLI::App* replay = app.add_subcommand("replay", "Work with replays");
+  replay->require_subcommand(1);
+  CLI::App* page = AddVerb(*replay, o, "export", "A self-contained page",
+                           "crossnav replay export episode.mcap --out episode.html",
+                           [&o](Console& c) { return ReplayExport(o.replay, o.common, c); });
+  page->add_option("REPLAY", o.replay.file, "Replay (.mcap)")->required();
+  page->add_option("--out", o.replay.out, "Page to write (.html)")->required();
+}
+
+void AddTools(CLI::App& app, Options& o) {
+  AddVerb(app, o, "doctor", "What this program finds here, and what is missing",
+          "crossnav doctor --json", [&o](Console& c) { return Doctor(o.common, c); });
+  CLI::App* bench =
+      AddVerb(app, o, "bench", "Timings of the whole step and of its stages",
+              "crossnav bench --json", [&o](Console& c) { return Bench(o.bench, o.common, c); });
+  bench->add_option("--scenes", o.bench.scenes, "Folder of scenes; default: the embedded house");
+  bench->add_option("--episodes", o.bench.episodes, "Episode file");
+  bench->add_option("--episode", o.bench.episode, "Its id; default: the first");
+  bench->add_option("--repeat", o.bench.repeat, "Runs of the episode")->check(CLI::Range(1, 1000));
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app("crossnav: sequential object-goal navigation in multi-floor houses", "crossnav");
+  app.set_version_flag("--version", CROSSNAV_VERSION);
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+  Options options;
+  AddWorld(app, options);
+  AddScene(app, options);
+  AddEpisodes(app, options);
+  AddRuns(app, options);
+  AddResults(app, options);
+  AddTools(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::fprintf(stderr, "crossnav: %s\nSee: crossnav --help\n", error.what());
+    return 2;
+  }
+  Console console(options.common.json, options.common.quiet);
+  const auto ok = options.command(console);
+  console.EndProgress();
+  if (ok) return 0;
+  console.Fail(ok.error());
+  return 1;
+}
+
+}  // namespace
+}  // namespace crossnav::app
+
+int main(int argc, char** argv) {
+  try {
+    return crossnav::app::Main(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "crossnav: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "commands.h"
+#include "crossnav/bench/metrics_report.h"
+#include "crossnav/bench/result_records.h"
+
+namespace crossnav::app {
+
+Result<void> ShowMetrics(const MetricsOptions& options, const CommonOptions& /*common*/,
+                         Console& console) {
+  const std::vector<std::filesystem::path> paths(options.files.begin(), options.files.end());
+  const auto results = bench::MergeResults(paths, /*require_all=*/false);
+  if (!results) return tl::unexpected(results.error());
+  if (results->has_torn_line)
+    console.Log(options.files[0] + ": the last line is cut off, left out");
+  if (results->episodes.empty()) {
+    return Fail(ErrorCode::kInvalid, "holds no episode", options.files[0]);
+  }
+  console.Print(bench::MetricsText(results->episodes, {}));
+  if (console.json()) console.Document(bench::MetricsJson(results->episodes, {}));
+  return {};
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "play.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/gzip_file.h"
+#include "crossnav/bench/metrics_report.h"
+#include "crossnav/bench/runner.h"
+#include "crossnav/trace/replay_page.h"
+#include "crossnav/trace/replay_writer.h"
+#include "crossnav/trace/trace_json.h"
+#include "episode_picture.h"
+#include "progress.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Keeps the step records, one JSON line each; voxel changes are in the replay.
+class TraceLog : public bench::RunObserver {
+ public:
+  Result<void> OnStep(const bench::StepView& step) override {
+    text_ += trace::ToJson(step.trace, trace::VoxelText::kOmit) + "\n";
+    return {};
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// Feeds the replay writer.
+class ReplayLog : public bench::RunObserver {
+ public:
+  explicit ReplayLog(trace::ReplayWriter writer) : writer_(std::move(writer)) {}
+
+  Result<void> OnStep(const bench::StepView& step) override {
+    last_step_ = step.trace.step;
+    goal_index_ = step.trace.goal_index;
+    return writer_.Write({step.trace, &step.observation});
+  }
+  Result<void> OnStageEnd(const bench::StageRecord& stage) override {
+    return writer_.WriteStage({goal_index_, stage.goal, std::string(bench::NameOf(stage.outcome)),
+                               stage.success, last_step_, stage.length_m, stage.shortest_m});
+  }
+  Result<void> Close() { return writer_.Close(); }
+
+ private:
+  trace::ReplayWriter writer_;
+  int last_step_ = 0, goal_index_ = 0;
+};
+
+trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episode& episode,
+                         const bench::RunConfig& config, const bench::RunHeader& header) {
+  trace::ReplayInfo info;
+  info.scene_id = context.scene().id;
+  info.episode_id = episode.episode_id;
+  info.goals = episode.goals;
+  info.variant = header.variant;
+  info.perception = header.perception;
+  info.version = header.version;
+  info.config_hash = header.config_hash;
+  info.seed = header.seed;
+  info.voxel_m = config.agent.map.voxel_m;
+  for (const std::string& goal : episode.goals) {
+    for (const bench::Target& target : context.TargetsOf(goal)) {
+      info.goal_instances.push_back({goal, target.box});
+    }
+  }
+  return info;
+}
+
+Result<std::unique_ptr<ReplayLog>> OpenReplay(const bench::SceneContext& context,
+                                              const bench::Episode& episode,
+                                              const bench::RunConfig& config,
+                                              const bench::RunHeader& header,
+                                              const std::filesystem::path& path) {
+  if (path.empty()) return std::unique_ptr<ReplayLog>();
+  std::error_code ignored;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  auto writer = trace::ReplayWriter::Open(path, InfoOf(context, episode, config, header));
+  if (!writer) return tl::unexpected(writer.error());
+  return std::make_unique<ReplayLog>(std::move(*writer));
+}
+
+/// Everything that was written, by what it is.
+using Written = std::vector<std::pair<std::string, std::string>>;
+
+Result<Written> WriteFiles(const bench::EpisodeRecord& record, const bench::RunHeader& header,
+                           const PlayFiles& files, const EpisodePicture& picture,
+                           const TraceLog& trace) {
+  Written written;
+  const auto add = [&](const char* what, const std::filesystem::path& path) {
+    written.emplace_back(what, path.string());
+  };
+  const auto results = files.folder / "results.jsonl";
+  const std::string lines = bench::ToJsonLine(header) + "\n" + bench::ToJsonLine(record) + "\n";
+  if (auto ok = bench::WriteTextFile(results, lines); !ok) return tl::unexpected(ok.error());
+  add("record", results);
+  const auto steps = files.folder / "trace.jsonl";
+  if (auto ok = bench::WriteTextFile(steps, trace.text()); !ok) return tl::unexpected(ok.error());
+  add("trace", steps);
+  const auto pictures = picture.Write(files.folder);
+  if (!pictures) return tl::unexpected(pictures.error());
+  for (const auto& path : *pictures) add("picture", path);
+  if (!files.replay.empty()) add("replay", files.replay);
+  if (!files.page.empty()) {
+    if (auto ok = trace::ExportReplayPage(files.replay, files.page); !ok) {
+      return tl::unexpected(ok.error());
+    }
+    add("page", files.page);
+  }
+  return written;
+}
+
+void Announce(const bench::EpisodeRecord& record, const Written& written, Console& console) {
+  std::string text = bench::EpisodeText(record);
+  Json paths = Json::object();
+  for (const auto& [what, path] : written) {
+    text += fmt::format("  {:<8} {}\n", what, path);
+    if (what == "picture") {
+      paths["pictures"].push_back(path);
+    } else {
+      paths[what] = path;
+    }
+  }
+  console.Print(text);
+  if (!console.json()) return;
+  console.Document(
+      Json({{"record", Json::parse(bench::ToJsonLine(record))}, {"files", std::move(paths)}})
+          .dump(1));
+}
+
+}  // namespace
+
+Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
+                                         const bench::Episode& episode,
+                                         const bench::RunConfig& config,
+                                         const bench::RunHeader& header, const PlayFiles& files,
+                                         Console& console) {
+  if (auto ok = bench::CheckPlayable(context, episode); !ok) return tl::unexpected(ok.error());
+  StepProgress progress(console, episode, config);
+  EpisodePicture picture(context, episode);
+  TraceLog trace;
+  std::vector<bench::RunObserver*> observers = {&progress, &picture, &trace};
+  auto replay = OpenReplay(context, episode, config, header, files.replay);
+  if (!replay) return tl::unexpected(replay.error());
+  if (*replay) observers.push_back(replay->get());
+  const auto record = bench::RunEpisode(context, episode, config, observers);
+  console.EndProgress();
+  if (!record) return record;
+  if (*replay) {
+    if (auto ok = (*replay)->Close(); !ok) return tl::unexpected(ok.error());
+  }
+  const auto written = WriteFiles(*record, header, files, picture, trace);
+  if (!written) return tl::unexpected(written.error());
+  Announce(*record, *written, console);
+  return record;
+}
+
+}  // namespace crossnav::app

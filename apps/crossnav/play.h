@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Plays one episode with everything a user gets to see: progress, replay and page, pictures, step
+// trace and result record. Shared by `run` and `demo`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "session.h"
+
+namespace crossnav::app {
+
+struct PlayFiles {
+  std::filesystem::path folder;  ///< results.jsonl, trace.jsonl, floor_<id>.png
+  std::filesystem::path replay;  ///< .mcap; empty = none
+  std::filesystem::path page;    ///< .html; empty = none
+};
+
+/// Runs the episode, writes the files, prints the summary and where everything is.
+Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
+                                         const bench::Episode& episode,
+                                         const bench::RunConfig& config,
+                                         const bench::RunHeader& header, const PlayFiles& files,
+                                         Console& console);
+
+}  // namespace crossnav::app

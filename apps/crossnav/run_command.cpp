@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "crossnav/bench/episode_generator.h"
+#include "crossnav/world/embedded_house.h"
+#include "play.h"
+
+namespace crossnav::app {
+namespace {
+
+/// The built-in episodes: where they start and what they look for.
+struct BuiltIn {
+  int start_floor;
+  std::vector<std::string> goals;
+};
+
+BuiltIn BuiltInEpisode(int number) {
+  if (number == 1) return {0, {"sofa", "toilet", "bed"}};  // climbs
+  return {1, {"bed", "tv_monitor", "chair"}};              // descends
+}
+
+}  // namespace
+
+Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console) {
+  const auto config =
+      LoadRunConfig(common, {options.variant, options.success, options.budget_scope});
+  if (!config) return tl::unexpected(config.error());
+  const auto file = bench::ReadEpisodes(options.episodes);
+  if (!file) return tl::unexpected(file.error());
+  auto episode = FindEpisode(*file, options.episode, options.episodes);
+  if (!episode) return tl::unexpected(episode.error());
+  SceneCache cache(options.scenes, *config);
+  const auto context = cache.Get(episode->scene_id);
+  if (!context) return tl::unexpected(context.error());
+  if (auto ok = bench::CheckPlayable(**context, *episode); !ok) return ok;
+  if (!episode->has_certificate) bench::Certify(**context, *episode);
+  bench::RunHeader header = MakeHeader(*config, options.variant, *file);
+  header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
+  PlayFiles files;
+  files.folder = options.out.empty() ? std::filesystem::path("out/run") / episode->episode_id
+                                     : std::filesystem::path(options.out);
+  files.replay = options.replay;
+  const auto record = PlayEpisode(**context, *episode, *config, header, files, console);
+  if (!record) return tl::unexpected(record.error());
+  return {};
+}
+
+Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console) {
+  const auto config = LoadRunConfig(common, {});
+  if (!config) return tl::unexpected(config.error());
+  const std::filesystem::path out = options.out;
+  const auto house = world::WriteEmbeddedHouse(out / "scenes");
+  if (!house) return tl::unexpected(house.error());
+  const auto ids = bench::ListScenes(out / "scenes");
+  if (!ids) return tl::unexpected(ids.error());
+  SceneCache cache(out / "scenes", *config);
+  const auto context = cache.Get(ids->front());
+  if (!context) return tl::unexpected(context.error());
+
+  const bench::GeneratorScene scene{ids->front(), *context};
+  const BuiltIn built_in = BuiltInEpisode(options.number);
+  auto episode =
+      bench::MakeEpisode(scene, *config, built_in.goals, built_in.start_floor, config->eval.seed);
+  if (!episode) return tl::unexpected(episode.error());
+  bench::EpisodeFile file;
+  file.episodes = {*episode};
+  bench::AddGoalObjects(scene, file);
+  const auto path = out / fmt::format("episode_{}.json.gz", options.number);
+  if (auto ok = bench::WriteEpisodes(path, file); !ok) return ok;
+  const auto read = bench::ReadEpisodes(path);  // as any other run would see it
+  if (!read) return tl::unexpected(read.error());
+
+  bench::RunHeader header = MakeHeader(*config, "full", *read);
+  header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
+  const auto folder = out / fmt::format("{}", options.number);
+  const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html"};
+  const auto record =
+      PlayEpisode(**context, read->episodes.front(), *config, header, files, console);
+  if (!record) return tl::unexpected(record.error());
+  if (record->Completed() == static_cast<int>(record->goals.size())) return {};
+  return Fail(ErrorCode::kInvalid, "the built-in episode was not completed", folder.string());
+}
+
+}  // namespace crossnav::app

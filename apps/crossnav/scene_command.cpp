@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "commands.h"
+#include "crossnav/bench/config_file.h"
+#include "crossnav/bench/result_records.h"
+#include "crossnav/sim/picture.h"
+#include "crossnav/sim/scene_info.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double Millimetres(double value) {
+  return std::round(value * 1e3) / 1e3;
+}
+
+Json PointJson(const Vector3d& p) {
+  return Json::array({Millimetres(p.x()), Millimetres(p.y()), Millimetres(p.z())});
+}
+
+Json InstanceJson(const sim::InstanceInfo& instance) {
+  Json viewpoints = Json::array();
+  for (const Vector3d& p : instance.viewpoints) viewpoints.push_back(PointJson(p));
+  return {{"id", instance.id},
+          {"name", instance.name},
+          {"floor", instance.floor},
+          {"box_min", PointJson(instance.box.min)},
+          {"box_max", PointJson(instance.box.max)},
+          {"viewpoints", std::move(viewpoints)}};
+}
+
+Json InfoJson(const sim::SceneInfo& info) {
+  const sim::NavMeshSettings& s = info.navmesh_settings;
+  Json floors = Json::array(), connections = Json::array(), instances = Json::object();
+  for (const sim::Floor& floor : info.floors) {
+    floors.push_back({{"id", floor.id},
+                      {"height_m", Millimetres(floor.height_m)},
+                      {"area_m2", Millimetres(floor.area_m2)}});
+  }
+  for (const sim::FloorConnection& link : info.connections) {
+    connections.push_back(
+        {{"floors", {link.lower, link.upper}}, {"rise_m", Millimetres(link.rise_m)}});
+  }
+  for (const auto& [category, list] : info.instances) {
+    Json items = Json::array();
+    for (const sim::InstanceInfo& instance : list) items.push_back(InstanceJson(instance));
+    instances[category] = std::move(items);
+  }
+  return {{"scene", info.scene},
+          {"navmesh",
+           {{"settings",
+             {{"agent_height_m", s.agent_height_m},
+              {"agent_radius_m", s.agent_radius_m},
+              {"max_climb_m", s.max_climb_m},
+              {"max_slope_deg", s.max_slope_deg},
+              {"cell_m", s.cell_m},
+              {"cell_height_m", s.cell_height_m},
+              {"min_island_m2", s.min_island_m2}}},
+            {"hash", bench::HexHash(info.navmesh_hash)},
+            {"area_m2", Millimetres(info.navmesh_area_m2)}}},
+          {"floors", std::move(floors)},
+          {"connections", std::move(connections)},
+          {"instances", std::move(instances)}};
+}
+
+std::string InfoText(const sim::SceneInfo& info) {
+  std::string text = fmt::format("{}: navmesh {:.1f} m2 ({})\n", info.scene, info.navmesh_area_m2,
+                                 bench::HexHash(info.navmesh_hash));
+  for (const sim::Floor& floor : info.floors) {
+    text +=
+        fmt::format("  floor {}  {:7.2f} m  {:7.1f} m2\n", floor.id, floor.height_m, floor.area_m2);
+  }
+  for (const sim::FloorConnection& link : info.connections) {
+    text += fmt::format("  stairs {} - {}, rise {:.2f} m\n", link.lower, link.upper, link.rise_m);
+  }
+  if (info.connections.empty()) text += "  no stairs between floors\n";
+  for (const auto& [category, list] : info.instances) {
+    std::map<int, int> per_floor;
+    for (const sim::InstanceInfo& instance : list) ++per_floor[instance.floor];
+    text += fmt::format("  {:<12}", category);
+    for (const auto& [floor, count] : per_floor) {
+      text += floor < 0 ? fmt::format("  {} seen from nowhere", count)
+                        : fmt::format("  {} on floor {}", count, floor);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+struct OpenScene {
+  std::unique_ptr<sim::Scene> scene;
+  std::unique_ptr<sim::NavMesh> navmesh;
+  std::unique_ptr<sim::RayCaster> caster;
+};
+
+Result<OpenScene> Open(const std::string& folder, const bench::RunConfig& config,
+                       Console& console) {
+  auto scene = sim::LoadScene(folder);
+  if (!scene) return tl::unexpected(scene.error());
+  OpenScene open;
+  open.scene = std::make_unique<sim::Scene>(std::move(*scene));
+  for (const std::string& note : open.scene->notes) console.Log(open.scene->id + ": " + note);
+  auto navmesh = sim::NavMesh::BuildCached(*open.scene, config.navmesh);
+  if (!navmesh) return tl::unexpected(navmesh.error());
+  open.navmesh = std::make_unique<sim::NavMesh>(std::move(*navmesh));
+  open.caster = std::make_unique<sim::RayCaster>(*open.scene);
+  return open;
+}
+
+/// "x,y,z,yaw,pitch", angles in degrees; the last two may be left out.
+Result<AgentPose> ParsePose(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) {
+    try {
+      std::size_t used = 0;
+      numbers.push_back(std::stod(part, &used));
+      if (used != part.size()) numbers.push_back(NAN);
+    } catch (const std::exception&) {
+      numbers.push_back(NAN);
+    }
+  }
+  bool is_good = numbers.size() >= 3 && numbers.size() <= 5;
+  for (const double number : numbers) is_good = is_good && std::isfinite(number);
+  if (!is_good) {
+    return Fail(ErrorCode::kInvalid, "\"" + text + "\" is not x,y,z,yaw,pitch", "--at");
+  }
+  numbers.resize(5, 0.0);
+  return AgentPose{
+      {numbers[0], numbers[1], numbers[2]}, DegToRad(numbers[3]), DegToRad(numbers[4])};
+}
+
+Result<RgbImage> RenderView(const OpenScene& open, const SceneOptions& options,
+                            const bench::RunConfig& config) {
+  AgentPose pose;
+  if (!options.at.empty()) {
+    auto parsed = ParsePose(options.at);
+    if (!parsed) return tl::unexpected(parsed.error());
+    pose = *parsed;
+  } else {
+    Rng rng(config.eval.seed);
+    const auto p = open.navmesh->RandomPoint(rng);
+    if (!p) return Fail(ErrorCode::kInvalid, "has no walkable ground", options.scene);
+    pose.p_world = *p;
+  }
+  const SensorConfig& sensor = config.agent.sensor;
+  const auto frame =
+      open.caster->Render(sensor.Intrinsics(), CameraPose(pose, sensor.camera_height_m));
+  if (options.view == "depth") return sim::ColourDepth(frame.depth_m);
+  if (options.view == "semantic") return sim::ColourInstances(frame.instance);
+  return frame.rgb;
+}
+
+Result<RgbImage> RenderFloor(const OpenScene& open, const SceneOptions& options) {
+  const auto& floors = open.navmesh->Floors();
+  const int floor = options.floor < 0 && !floors.empty() ? floors.front().id : options.floor;
+  for (const sim::Floor& candidate : floors) {
+    if (candidate.id != floor) continue;
+    return sim::RenderTopDown(*open.scene, *open.caster, *open.navmesh, floor, options.px_per_m)
+        .image;
+  }
+  return Fail(ErrorCode::kNotFound,
+              fmt::format("there is no floor {}; the scene has {}", floor, floors.size()),
+              "--floor");
+}
+
+}  // namespace
+
+Result<void> SceneInfo(const SceneOptions& options, const CommonOptions& common, Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  const auto open = Open(options.scene, *config, console);
+  if (!open) return tl::unexpected(open.error());
+  const auto info =
+      sim::DescribeScene(*open->scene, *open->navmesh, *open->caster, config->agent.sensor);
+  console.Print(InfoText(info));
+  if (console.json()) console.Document(InfoJson(info).dump(1));
+  return {};
+}
+
+Result<void> SceneRender(const SceneOptions& options, const CommonOptions& common,
+                         Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  const auto open = Open(options.scene, *config, console);
+  if (!open) return tl::unexpected(open.error());
+  const auto image =
+      options.top_down ? RenderFloor(*open, options) : RenderView(*open, options, *config);
+  if (!image) return tl::unexpected(image.error());
+  if (auto ok = sim::WritePng(*image, options.out); !ok) return ok;
+  console.Print(options.out + "\n");
+  console.Document(
+      Json({{"file", options.out}, {"width_px", image->width}, {"height_px", image->height}})
+          .dump());
+  return {};
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "session.h"
+
+#include <algorithm>
+
+#include "crossnav/bench/config_file.h"
+
+namespace crossnav::app {
+
+Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol) {
+  CommonOptions all = common;
+  if (!protocol.success.empty()) all.overrides.push_back("eval.success=" + protocol.success);
+  if (!protocol.budget_scope.empty()) {
+    all.overrides.push_back("eval.budget_scope=" + protocol.budget_scope);
+  }
+  return LoadConfig(all, protocol.variant);
+}
+
+Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) {
+  for (const Entry& entry : entries_) {
+    if (entry.scene_id == scene_id) return entry.context.get();
+  }
+  if (entries_.size() >= keep_) entries_.erase(entries_.begin());
+  auto context = bench::SceneContext::Load(scenes_dir_, scene_id, config_);
+  if (!context) return tl::unexpected(context.error());
+  entries_.push_back({scene_id, std::move(*context)});
+  return entries_.back().context.get();
+}
+
+bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& variant,
+                            const bench::EpisodeFile& file) {
+  bench::RunHeader header;
+  header.variant = variant;
+  header.config_json = bench::DumpJson(config);
+  header.config_hash = bench::ConfigHash(config);
+  header.episodes_hash = bench::HexHash(file.content_hash);
+  header.episodes = static_cast<int>(file.episodes.size());
+  header.seed = config.eval.seed;
+  header.version = CROSSNAV_VERSION;
+  header.perception = config.eval.perception + "-perception";
+  return header;
+}
+
+bench::SceneHashes HashesOf(const bench::SceneContext& context) {
+  return {bench::HexHash(context.scene().mesh_hash), bench::HexHash(context.navmesh().Hash())};
+}
+
+Result<bench::Episode> FindEpisode(const bench::EpisodeFile& file, const std::string& id,
+                                   const std::string& path) {
+  for (const bench::Episode& episode : file.episodes) {
+    if (episode.episode_id == id) return episode;
+  }
+  std::string some;
+  for (std::size_t i = 0; i < std::min<std::size_t>(file.episodes.size(), 3); ++i) {
+    some += (i ? ", " : "; there are ") + file.episodes[i].episode_id;
+  }
+  return Fail(ErrorCode::kNotFound, "no episode \"" + id + "\"" + some, path);
+}
+
+}  // namespace crossnav::app

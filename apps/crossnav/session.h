@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What `run`, `eval`, `demo` and `bench` share: the episode file, its scenes and the run's header.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "crossnav/bench/episodes.h"
+#include "crossnav/bench/result_records.h"
+#include "crossnav/bench/scene_context.h"
+
+namespace crossnav::app {
+
+/// --variant, --success and --budget-scope as typed; empty = as configured.
+struct Protocol {
+  std::string variant = "full", success, budget_scope;
+};
+Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol);
+
+/// Scenes, loaded when first asked for; the last few are kept.
+class SceneCache {
+ public:
+  SceneCache(std::filesystem::path scenes_dir, const bench::RunConfig& config, std::size_t keep = 2)
+      : scenes_dir_(std::move(scenes_dir)), config_(config), keep_(keep) {}
+
+  Result<const bench::SceneContext*> Get(const std::string& scene_id);
+
+ private:
+  struct Entry {
+    std::string scene_id;
+    std::unique_ptr<bench::SceneContext> context;
+  };
+  std::filesystem::path scenes_dir_;
+  const bench::RunConfig& config_;
+  std::size_t keep_;
+  std::vector<Entry> entries_;  // oldest first
+};
+
+/// Header of a run over `file`; `scenes` is filled in by the caller.
+bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& variant,
+                            const bench::EpisodeFile& file);
+
+bench::SceneHashes HashesOf(const bench::SceneContext& context);
+
+/// Episode `id` of the file.
+Result<bench::Episode> FindEpisode(const bench::EpisodeFile& file, const std::string& id,
+                                   const std::string& path);
+
+}  // namespace crossnav::app

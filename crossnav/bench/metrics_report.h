@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The metrics of a set of records as text for a terminal and as JSON.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "crossnav/bench/episode_record.h"
+#include "crossnav/bench/metrics.h"
+
+namespace crossnav::bench {
+
+/// Figures with their intervals, per category, per scene, per CFR group, and the outcome table.
+std::string MetricsText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap);
+
+/// The same as one JSON object:
+/// {episodes, goals, metrics: {name: {value, low, high}}, reached, groups: {name: {...}},
+///  scenes, categories: {name: {executed, sr, spl}}, outcomes: {category: {outcome: count}}}.
+std::string MetricsJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap);
+
+/// One line per stage of one episode.
+std::string EpisodeText(const EpisodeRecord& record);
+
+}  // namespace crossnav::bench
