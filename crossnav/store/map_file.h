@@ -6,8 +6,9 @@
 // localises against an old map. One writer at a time (a second one waits five seconds).
 //
 //   SaveMemory("home.map", agent.map(), agent.memory(), {.encoder_name = encoder.Name()});
-//   auto loaded = LoadMemory("home.map", {.map = config.map, .fusion = config.fusion,
-//                                         .encoder_name = encoder.Name()});
+//   LoadOptions options;
+//   options.map = config.map;  options.fusion = config.fusion;  options.encoder_name = ...;
+//   auto loaded = LoadMemory("home.map", options);
 //   if (!loaded) ...loaded.error().Message()...
 //   // loaded->map and loaded->memory go on from here.
 //   auto clusters = memory::Query(loaded->memory, text, config.query);   // crossnav map query

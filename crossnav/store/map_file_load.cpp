@@ -163,8 +163,13 @@ Result<void> CheckEncoder(const MapHeader& header, const LoadOptions& options,
 Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOptions& options) {
   auto db = Database::Open(path, Database::Access::kRead);
   if (!db) return tl::unexpected(db.error());
-  // Lets SQLite read what is left of a file that was cut short. Nothing is written here.
-  if (options.skip_damaged) (void)db->Exec("PRAGMA writable_schema=ON");
+  std::vector<std::string> damaged;
+  if (options.skip_damaged) {
+    if (auto sound = IsEmptyFile(*db); !sound)
+      damaged.push_back("file structure: " + sound.error().what);
+    // Lets SQLite read what is left of a file that was cut short. Nothing is written here.
+    (void)db->Exec("PRAGMA writable_schema=ON");
+  }
   if (auto begun = db->Exec("BEGIN"); !begun) return tl::unexpected(begun.error());
   const auto read = ReadHeader(*db);
   if (!read) return tl::unexpected(read.error());
@@ -174,7 +179,6 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
   if (auto fits = CheckEncoder(header, options, db->file()); !fits)
     return tl::unexpected(fits.error());
 
-  std::vector<std::string> damaged;
   if (!read->damage.empty()) damaged.push_back(read->damage);
   const auto blocks = ReadMapBlocks(*db, header, damaged);
   if (!blocks) return tl::unexpected(blocks.error());

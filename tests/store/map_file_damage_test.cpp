@@ -140,7 +140,7 @@ TEST(MapFileDamageTest, FlippedBitsAreFoundOrHarmlessAndTheRestLoads) {
     ++found;
     EXPECT_FALSE(strict.error().what.empty());
     EXPECT_NE(strict.error().where.find("flipped.map"), std::string::npos);
-    const auto rest = LoadMemory(file.path(), {.skip_damaged = true});
+    const auto rest = LoadMemory(file.path(), testing::SkipDamaged());
     if (!rest) continue;
     ++rest_loaded;
     EXPECT_FALSE(rest->damaged.empty());
@@ -170,7 +170,7 @@ TEST(MapFileDamageTest, DamagedBlockIsNamedAndOnlyItIsMissing) {
   ASSERT_FALSE(strict);
   EXPECT_EQ(strict.error().code, ErrorCode::kMalformed);
   EXPECT_NE(strict.error().what.find("map block 1 ("), std::string::npos) << strict.error().what;
-  const auto rest = LoadMemory(file.path(), {.skip_damaged = true});
+  const auto rest = LoadMemory(file.path(), testing::SkipDamaged());
   ASSERT_TRUE(rest);
   ASSERT_EQ(rest->damaged.size(), 3u);
   EXPECT_NE(rest->damaged[1].find("map block 3"), std::string::npos);
@@ -199,12 +199,12 @@ TEST(MapFileDamageTest, HeaderHasASecondCopy) {
   };
   damage("UPDATE header SET voxel_m=0.2");
   EXPECT_FALSE(LoadMemory(file.path()));
-  const auto rest = LoadMemory(file.path(), {.skip_damaged = true});
+  const auto rest = LoadMemory(file.path(), testing::SkipDamaged());
   ASSERT_TRUE(rest);
   EXPECT_EQ(rest->header.voxel_m, 0.1);
   EXPECT_EQ(rest->damaged.size(), 1u);
   damage("UPDATE header_copy SET frame='x'");
-  EXPECT_FALSE(LoadMemory(file.path(), {.skip_damaged = true}));
+  EXPECT_FALSE(LoadMemory(file.path(), testing::SkipDamaged()));
 }
 
 TEST(MapFileDamageTest, TruncationIsFoundAndWhatIsLeftLoads) {
@@ -221,7 +221,7 @@ TEST(MapFileDamageTest, TruncationIsFoundAndWhatIsLeftLoads) {
     file.Write(original.substr(0, size));
     const auto strict = LoadMemory(file.path());
     EXPECT_FALSE(strict) << size;
-    const auto rest = LoadMemory(file.path(), {.skip_damaged = true});
+    const auto rest = LoadMemory(file.path(), testing::SkipDamaged());
     if (!rest) continue;
     EXPECT_FALSE(rest->damaged.empty());
     ASSERT_TRUE(IsPartOf(*rest, world)) << size;

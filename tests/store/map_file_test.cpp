@@ -47,7 +47,7 @@ TEST(MapFileTest, GoingOnFromAFileGivesTheSameBytesAsNeverHavingStopped) {
       first.AddFrame(i);
     }
     ASSERT_TRUE(SaveMemory(file.path(), first.map, first.memory, kInfo));
-    auto loaded = LoadMemory(file.path(), {.map = config});
+    auto loaded = LoadMemory(file.path(), testing::WithMap(config));
     ASSERT_TRUE(loaded) << loaded.error().Message();
     for (int i = 4; i < 9; ++i) {
       straight.AddFrame(i);
@@ -124,18 +124,18 @@ TEST(MapFileTest, WrongSettingsAreRefusedByName) {
   ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, kInfo));
   geometry::MapConfig coarse;
   coarse.voxel_m = 0.2;
-  const auto voxel = LoadMemory(file.path(), {.map = coarse});
+  const auto voxel = LoadMemory(file.path(), testing::WithMap(coarse));
   ASSERT_FALSE(voxel);
   EXPECT_EQ(voxel.error().code, ErrorCode::kMismatch);
   EXPECT_NE(voxel.error().what.find("voxel"), std::string::npos);
   geometry::MapConfig counting;
   counting.clearing = "evidence";
-  EXPECT_EQ(LoadMemory(file.path(), {.map = counting}).error().code, ErrorCode::kMismatch);
-  const auto encoder = LoadMemory(file.path(), {.encoder_name = "another"});
+  EXPECT_EQ(LoadMemory(file.path(), testing::WithMap(counting)).error().code, ErrorCode::kMismatch);
+  const auto encoder = LoadMemory(file.path(), testing::FromEncoder("another"));
   ASSERT_FALSE(encoder);
   EXPECT_NE(encoder.error().what.find("test-encoder"), std::string::npos);
-  EXPECT_FALSE(LoadMemory(file.path(), {.encoder_hash = 5}));
-  EXPECT_TRUE(LoadMemory(file.path(), {.encoder_name = "test-encoder"}));
+  EXPECT_FALSE(LoadMemory(file.path(), testing::FromEncoder("", 5)));
+  EXPECT_TRUE(LoadMemory(file.path(), testing::FromEncoder("test-encoder")));
 }
 
 TEST(MapFileTest, OtherFilesAreNeitherReadNorOverwritten) {

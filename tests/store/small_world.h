@@ -81,6 +81,23 @@ inline void ExpectSame(const geometry::VoxelMap& map_a, const memory::SemanticMe
   }
 }
 
+inline LoadOptions WithMap(const geometry::MapConfig& config) {
+  LoadOptions options;
+  options.map = config;
+  return options;
+}
+inline LoadOptions FromEncoder(const std::string& name, std::uint64_t hash = 0) {
+  LoadOptions options;
+  options.encoder_name = name;
+  options.encoder_hash = hash;
+  return options;
+}
+inline LoadOptions SkipDamaged() {
+  LoadOptions options;
+  options.skip_damaged = true;
+  return options;
+}
+
 /// A file name of this test alone, removed before and after.
 class TempFile {
  public:
