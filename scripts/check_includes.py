@@ -54,6 +54,7 @@ ADAPTERS = {
     "simdjson": (r"^simdjson", ["crossnav/bench/episode_reader.cpp",
                                 "crossnav/trace/json_reader.h"]),
     "nlohmann-json": (r"^nlohmann/", ["crossnav/bench/episode_writer.cpp",
+                                      "crossnav/bench/metrics_report.cpp",
                                       "crossnav/bench/result_json.cpp",
                                       "crossnav/world/glb_writer.cpp", "apps/crossnav/*.cpp"]),
     "toml++": (r"^toml", ["crossnav/bench/config_file.cpp"]),
