@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Every third-party library, from distribution packages (scripts/setup.sh installs them).
 
-# crossnav_find(<package> <target> [HEADER <file>] [LIBRARY <name>] [VERSIONS <v>...]): the package's
-# own CMake config, in the first of the versions that is there; else header and library as they lie
-# on the system (some distributions leave the config files out).
+# crossnav_find(<package> <target> [HEADER <file>] [LIBRARY <name>] [VERSIONS <v>...])
+# The package's own CMake config, in the first of the versions that is there; else the header and the
+# library as they lie on the system (some distributions leave the config files out).
 function(crossnav_find package target)
   cmake_parse_arguments(ARG "" "HEADER;LIBRARY" "VERSIONS" ${ARGN})
   if(ARG_VERSIONS)
@@ -36,7 +36,7 @@ function(crossnav_find package target)
     set(found TRUE)
   endif()
   if(NOT found OR NOT TARGET ${target})
-    message(FATAL_ERROR "${package} not found. scripts/setup.sh installs everything that is needed.")
+    message(FATAL_ERROR "${package} not found. scripts/setup.sh installs what is needed.")
   endif()
   message(STATUS "Using ${package} ${${package}_VERSION}")
 endfunction()
