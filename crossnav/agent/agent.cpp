@@ -124,11 +124,13 @@ struct Agent::Impl {
 
   void UpdateMap();
   void UpdateLevel(const AgentPose& agent);
+  void NoticeBump(const AgentPose& agent);
   void ApplyMode(Situation& now, const ModeDecision& next, const Options& options);
   const std::optional<Target>& SelectTarget(const ModeDecision& next, const Options& options) const;
   std::optional<Action> Act(Situation& now, const ModeDecision& next,
                             const std::optional<Target>& target,
                             const policy::Verification& verification);
+  bool Reconsider(Situation& now);
   void Record(StepResult& result, const ModeDecision& next, const Options& options,
               const std::optional<Target>& target, const policy::Verification& verification);
 };
@@ -142,7 +144,8 @@ void Agent::Impl::UpdateLevel(const AgentPose& agent) {
   if (!world.has_level) {
     world.has_level = true;
     world.level_m = agent.p_world.z();
-    QueueLookAround(goal, config.action);
+    goal.p_looked_around_world = agent.p_world;
+    QueueLookAround(goal, agent, config.action);
     return;
   }
   if (goal.session || std::abs(agent.p_world.z() - world.level_m) < kOtherLevel_m) return;
@@ -152,9 +155,16 @@ void Agent::Impl::UpdateLevel(const AgentPose& agent) {
   goal.events.push_back("on another level");
 }
 
+void Agent::Impl::NoticeBump(const AgentPose& agent) {
+  if (!bumps.Update(agent, world.step, config.map)) return;
+  goal.events.push_back("bump");
+  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
+  const auto escape = policy::EscapeActions(world.map, agent, bumps.obstacles(), config.action);
+  goal.script.assign(escape.begin(), escape.end());
+  goal.events.push_back("stuck: stepping aside");
+}
+
 void Agent::Impl::ApplyMode(Situation& now, const ModeDecision& next, const Options& options) {
-  if (goal.mode == Mode::kStairExplore && next.mode != Mode::kStairExplore && goal.session)
-    EndSession(now, next.reason == policy::ModeReason::kLandingReached);
   const bool is_poi = next.mode == Mode::kPoiNavigation || next.mode == Mode::kTargetApproach;
   if (is_poi) {
     goal.script.clear();
@@ -201,6 +211,16 @@ std::optional<Action> Agent::Impl::Act(Situation& now, const ModeDecision& next,
   if (next.mode == Mode::kBasicExplore) return Explore(now, *target);
   if (!next.uses_live_poi) return VisitHistoryPoi(now, *target);
   return Approach(now, *target, *goal.live.Find(goal.active_live), verification);
+}
+
+/// Nothing to go to: what may have been overlooked, from cheap to dear. False when all is done.
+bool Agent::Impl::Reconsider(Situation& now) {
+  if (!bumps.obstacles().empty()) {
+    bumps.Clear();
+    goal.events.push_back("temporary obstacles forgotten");
+    return true;
+  }
+  return LookAroundOnce(now) || Relax(now);
 }
 
 Agent::Agent(const Config& config, perception::PerceptionSuite perception)
@@ -270,7 +290,7 @@ Result<StepResult> Agent::Step(const Observation& obs) {
       policy::LiftDetections(seen->detections, obs, config.map, config.policy.object,
                              config.policy.object.secondary_confidence);
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
-  if (self.bumps.Update(agent, world.step, config.map)) goal.events.push_back("bump");
+  self.NoticeBump(agent);
   self.UpdateLevel(agent);
   clock.Stop("evidence");
 
@@ -298,7 +318,7 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   auto action =
       look && next.mode == Mode::kBasicExplore ? look : self.Act(now, next, target, verification);
   if (!action) {
-    result.all_explored = !Relax(now);
+    result.all_explored = !self.Reconsider(now);
     action = Action::kTurnLeft;
   }
   result.action = *action;

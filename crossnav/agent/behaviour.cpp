@@ -87,11 +87,33 @@ void StartSession(Situation& now, const policy::Flight& flight) {
   now.goal.events.push_back(flight.direction > 0 ? "stairs up verified" : "stairs down verified");
 }
 
+/// A new exploration level, or back to where the session began.
+void EndSession(Situation& now, bool is_success) {
+  const policy::StairSession session = *now.goal.session;
+  now.goal.session.reset();
+  now.goal.script.clear();
+  if (is_success) {
+    now.world.links.push_back({session.p_entrance_world, now.agent.p_world});
+    now.world.level_m = now.agent.p_world.z();
+    now.world.last_direction = session.direction;
+    now.goal.events.push_back(session.direction > 0 ? "new level above" : "new level below");
+    return;
+  }
+  const auto& poi = now.config.policy.poi;
+  now.goal.set_aside.push_back(
+      {session.p_entrance_world, 2 * poi.blacklist_xy_m, poi.blacklist_z_m});
+  now.goal.events.push_back("stairs given up");
+}
+
 }  // namespace
 
-void QueueLookAround(GoalState& goal, const ActionConfig& action) {
+void QueueLookAround(GoalState& goal, const AgentPose& agent, const ActionConfig& action) {
+  // One pitch step down: the ground at the feet and everything up to above the horizon is in view.
+  const double down_rad = -DegToRad(action.pitch_deg);
+  if (const auto pitch = policy::PitchTowards(agent, down_rad, action))
+    goal.script.push_back(*pitch);
   const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
-  goal.script.assign(static_cast<std::size_t>(turns), Action::kTurnLeft);
+  goal.script.insert(goal.script.end(), static_cast<std::size_t>(turns), Action::kTurnLeft);
 }
 
 double DistanceToGoal(const Situation& now, const Target& target) {
@@ -106,7 +128,7 @@ std::optional<Action> FollowPath(const Situation& now, const Target& target,
   if (DistanceToGoal(now, target) < 0.05) return std::nullopt;
   const Vector3d p =
       policy::VisibleWaypoint(now.world.map, target.plan.path, now.agent.p_world, target.rules);
-  return policy::SteerTowards(now.agent, p, now.config.action);
+  return policy::SteerTowards(now.world.map, now.agent, p, now.obstacles, now.config.action);
 }
 
 EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look) {
@@ -149,34 +171,19 @@ SessionVerdict CheckSession(Situation& now) {
     if (!is_scanned) {
       goal.scanned_landing_m = now.agent.p_world.z();
       goal.events.push_back("looking around on the landing");
-      QueueLookAround(goal, now.config.action);
+      QueueLookAround(goal, now.agent, now.config.action);
       return SessionVerdict::kClimbing;
     }
     if (policy::FlightContinues(session, now.world.stairs, now.world.map, now.agent.p_world,
                                 now.config.policy.stair))
       return SessionVerdict::kClimbing;
+    EndSession(now, true);
     return SessionVerdict::kLandingReached;
   }
   const bool is_lost = goal.steps_without_stair_target > 14;  // chosen: one look around and a bit
-  if (status == policy::SessionStatus::kStalled || is_lost) return SessionVerdict::kFailed;
-  return SessionVerdict::kClimbing;
-}
-
-void EndSession(Situation& now, bool is_success) {
-  const policy::StairSession session = *now.goal.session;
-  now.goal.session.reset();
-  now.goal.script.clear();
-  if (is_success) {
-    now.world.links.push_back({session.p_entrance_world, now.agent.p_world});
-    now.world.level_m = now.agent.p_world.z();
-    now.world.last_direction = session.direction;
-    now.goal.events.push_back(session.direction > 0 ? "new level above" : "new level below");
-    return;
-  }
-  const auto& poi = now.config.policy.poi;
-  now.goal.set_aside.push_back(
-      {session.p_entrance_world, 2 * poi.blacklist_xy_m, poi.blacklist_z_m});
-  now.goal.events.push_back("stairs given up");
+  if (status != policy::SessionStatus::kStalled && !is_lost) return SessionVerdict::kClimbing;
+  EndSession(now, false);
+  return SessionVerdict::kFailed;
 }
 
 std::optional<Action> Explore(Situation& now, const Target& target) {
@@ -224,7 +231,7 @@ std::optional<Action> Climb(Situation& now, const std::optional<Target>& target)
     goal.steps_without_stair_target = 0;
     if (auto action = FollowPath(now, *target, wanted_pitch)) return action;
   }
-  if (goal.steps_without_stair_target++ == 0) QueueLookAround(goal, now.config.action);
+  if (goal.steps_without_stair_target++ == 0) QueueLookAround(goal, now.agent, now.config.action);
   return Action::kTurnLeft;
 }
 
@@ -270,6 +277,17 @@ std::optional<Action> Approach(Situation& now, const Target& target, const polic
     goal.events.push_back("verification failed: " + verification.failed_check);
   }
   return Action::kTurnLeft;
+}
+
+bool LookAroundOnce(Situation& now) {
+  GoalState& goal = now.goal;
+  if ((goal.p_looked_around_world - now.agent.p_world).norm() < 0.3)
+    return false;  // chosen: the same place
+  goal.p_looked_around_world = now.agent.p_world;
+  goal.script.clear();
+  QueueLookAround(goal, now.agent, now.config.action);
+  goal.events.push_back("looking around");
+  return true;
 }
 
 bool Relax(Situation& now) {

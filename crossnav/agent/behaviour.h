@@ -11,8 +11,8 @@
 
 namespace crossnav::agent {
 
-/// A full turn on the spot.
-void QueueLookAround(GoalState& goal, const ActionConfig& action);
+/// A full turn on the spot with the camera one step down: sees the ground at the feet too.
+void QueueLookAround(GoalState& goal, const AgentPose& agent, const ActionConfig& action);
 
 /// One action along the plan: pitch first, then turn or walk. nullopt at its end.
 std::optional<Action> FollowPath(const Situation& now, const Target& target,
@@ -29,11 +29,8 @@ EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look);
 
 enum class SessionVerdict { kNone, kClimbing, kLandingReached, kFailed };
 
-/// Promotes evidence and tells how the session stands.
+/// Promotes evidence, tells how the session stands, and ends it when it is over.
 SessionVerdict CheckSession(Situation& now);
-
-/// Ends the session: a new exploration level, or back to where it began.
-void EndSession(Situation& now, bool is_success);
 
 /// One step of Basic Explore towards `target`; may begin an entrance check.
 std::optional<Action> Explore(Situation& now, const Target& target);
@@ -47,6 +44,10 @@ std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target);
 /// One step towards a live POI, with verification; kStop when the frame proves the object.
 std::optional<Action> Approach(Situation& now, const Target& target, const policy::LivePoi& poi,
                                const policy::Verification& verification);
+
+/// Queues a look around unless that was done here for this goal: what surrounds the agent may just
+/// not have been seen. False if it was.
+bool LookAroundOnce(Situation& now);
 
 /// The one relaxed retry when nothing is left. False if it was used before.
 bool Relax(Situation& now);

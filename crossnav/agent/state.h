@@ -90,6 +90,7 @@ struct GoalState {
   int steps_without_stair_target = 0;
   double scanned_landing_m = -1e9;  ///< height of the landing that was looked around on
   std::deque<Action> script;        ///< a look around, a correction of pitch
+  Vector3d p_looked_around_world = Vector3d::Constant(1e9);
   bool is_relaxed = false;          ///< the one relaxed retry was used
   std::vector<std::string> events;  ///< of this step
 };

@@ -156,12 +156,25 @@ class Search {
   bool IsAllowed(const VoxelKey& from, const VoxelKey& to, double length) {
     if (rules_.obstacles && rules_.obstacles->contains(to)) return false;
     if (rules_.level && !IsOnLevel(to)) return false;
-    // A long edge bridges a gap in what was seen, never a wall.
-    if (length > 1.75) {
-      const double voxel_m = map_.config().voxel_m;
-      return map_.HasLineOfSight(CenterOf(from, voxel_m), CenterOf(to, voxel_m));
+    return length <= 1.75 || IsBridge(from, to);
+  }
+
+  /// A long edge bridges a gap in what was seen, never a wall, a drop that was seen, or an
+  /// obstacle.
+  bool IsBridge(const VoxelKey& from, const VoxelKey& to) {
+    const int samples =
+        std::max({std::abs(to.x - from.x), std::abs(to.y - from.y), std::abs(to.z - from.z)});
+    for (int i = 1; i < samples; ++i) {
+      const double t = static_cast<double>(i) / samples;
+      const auto between = [t](int a, int b) {
+        return static_cast<std::int32_t>(std::lround(a + t * (b - a)));
+      };
+      const VoxelKey key{between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
+      if (cursor_.At(key).state == geometry::VoxelState::kTraversableFake) return false;
+      if (rules_.obstacles && rules_.obstacles->contains(key)) return false;
     }
-    return true;
+    const double voxel_m = map_.config().voxel_m;
+    return map_.HasLineOfSight(CenterOf(from, voxel_m), CenterOf(to, voxel_m));
   }
 
   bool IsOnLevel(const VoxelKey& key) {

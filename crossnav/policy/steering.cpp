@@ -14,7 +14,11 @@ using geometry::VoxelMap;
 
 constexpr double kLookahead_m = 1.5;   // chosen: six forward steps
 constexpr double kBumpMoved_m = 0.12;  // chosen: less than half a forward step
-constexpr int kForgetSteps = 100;      // chosen: temporary obstacles are forgotten after this
+constexpr double kClearanceCap_m = 0.25;
+constexpr double kWantedClearance_m = 0.15;  // chosen: the body's radius and half a voxel
+constexpr double kClearanceWeight =
+    10;  // chosen: a step that touches costs as much as a detour of 85 degrees
+constexpr int kForgetSteps = 100;  // chosen: temporary obstacles are forgotten after this
 
 /// Some free standing air within two voxels of height at `p`.
 bool IsWalkable(VoxelMap::Cursor& cursor, const VoxelKey& key, bool allow_inflated) {
@@ -64,12 +68,66 @@ Vector3d VisibleWaypoint(const VoxelMap& map, const std::vector<VoxelKey>& path,
   return p_best;
 }
 
-Action SteerTowards(const AgentPose& agent, const Vector3d& p_waypoint_world,
-                    const ActionConfig& action) {
+double ClearanceAt(const VoxelMap& map, const Vector3d& p_world) {
+  const double voxel_m = map.config().voxel_m;
+  const VoxelKey foot = geometry::KeyOf(p_world + Vector3d(0, 0, 0.5 * voxel_m), voxel_m);
+  const int climb = CellsFloor(map.config().max_climb_m, voxel_m),
+            height = CellsFloor(map.config().agent_height_m, voxel_m);
+  VoxelMap::Cursor cursor(map);
+  int ground = foot.z - 1;
+  for (int dz = climb + 1; dz >= -6; --dz) {
+    if (!IsSurface(cursor.At({foot.x, foot.y, foot.z + dz}).state)) continue;
+    ground = foot.z + dz;
+    break;
+  }
+  double nearest = kClearanceCap_m;
+  const int reach = CellsCeil(kClearanceCap_m, voxel_m);
+  for (int dx = -reach; dx <= reach; ++dx)
+    for (int dy = -reach; dy <= reach; ++dy) {
+      const Vector3d corner = geometry::MinCornerOf({foot.x + dx, foot.y + dy, 0}, voxel_m);
+      const double ox =
+          std::max({corner.x() - p_world.x(), 0.0, p_world.x() - corner.x() - voxel_m});
+      const double oy =
+          std::max({corner.y() - p_world.y(), 0.0, p_world.y() - corner.y() - voxel_m});
+      const double distance = std::hypot(ox, oy);
+      if (distance >= nearest) continue;
+      for (int z = ground + climb + 1; z <= ground + height; ++z) {
+        if (!IsSurface(cursor.At({foot.x + dx, foot.y + dy, z}).state)) continue;
+        nearest = distance;
+        break;
+      }
+    }
+  return nearest;
+}
+
+Action SteerTowards(const VoxelMap& map, const AgentPose& agent, const Vector3d& p_waypoint_world,
+                    const std::set<VoxelKey>* obstacles, const ActionConfig& action) {
+  const double turn_rad = DegToRad(action.turn_deg), voxel_m = map.config().voxel_m;
+  const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
   const Vector3d d = p_waypoint_world - agent.p_world;
-  const double error = WrapAngle(std::atan2(d.y(), d.x()) - agent.yaw_rad);
-  if (std::abs(error) <= DegToRad(action.turn_deg) / 2 + 1e-6) return Action::kMoveForward;
-  return error > 0 ? Action::kTurnLeft : Action::kTurnRight;
+  const double wanted = std::atan2(d.y(), d.x());
+  int best_turn = 0;
+  double best_cost = 1e9;
+  for (int i = 0; i < turns; ++i) {
+    const int k = i % 2 ? (i + 1) / 2 : -(i / 2);  // 0, 1, -1, 2, ...: ties go to the smaller turn
+    const double yaw = agent.yaw_rad + k * turn_rad;
+    double cost = std::abs(WrapAngle(yaw - wanted));
+    double clearance = kClearanceCap_m;
+    for (const double share : {0.5, 1.0}) {
+      const double ahead = share * action.forward_m;
+      const Vector3d p = agent.p_world + Vector3d(std::cos(yaw) * ahead, std::sin(yaw) * ahead, 0);
+      clearance = std::min(clearance, ClearanceAt(map, p));
+      const VoxelKey key = geometry::KeyOf(p + Vector3d(0, 0, 0.5 * voxel_m), voxel_m);
+      if (obstacles && obstacles->contains(key)) cost += 3;
+    }
+    cost += kClearanceWeight * std::max(0.0, kWantedClearance_m - clearance);
+    if (cost < best_cost - 1e-9) {
+      best_cost = cost;
+      best_turn = k;
+    }
+  }
+  if (best_turn == 0) return Action::kMoveForward;
+  return best_turn > 0 ? Action::kTurnLeft : Action::kTurnRight;
 }
 
 std::optional<Action> PitchTowards(const AgentPose& agent, double wanted_rad,
@@ -77,6 +135,35 @@ std::optional<Action> PitchTowards(const AgentPose& agent, double wanted_rad,
   const double error = wanted_rad - agent.pitch_rad;
   if (std::abs(error) <= DegToRad(action.pitch_deg) / 2 + 1e-6) return std::nullopt;
   return error > 0 ? Action::kLookUp : Action::kLookDown;
+}
+
+std::vector<Action> EscapeActions(const VoxelMap& map, const AgentPose& agent,
+                                  const std::set<VoxelKey>& obstacles, const ActionConfig& action) {
+  const double voxel_m = map.config().voxel_m, turn_rad = DegToRad(action.turn_deg);
+  const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
+  VoxelMap::Cursor cursor(map);
+  int best_turn = turns / 2;
+  double best_score = -1;
+  for (int k = -turns / 2 + 1; k <= turns / 2; ++k) {
+    const double yaw = agent.yaw_rad + k * turn_rad;
+    double score = 0;
+    for (double ahead = voxel_m; ahead < 1.0; ahead += voxel_m) {
+      const Vector3d p =
+          agent.p_world + Vector3d(std::cos(yaw) * ahead, std::sin(yaw) * ahead, 0.5 * voxel_m);
+      const VoxelKey key = geometry::KeyOf(p, voxel_m);
+      if (obstacles.contains(key) || !IsWalkable(cursor, key, true)) break;
+      score += IsWalkable(cursor, key, false) ? 1.0 : 0.5;
+    }
+    if (score > best_score + 1e-9 ||
+        (score > best_score - 1e-9 && std::abs(k) < std::abs(best_turn))) {
+      best_score = score;
+      best_turn = k;
+    }
+  }
+  std::vector<Action> actions(static_cast<std::size_t>(std::abs(best_turn)),
+                              best_turn > 0 ? Action::kTurnLeft : Action::kTurnRight);
+  actions.push_back(Action::kMoveForward);
+  return actions;
 }
 
 bool BumpMonitor::Update(const AgentPose& agent, int step, const geometry::MapConfig& map) {

@@ -17,13 +17,25 @@ namespace crossnav::policy {
 Vector3d VisibleWaypoint(const geometry::VoxelMap& map, const std::vector<geometry::VoxelKey>& path,
                          const Vector3d& p_world_foot, const planner::GraphRules& rules);
 
-/// Turn towards the waypoint when the heading is off by more than half a turn, else walk.
-Action SteerTowards(const AgentPose& agent, const Vector3d& p_waypoint_world,
+/// Of the headings that turning can reach, the one nearest to the waypoint's direction whose next
+/// step keeps clear of what the map knows; then a turn towards it, or the step.
+Action SteerTowards(const geometry::VoxelMap& map, const AgentPose& agent,
+                    const Vector3d& p_waypoint_world, const std::set<geometry::VoxelKey>* obstacles,
                     const ActionConfig& action);
+
+/// Distance from `p_world` (at foot height) to the nearest column that blocks a body, capped at
+/// 0.25 [m]. Blocking: a surface more than the maximum climb and at most the agent's height above
+/// the ground at `p_world`.
+double ClearanceAt(const geometry::VoxelMap& map, const Vector3d& p_world);
 
 /// Turns `pitch_rad` one step towards `wanted_rad`; nullopt when nearer than half a step.
 std::optional<Action> PitchTowards(const AgentPose& agent, double wanted_rad,
                                    const ActionConfig& action);
+
+/// Turns and one step into the direction with the longest free way, to get out of a tight spot.
+std::vector<Action> EscapeActions(const geometry::VoxelMap& map, const AgentPose& agent,
+                                  const std::set<geometry::VoxelKey>& obstacles,
+                                  const ActionConfig& action);
 
 /// Remembers forward steps that did not move the agent, and what stood in the way.
 class BumpMonitor {
@@ -32,6 +44,9 @@ class BumpMonitor {
   bool Update(const AgentPose& agent, int step, const geometry::MapConfig& map);
   /// Call with the action about to be executed.
   void Commit(Action action, const AgentPose& agent);
+
+  /// Bumps at one place without any movement in between.
+  int bumps_in_place() const { return bumps_; }
 
   /// Voxels not to be planned through for a while.
   const std::set<geometry::VoxelKey>& obstacles() const { return obstacles_; }
