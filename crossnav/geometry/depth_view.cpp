@@ -2,32 +2,46 @@
 #include "crossnav/geometry/depth_view.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
+#include <array>
 
 namespace crossnav::geometry {
+namespace {
 
-void DepthView::Reset(const DepthImage& depth_m, const MapConfig& config) {
-  width_ = depth_m.width;
-  height_ = depth_m.height;
-  reach_m_.resize(depth_m.data.size());
-  // The same comparisons as ReachOf, in float: a float is below a double limit exactly where it is
-  // below the limit rounded up to a float.
-  auto least = static_cast<float>(config.depth_min_m);
-  if (least < config.depth_min_m)
-    least = std::nextafterf(least, std::numeric_limits<float>::infinity());
-  const auto most = static_cast<float>(config.depth_max_m);
-  for (std::size_t i = 0; i < reach_m_.size(); ++i) {
-    const float z = depth_m.data[i];
-    const bool says = z >= least && z > 0 && z <= std::numeric_limits<float>::max();
-    reach_m_[i] = says ? std::min(z, most) : 0.0F;
-  }
-  levels_.resize(1);
+constexpr int kPad = 64;  // chosen: vectors may read past the last pixel
+
+// In tiles. Each is at most twice the one before, so that shifted copies of that one leave no gap.
+constexpr std::array<int, 9> kRadii = {1, 2, 3, 4, 6, 8, 12, 16, 24};
+
+/// out[i] = max(in[i - by], in[i], in[i + by]) along a line, clamped at its ends.
+void DilateLine(const float* in, int count, int by, float* out) {
+  const auto at_edge = [&](int i) {
+    out[i] = std::max({in[std::max(0, i - by)], in[i], in[std::min(count - 1, i + by)]});
+  };
+  for (int i = 0; i < std::min(by, count); ++i) at_edge(i);
+  for (int i = by; i < count - by; ++i) out[i] = std::max(std::max(in[i - by], in[i + by]), in[i]);
+  for (int i = std::max(by, count - by); i < count; ++i) at_edge(i);
+}
+
+}  // namespace
+
+void DepthView::Resize(int width, int height) {
+  width_ = width;
+  height_ = height;
+  reach_m_.resize(static_cast<std::size_t>(width) * height + kPad);
+}
+
+void DepthView::Fill() {
+  if (levels_.empty()) levels_.resize(1);
   FillTiles();
-  while (levels_.back().columns > 1 || levels_.back().rows > 1)
-    FillCoarser(static_cast<int>(levels_.size()));
+  int count = 1;
+  for (; levels_[count - 1].columns > 1 || levels_[count - 1].rows > 1; ++count) FillCoarser(count);
+  levels_.resize(count);
   for (Level& level : levels_) FillWindows(level);
+  dilations_.resize(kRadii.size());
+  for (std::size_t i = 0; i < kRadii.size(); ++i) {
+    dilations_[i].radius = kRadii[i];
+    dilations_[i].is_filled = false;
+  }
   max_reach_m_ = levels_.back().tile.empty() ? 0.0F : levels_.back().tile[0];
 }
 
@@ -52,7 +66,7 @@ void DepthView::FillTiles() {
 }
 
 void DepthView::FillCoarser(int index) {
-  levels_.emplace_back();
+  if (index >= static_cast<int>(levels_.size())) levels_.resize(index + 1);
   const Level& fine = levels_[index - 1];
   Level& level = levels_[index];
   level.columns = (fine.columns + 1) / 2;
@@ -78,12 +92,49 @@ void DepthView::FillWindows(Level& level) {
   }
 }
 
+const float* DepthView::Dilated(double radius_px) {
+  const double tiles = radius_px / (1 << kTileShift);
+  for (std::size_t i = 0; i < dilations_.size(); ++i) {
+    if (dilations_[i].radius < tiles) continue;
+    if (!dilations_[i].is_filled) FillDilation(static_cast<int>(i));
+    return dilations_[i].tile.data();
+  }
+  return nullptr;
+}
+
+void DepthView::FillDilation(int index) {
+  if (index > 0 && !dilations_[index - 1].is_filled) FillDilation(index - 1);
+  const std::vector<float>& from = index > 0 ? dilations_[index - 1].tile : levels_[0].tile;
+  Dilation& to = dilations_[index];
+  const int by = to.radius - (index > 0 ? dilations_[index - 1].radius : 0);
+  const int columns = levels_[0].columns, rows = levels_[0].rows;
+  to.tile.resize(from.size());
+  scratch_.resize(from.size());
+  for (int v = 0; v < rows; ++v)
+    DilateLine(&from[Index(levels_[0], 0, v)], columns, by, &scratch_[Index(levels_[0], 0, v)]);
+  for (int v = 0; v < rows; ++v) {
+    const float* above = &scratch_[Index(levels_[0], 0, std::max(0, v - by))];
+    const float* below = &scratch_[Index(levels_[0], 0, std::min(rows - 1, v + by))];
+    const float* here = &scratch_[Index(levels_[0], 0, v)];
+    float* out = &to.tile[Index(levels_[0], 0, v)];
+    for (int u = 0; u < columns; ++u) out[u] = std::max(std::max(above[u], below[u]), here[u]);
+  }
+  to.is_filled = true;
+}
+
 float DepthView::MaxReach(const PixelRect& rect) const {
-  const auto longer = static_cast<unsigned>(std::max(rect.u1 - rect.u0, rect.v1 - rect.v0));
-  const int level = std::max(0, static_cast<int>(std::bit_width(longer)) - kTileShift);
-  if (level >= static_cast<int>(levels_.size())) return max_reach_m_;
-  const int shift = kTileShift + level;
-  return levels_[level].window[Index(levels_[level], rect.u0 >> shift, rect.v0 >> shift)];
+  // The finest level on which the rectangle touches at most 4 x 4 tiles.
+  int shift = kTileShift, level = 0;
+  while (std::max((rect.u1 >> shift) - (rect.u0 >> shift),
+                  (rect.v1 >> shift) - (rect.v0 >> shift)) > 3) {
+    ++shift;
+    ++level;
+  }
+  const Level& tiles = levels_[level];
+  const int u0 = rect.u0 >> shift, u1 = std::max(u0, (rect.u1 >> shift) - 1);
+  const int v0 = rect.v0 >> shift, v1 = std::max(v0, (rect.v1 >> shift) - 1);
+  return std::max(std::max(tiles.window[Index(tiles, u0, v0)], tiles.window[Index(tiles, u1, v0)]),
+                  std::max(tiles.window[Index(tiles, u0, v1)], tiles.window[Index(tiles, u1, v1)]));
 }
 
 }  // namespace crossnav::geometry

@@ -5,9 +5,6 @@
 
 #include <vector>
 
-#include "crossnav/core/image.h"
-#include "crossnav/geometry/map_config.h"
-
 namespace crossnav::geometry {
 
 /// Pixels u0..u1, v0..v1, both ends included; empty if u0 > u1 or v0 > v1.
@@ -18,10 +15,13 @@ struct PixelRect {
 
 class DepthView {
  public:
-  static constexpr int kTileShift = 3;  ///< tiles of 8 x 8 pixels
+  static constexpr int kTileShift = 2;  ///< finest tiles: 4 x 4 pixels
 
-  /// Reads the image; keeps its buffers between frames.
-  void Reset(const DepthImage& depth_m, const MapConfig& config);
+  /// Makes room for an image; buffers are kept between frames.
+  void Resize(int width, int height);
+
+  /// Fills the tiles once every row has been written.
+  void Fill();
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -29,9 +29,11 @@ class DepthView {
   /// Depth up to which the pixel's ray is known [m]; 0 = it says nothing.
   float ReachAt(int u, int v) const { return reach_m_[static_cast<std::size_t>(v) * width_ + u]; }
 
+  float* Row(int v) { return &reach_m_[static_cast<std::size_t>(v) * width_]; }
   const float* Row(int v) const { return &reach_m_[static_cast<std::size_t>(v) * width_]; }
 
-  /// At least the greatest reach in `rect`, which is not empty. Cost O(1).
+  /// At least the greatest reach in `rect`, which is not empty; pixels up to a third of its size
+  /// around it may count. Cost O(1).
   float MaxReach(const PixelRect& rect) const;
 
   /// The greatest reach in the tile (tu, tv).
@@ -39,9 +41,15 @@ class DepthView {
 
   float MaxReach() const { return max_reach_m_; }
 
+  /// Per finest tile, row by row: at least the greatest reach within `radius_px` of each of its
+  /// pixels. Made when first asked for in a frame; null where the radius is larger than is kept.
+  const float* Dilated(double radius_px);
+
+  int tile_columns() const { return levels_[0].columns; }
+
  private:
-  // Level k has tiles of 8 << k pixels. A window is 2 x 2 tiles, so that every rectangle not larger
-  // than a tile lies in the window of its first tile.
+  // Level k has tiles of 4 << k pixels, and windows of 2 x 2 tiles: four windows cover a rectangle
+  // of up to 4 x 4 tiles.
   struct Level {
     int columns = 0, rows = 0;
     std::vector<float> tile, window;
@@ -49,6 +57,13 @@ class DepthView {
   static std::size_t Index(const Level& level, int tu, int tv) {
     return static_cast<std::size_t>(tv) * level.columns + tu;
   }
+  // The finest tiles dilated by `radius` tiles.
+  struct Dilation {
+    int radius = 0;
+    bool is_filled = false;
+    std::vector<float> tile;
+  };
+  void FillDilation(int index);
   void FillTiles();
   void FillCoarser(int level);
   static void FillWindows(Level& level);
@@ -57,6 +72,8 @@ class DepthView {
   float max_reach_m_ = 0;
   std::vector<float> reach_m_;
   std::vector<Level> levels_;
+  std::vector<Dilation> dilations_;
+  std::vector<float> scratch_;
 };
 
 }  // namespace crossnav::geometry

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "crossnav/geometry/back_projection.h"
+#include "crossnav/geometry/end_rows.h"
 #include "crossnav/geometry/frame.h"
 #include "crossnav/geometry/integrate.h"
 #include "crossnav/geometry/ray_walk.h"
@@ -10,41 +11,13 @@
 namespace crossnav::geometry {
 namespace {
 
-/// One image row of voxel coordinates: q = start + depth x (base + step x u), per axis.
-struct RowRays {
-  std::array<double, 3> start{}, base{}, step{};
-};
-
-struct RowKeys {
-  std::array<std::vector<std::int32_t>, 3> key;
-  std::vector<std::uint8_t> is_doubtful;  ///< a face is nearer than rounding may decide
-};
-
-// chosen: rounding errors of the row formula stay below 1e-12 voxels for maps of a kilometre.
-constexpr double kDoubt_vox = 1e-9;
-
-void KeysOfRow(const float* reach_m, int width, const RowRays& rays, RowKeys* out) {
-  std::uint8_t* doubtful = out->is_doubtful.data();
-  for (int u = 0; u < width; ++u) doubtful[u] = 0;
-  for (int a = 0; a < 3; ++a) {
-    std::int32_t* key = out->key[a].data();
-    const double start = rays.start[a], base = rays.base[a], step = rays.step[a];
-    for (int u = 0; u < width; ++u) {
-      const double q = start + reach_m[u] * (base + step * u);
-      std::int32_t k = static_cast<std::int32_t>(q);
-      k -= q < k ? 1 : 0;
-      const double fraction = q - k;
-      key[u] = k;
-      doubtful[u] |= static_cast<std::uint8_t>(fraction < kDoubt_vox) |
-                     static_cast<std::uint8_t>(fraction > 1 - kDoubt_vox);
-    }
-  }
-}
-
-RowRays RaysOfRow(const DepthFrame& frame, double voxel_m, int v) {
+RowRays RaysOfRow(const DepthFrame& frame, const MapConfig& config, int v) {
+  const double voxel_m = config.voxel_m;
   const CameraIntrinsics& K = frame.camera;
   const auto& T = frame.T_world_camera.matrix();
   RowRays rays;
+  rays.depth_min_m = config.depth_min_m;
+  rays.depth_max_m = config.depth_max_m;
   for (int a = 0; a < 3; ++a) {
     rays.start[a] = T(a, 3) / voxel_m;
     rays.step[a] = T(a, 0) / K.fx / voxel_m;
@@ -53,48 +26,57 @@ RowRays RaysOfRow(const DepthFrame& frame, double voxel_m, int v) {
   return rays;
 }
 
+/// Settles the pixels that ComputeRow left open: literally, and without an end beyond depth_max.
+void SettleSpecial(const MapConfig& config, const DepthFrame& frame, int v, RowEnds* ends,
+                   KeyBounds* bounds) {
+  for (int i = 0; i < ends->special_count; ++i) {
+    const int u = ends->special[i];
+    const DepthReach reach =
+        ReachOf(frame.depth_m.At(u, v), config.depth_min_m, config.depth_max_m);
+    const VoxelKey key = KeyOfVoxelPoint(BackProjectToVoxels(frame.camera, frame.T_world_camera, u,
+                                                             v, reach.depth_m, config.voxel_m));
+    bounds->Add(key);
+    ends->x[u] = reach.is_hit ? key.x : kNoEnd;
+    ends->y[u] = key.y;
+    ends->z[u] = key.z;
+  }
+}
+
+/// Marks each run of equal voxels once, and lists its pixels from `out` on.
+PixelVoxel* MarkRuns(const RowEnds& ends, int row_start, int width, FrameMarker& marker,
+                     KeyBounds* bounds, PixelVoxel* out) {
+  for (int i = 0; i < ends.start_count; ++i) {
+    const int first = ends.starts[i];
+    const int end = i + 1 < ends.start_count ? ends.starts[i + 1] : width;
+    const VoxelKey key{ends.x[first], ends.y[first], ends.z[first]};
+    if (key.x == kNoEnd) continue;
+    bounds->Add(key);
+    if (!marker.MarkHit(key)) continue;
+    for (int u = first; u < end; ++u) *out++ = {row_start + u, key};
+  }
+  return out;
+}
+
 }  // namespace
 
 KeyBounds CollectEnds(MapData& map, const DepthFrame& frame) {
-  const MapConfig& config = map.config;
   const int width = frame.depth_m.width, height = frame.depth_m.height;
-  const VoxelKey camera_key = KeyOfVoxelPoint(frame.T_world_camera.translation() / config.voxel_m);
+  const VoxelKey camera_key =
+      KeyOfVoxelPoint(frame.T_world_camera.translation() / map.config.voxel_m);
   KeyBounds bounds{camera_key, camera_key};
   FrameMarker marker(map);
-  RowKeys keys;
-  for (auto& key : keys.key) key.resize(width);
-  keys.is_doubtful.resize(width);
-  map.pixels.clear();
-  map.pixels.reserve(frame.depth_m.data.size());
-  VoxelKey last;
-  bool is_last_kept = false, has_last = false;
+  map.row_ends.Resize(width);
+  map.pixels.resize(frame.depth_m.data.size());
+  PixelVoxel* out = map.pixels.data();
   for (int v = 0; v < height; ++v) {
     const float* depth_m = &frame.depth_m.data[static_cast<std::size_t>(v) * width];
-    const float* reach_m = map.view.Row(v);
-    KeysOfRow(reach_m, width, RaysOfRow(frame, config.voxel_m, v), &keys);
-    for (int u = 0; u < width; ++u) {
-      if (reach_m[u] == 0) continue;
-      const bool is_hit = !(depth_m[u] > config.depth_max_m);
-      VoxelKey key{keys.key[0][u], keys.key[1][u], keys.key[2][u]};
-      if (keys.is_doubtful[u] != 0 || !is_hit) {
-        const double depth = is_hit ? depth_m[u] : config.depth_max_m;
-        key = KeyOfVoxelPoint(
-            BackProjectToVoxels(frame.camera, frame.T_world_camera, u, v, depth, config.voxel_m));
-      }
-      if (!is_hit) {
-        bounds.Add(key);
-        continue;
-      }
-      if (!has_last || key != last) {
-        bounds.Add(key);
-        bool is_new = false;
-        is_last_kept = marker.MarkHit(key, &is_new);
-        last = key;
-        has_last = true;
-      }
-      if (is_last_kept) map.pixels.push_back({v * width + u, key});
-    }
+    ComputeRow(depth_m, width, RaysOfRow(frame, map.config, v), &map.row_ends, map.view.Row(v));
+    SettleSpecial(map.config, frame, v, &map.row_ends, &bounds);
+    FindRuns(width, &map.row_ends);
+    out = MarkRuns(map.row_ends, v * width, width, marker, &bounds, out);
   }
+  map.pixels.resize(out - map.pixels.data());
+  map.view.Fill();
   return bounds;
 }
 

@@ -51,16 +51,13 @@ void MergeCounted(VoxelBlock& block, const MapConfig& config) {
 
 }  // namespace
 
-VoxelBlock* FrameMarker::BlockOf(const VoxelKey& key) {
-  if (!IsKept(*map_, key)) return nullptr;
-  const VoxelKey block_key = BlockKeyOf(key);
-  if (block_ == nullptr || block_key != block_key_) {
-    GridEntry& entry = map_->grid.TouchEntry(block_key);
-    ListInFrame(*map_, entry);
-    block_ = &entry.block;
-    block_key_ = block_key;
-  }
-  return block_;
+void FrameMarker::Find(const VoxelKey& key) {
+  block_ = nullptr;
+  if (!IsKept(*map_, key)) return;
+  block_key_ = BlockKeyOf(key);
+  GridEntry& entry = map_->grid.TouchEntry(block_key_);
+  ListInFrame(*map_, entry);
+  block_ = &entry.block;
 }
 
 void ListInFrame(MapData& map, GridEntry& entry) {

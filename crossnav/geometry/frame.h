@@ -10,28 +10,30 @@ namespace crossnav::geometry {
 /// Sets bits of the current frame; remembers the last block, neighbours mostly share one.
 class FrameMarker {
  public:
-  explicit FrameMarker(MapData& map) : map_(&map) {}
+  explicit FrameMarker(MapData& map) : map_(&map), is_clipped_(map.config.clip_to_extent) {}
 
   void MarkFree(const VoxelKey& key) {
     if (VoxelBlock* block = BlockOf(key)) block->frame_free.Set(CellIndexOf(key));
   }
 
-  /// False if the key lies outside a clipped map. `is_new`: first hit in this frame.
-  bool MarkHit(const VoxelKey& key, bool* is_new) {
+  /// False if the key lies outside a clipped map.
+  bool MarkHit(const VoxelKey& key) {
     VoxelBlock* block = BlockOf(key);
-    if (block == nullptr) return false;
-    const int cell = CellIndexOf(key);
-    *is_new = !block->frame_hit.Test(cell);
-    block->frame_hit.Set(cell);
-    return true;
+    if (block != nullptr) block->frame_hit.Set(CellIndexOf(key));
+    return block != nullptr;
   }
 
  private:
-  VoxelBlock* BlockOf(const VoxelKey& key);
+  VoxelBlock* BlockOf(const VoxelKey& key) {
+    if (block_ == nullptr || BlockKeyOf(key) != block_key_ || is_clipped_) Find(key);
+    return block_;
+  }
+  void Find(const VoxelKey& key);
 
   MapData* map_;
   VoxelBlock* block_ = nullptr;
   VoxelKey block_key_;
+  bool is_clipped_ = false;
 };
 
 /// True if the map keeps `key` (always, unless map.clip_to_extent).

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crossnav/geometry/depth_view.h"
+#include "crossnav/geometry/end_rows.h"
 #include "crossnav/geometry/voxel_map.h"
 
 namespace crossnav::geometry {
@@ -31,6 +32,7 @@ struct MapData {
   Grid grid;
   std::vector<GridEntry*> changed;  ///< blocks whose evidence changed since UpdateStates()
   std::vector<GridEntry*> frame;    ///< blocks the current frame touched
+  RowEnds row_ends;                 ///< scratch
   DepthView view;                   ///< of the current frame
   std::vector<PixelVoxel> pixels;
   std::vector<StateChange> changes;

@@ -5,11 +5,13 @@
 // is asked ray by ray: all rays (`exact`) or those through eight inner points (`fast`).
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "crossnav/geometry/back_projection.h"
 #include "crossnav/geometry/frame.h"
 #include "crossnav/geometry/integrate.h"
+#include "crossnav/geometry/project_lanes.h"
 #include "crossnav/geometry/ray_walk.h"
 
 namespace crossnav::geometry {
@@ -17,8 +19,10 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double kMargin_m = 1e-5;   // chosen: far above rounding, far below a voxel
-constexpr double kMargin_px = 1e-3;  // chosen: likewise
+constexpr double kMargin_px = 1e-3;   // chosen: likewise
+constexpr double kLaneMargin = 1e-4;  // chosen: of the greatest reach, for positions in float
+constexpr double kLaneSlack = 3e-4;   // chosen: likewise, for times of crossing in float
+constexpr int kRows = 5;              // chosen: rows of pixels that `fast` looks at per voxel
 
 /// Half the extent of a cube, along the camera's axes and across the image's four side planes.
 struct CubeExtent {
@@ -31,6 +35,16 @@ struct CubeView {
   double z_near = 0, z_far = 0;  ///< camera depth [m]
   PixelRect rect;                ///< empty: none
 };
+
+/// The first pixel after `bound` and the last one before it, in an image of `count`.
+int FirstPixel(double bound, int count) {
+  if (bound < 0) return 0;
+  return bound >= count ? count : static_cast<int>(bound) + 1;
+}
+int LastPixel(double bound, int count) {
+  if (bound < 0) return -1;
+  return bound >= count ? count - 1 : static_cast<int>(bound);
+}
 
 enum class Answer { kNo, kYes, kUnsure };
 
@@ -48,14 +62,15 @@ class Projection {
     const double right = K_.width_px - 1 - K_.cx, bottom = K_.height_px - 1 - K_.cy;
     inward_ = {Vector3d(K_.fx, 0, K_.cx), Vector3d(-K_.fx, 0, right), Vector3d(0, K_.fy, K_.cy),
                Vector3d(0, -K_.fy, bottom)};
-    voxel_ = ExtentOf(1);
-    block_ = ExtentOf(kBlockSide);
+    for (int level = 0; level < 4; ++level) cubes_[level] = ExtentOf(1 << level);
     is_exact_ = map.config.rays == "exact";
     is_counted_ = map.config.clearing == "evidence";
     ball_m2_ = 0.49 * 0.49 * s * s;
     const double reach = std::max(1.0, static_cast<double>(view_.MaxReach()));
     parallel_ = 1e-7 / reach;
     slack_m_ = 1e-7 * reach * reach;
+    margin_m_ = 1e-5 * reach;
+    FillLanes(reach);
   }
 
   void Run(const KeyBounds& bounds) {
@@ -66,6 +81,38 @@ class Projection {
   }
 
  private:
+  void FillLanes(double reach_m) {
+    const double s = map_.config.voxel_m;
+    lanes_.fx = static_cast<float>(K_.fx);
+    lanes_.fy = static_cast<float>(K_.fy);
+    lanes_.cx = static_cast<float>(K_.cx);
+    lanes_.cy = static_cast<float>(K_.cy);
+    lanes_.width = view_.width();
+    lanes_.height = view_.height();
+    lanes_.reach_m = view_.Row(0);
+    for (int i = 0; i < 16; ++i) {
+      const Vector3d offset = to_camera_ * Vector3d(i & 3, i >> 2, 0);
+      lanes_.dx[i] = static_cast<float>(offset.x());
+      lanes_.dy[i] = static_cast<float>(offset.y());
+      lanes_.dz[i] = static_cast<float>(offset.z());
+    }
+    lanes_.step_x = static_cast<float>(to_camera_(0, 2));
+    lanes_.step_y = static_cast<float>(to_camera_(1, 2));
+    lanes_.step_z = static_cast<float>(to_camera_(2, 2));
+    lanes_.half_x = static_cast<float>(cubes_[0].half.x());
+    lanes_.half_y = static_cast<float>(cubes_[0].half.y());
+    lanes_.half_z = static_cast<float>(cubes_[0].half.z());
+    lanes_.margin_m = static_cast<float>(kLaneMargin * reach_m);
+    const double ball = std::max(0.0, 0.49 * s - kLaneMargin * reach_m);
+    lanes_.ball_m2 = static_cast<float>(ball * ball);
+    for (int a = 0; a < 3; ++a) {
+      lanes_.per_u[a] = static_cast<float>(per_u_[a]);
+      lanes_.per_v[a] = static_cast<float>(per_v_[a]);
+      lanes_.ray[a] = static_cast<float>(forward_[a]);
+    }
+    lanes_.slack_m = static_cast<float>(kLaneSlack * reach_m);
+  }
+
   CubeExtent ExtentOf(double side_vox) const {
     CubeExtent extent;
     for (int a = 0; a < 3; ++a)
@@ -81,7 +128,7 @@ class Projection {
     if (out.z_far < 0) return out;
     if (out.z_near < 0.25 * extent.half.z()) {  // at the camera: all rays that the sides allow
       for (int i = 0; i < 4; ++i)
-        if (inward_[i].dot(center) + extent.across[i] < -kMargin_m) return out;
+        if (inward_[i].dot(center) + extent.across[i] < -margin_m_) return out;
       out.rect = {0, 0, view_.width() - 1, view_.height() - 1};
       return out;
     }
@@ -89,16 +136,15 @@ class Projection {
     const double ru = (extent.half.x() + std::abs(x) * extent.half.z()) / out.z_near * K_.fx;
     const double rv = (extent.half.y() + std::abs(y) * extent.half.z()) / out.z_near * K_.fy;
     const double u = K_.fx * x + K_.cx, v = K_.fy * y + K_.cy;
-    const double w = view_.width(), h = view_.height();
-    out.rect.u0 = static_cast<int>(std::clamp(std::ceil(u - ru - kMargin_px), 0.0, w));
-    out.rect.v0 = static_cast<int>(std::clamp(std::ceil(v - rv - kMargin_px), 0.0, h));
-    out.rect.u1 = static_cast<int>(std::clamp(std::floor(u + ru + kMargin_px), -1.0, w - 1));
-    out.rect.v1 = static_cast<int>(std::clamp(std::floor(v + rv + kMargin_px), -1.0, h - 1));
+    out.rect = {FirstPixel(u - ru - kMargin_px, view_.width()),
+                FirstPixel(v - rv - kMargin_px, view_.height()),
+                LastPixel(u + ru + kMargin_px, view_.width()),
+                LastPixel(v + rv + kMargin_px, view_.height())};
     return out;
   }
 
   bool MayReach(const CubeView& cube) const {
-    return !cube.rect.empty() && view_.MaxReach(cube.rect) > cube.z_near - kMargin_m;
+    return !cube.rect.empty() && view_.MaxReach(cube.rect) > cube.z_near - margin_m_;
   }
 
   Vector3d CameraPointOf(const VoxelKey& key, double center) const {
@@ -117,18 +163,10 @@ class Projection {
     const BlockMask open = Open(entry != nullptr ? &entry->block : nullptr);
     if (!open.Any()) return;
     const VoxelKey base = KeyInBlock(block_key, 0);
-    if (!MayReach(ViewOf(CameraPointOf(base, 0.5 * kBlockSide), block_))) return;
-    const Vector3d corner = CameraPointOf(base, 0.5);
+    if (!MayReach(ViewOf(CameraPointOf(base, 0.5 * kBlockSide), cubes_[3]))) return;
     BlockMask passed;
-    for (int z = 0; z < kBlockSide; ++z) {
-      for (std::uint64_t bits = open.slices[z]; bits != 0; bits &= bits - 1) {
-        const int cell = (z << 6) | std::countr_zero(bits);
-        const VoxelKey key = KeyInBlock(block_key, cell);
-        const Vector3d center = corner + to_camera_.col(0) * (cell & 7) +
-                                to_camera_.col(1) * ((cell >> 3) & 7) + to_camera_.col(2) * z;
-        if (IsPassed(key, center)) passed.Set(cell);
-      }
-    }
+    for (int part = 0; part < 8; ++part)
+      AskPart(base, {part & 1 ? 4 : 0, part & 2 ? 4 : 0, part & 4 ? 4 : 0}, open, &passed);
     if (!passed.Any()) return;
     if (map_.config.clip_to_extent) DropOutside(block_key, &passed);
     if (entry == nullptr) entry = &map_.grid.TouchEntry(block_key);
@@ -136,16 +174,75 @@ class Projection {
     ListInFrame(map_, *entry);
   }
 
+  /// The 4 x 4 x 4 voxels at `at` in the block at `base`.
+  void AskPart(const VoxelKey& base, const VoxelKey& at, const BlockMask& open, BlockMask* passed) {
+    const std::uint64_t asked = PartBits(open, at);
+    if (asked == 0) return;
+    const Vector3d center = CameraPointOf(base + at, 2);
+    const CubeView cube = ViewOf(center, cubes_[2]);
+    if (!MayReach(cube)) return;
+    const double x = std::abs(center.x() / center.z()), y = std::abs(center.y() / center.z());
+    const float* dilated = nullptr;
+    if (cube.z_near > 0.25 * cubes_[2].half.z()) dilated = view_.Dilated(PictureRadius(cube, x, y));
+    std::uint64_t found = 0, possible = asked;
+    if (dilated != nullptr) {
+      const Vector3d first = CameraPointOf(base + at, 0.5);
+      const LaneAnswer answer =
+          AskLaneCube(lanes_, {static_cast<float>(first.x()), static_cast<float>(first.y()),
+                               static_cast<float>(first.z()), dilated, view_.tile_columns(), 0});
+      found = answer.passed & asked;
+      possible = answer.possible & asked;
+    }
+    for (; possible != 0; possible &= possible - 1) {
+      const int i = std::countr_zero(possible);
+      const VoxelKey key = base + at + VoxelKey{i & 3, (i >> 2) & 3, i >> 4};
+      if (IsPassed(key, CameraPointOf(key, 0.5), dilated != nullptr))
+        found |= std::uint64_t{1} << i;
+    }
+    AddPartBits(found, at, passed);
+  }
+
+  /// At least half the size, in pixels, of the picture of any voxel of the part.
+  double PictureRadius(const CubeView& cube, double x, double y) const {
+    const double inverse = 1 / cube.z_near;
+    const Vector3d& part = cubes_[2].half;
+    const Vector3d& half = cubes_[0].half;
+    const double far_x = x + (part.x() + x * part.z()) * inverse;
+    const double far_y = y + (part.y() + y * part.z()) * inverse;
+    return 3 +
+           std::max(K_.fx * (half.x() + far_x * half.z()), K_.fy * (half.y() + far_y * half.z())) *
+               inverse;
+  }
+
+  /// Bit x + 4 y + 16 z of the part at `at`.
+  static std::uint64_t PartBits(const BlockMask& mask, const VoxelKey& at) {
+    std::uint64_t bits = 0;
+    for (int z = 3; z >= 0; --z) {
+      const std::uint64_t slice = mask.slices[at.z + z] >> (at.y * kBlockSide + at.x);
+      bits = bits << 16 | (slice & 0xf) | (slice >> 4 & 0xf0) | (slice >> 8 & 0xf00) |
+             (slice >> 12 & 0xf000);
+    }
+    return bits;
+  }
+  static void AddPartBits(std::uint64_t bits, const VoxelKey& at, BlockMask* mask) {
+    for (int z = 0; z < 4; ++z, bits >>= 16) {
+      const std::uint64_t slice =
+          (bits & 0xf) | (bits & 0xf0) << 4 | (bits & 0xf00) << 8 | (bits & 0xf000) << 12;
+      mask->slices[at.z + z] |= slice << (at.y * kBlockSide + at.x);
+    }
+  }
+
   void DropOutside(const VoxelKey& block_key, BlockMask* mask) const {
     for (int cell = 0; cell < kBlockVoxels; ++cell)
       if (!IsKept(map_, KeyInBlock(block_key, cell))) mask->Reset(cell);
   }
 
-  bool IsPassed(const VoxelKey& key, const Vector3d& center) const {
-    if (IsPassedNearCenter(center)) return true;
-    const CubeView cube = ViewOf(center, voxel_);
-    if (!MayReach(cube)) return false;
-    return is_exact_ ? IsPassedByAny(key, cube) : IsPassedInside(key, center);
+  bool IsPassed(const VoxelKey& key, const Vector3d& center, bool is_center_asked) const {
+    if (!is_center_asked && IsPassedNearCenter(center)) return true;
+    const CubeView cube = ViewOf(center, cubes_[0]);
+    if (cube.rect.empty()) return false;
+    if (!is_center_asked && !MayReach(cube)) return false;
+    return is_exact_ ? IsPassedByAny(key, cube) : IsPassedInside(key, cube);
   }
 
   /// The pixel whose ray is nearest to `p_camera`, if there is one.
@@ -168,41 +265,49 @@ class Projection {
     int u = 0, v = 0;
     double miss_m2 = 0;
     if (!PixelOf(center, &u, &v, &miss_m2)) return false;
-    return view_.ReachAt(u, v) > center.z() + voxel_.half.z() + kMargin_m && miss_m2 < ball_m2_;
+    return view_.ReachAt(u, v) > center.z() + cubes_[0].half.z() + margin_m_ && miss_m2 < ball_m2_;
   }
 
-  bool IsPassedInside(const VoxelKey& key, const Vector3d& center) const {
-    constexpr double kInner = 0.3;  // chosen: of the voxel's edge, from the centre
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vector3d offset((corner & 1) ? kInner : -kInner, (corner & 2) ? kInner : -kInner,
-                            (corner & 4) ? kInner : -kInner);
-      int u = 0, v = 0;
-      double miss_m2 = 0;
-      if (PixelOf(center + to_camera_ * offset, &u, &v, &miss_m2) && IsPassedBy(key, u, v))
-        return true;
-    }
-    return false;
+  /// Rows of rays across the voxel's picture.
+  bool IsPassedInside(const VoxelKey& key, const CubeView& cube) const {
+    const PixelRect& r = cube.rect;
+    LaneRows rows = RowsOf(key, r, cube.z_near);
+    rows.step = std::max(1, (r.v1 - r.v0 + 1) / kRows);
+    rows.v0 += rows.step / 2;
+    return AskLaneRows(lanes_, rows) == LaneRowAnswer::kCertain;
+  }
+
+  LaneRows RowsOf(const VoxelKey& key, const PixelRect& r, double z_near) const {
+    return {r.u0,
+            r.u1,
+            r.v0,
+            r.v1,
+            1,
+            static_cast<float>(std::max(0.0, z_near - 2 * lanes_.margin_m)),
+            {static_cast<float>(key.x - start_.x()), static_cast<float>(key.y - start_.y()),
+             static_cast<float>(key.z - start_.z())}};
   }
 
   bool IsPassedByAny(const VoxelKey& key, const CubeView& cube) const {
-    constexpr int kShift = DepthView::kTileShift;
+    constexpr int kSide = 32;  // chosen: larger pictures are asked part by part first
     const PixelRect& r = cube.rect;
-    for (int tv = r.v0 >> kShift; tv <= r.v1 >> kShift; ++tv) {
-      for (int tu = r.u0 >> kShift; tu <= r.u1 >> kShift; ++tu) {
-        if (view_.TileReach(tu, tv) < cube.z_near - kMargin_m) continue;
-        const PixelRect tile{std::max(r.u0, tu << kShift), std::max(r.v0, tv << kShift),
-                             std::min(r.u1, (tu << kShift) + (1 << kShift) - 1),
-                             std::min(r.v1, (tv << kShift) + (1 << kShift) - 1)};
-        if (MayMeet(key, tile) && IsPassedInTile(key, tile)) return true;
+    const bool is_whole = r.u1 - r.u0 < kSide && r.v1 - r.v0 < kSide;
+    for (int v = r.v0; v <= r.v1; v += kSide) {
+      for (int u = r.u0; u <= r.u1; u += kSide) {
+        const PixelRect part{u, v, std::min(r.u1, u + kSide - 1), std::min(r.v1, v + kSide - 1)};
+        if (!is_whole && !MayMeet(key, part)) continue;
+        if (IsPassedInPart(key, part, cube.z_near)) return true;
       }
     }
     return false;
   }
 
-  bool IsPassedInTile(const VoxelKey& key, const PixelRect& tile) const {
-    for (int v = tile.v0; v <= tile.v1; ++v)
-      for (int u = tile.u0; u <= tile.u1; ++u)
-        if (IsPassedBy(key, u, v)) return true;
+  bool IsPassedInPart(const VoxelKey& key, const PixelRect& r, double z_near) const {
+    const LaneRowAnswer answer = AskLaneRows(lanes_, RowsOf(key, r, z_near));
+    if (answer != LaneRowAnswer::kPossible) return answer == LaneRowAnswer::kCertain;
+    for (int v = r.v0; v <= r.v1; ++v)
+      for (int u = r.u0; u <= r.u1; ++u)
+        if (view_.ReachAt(u, v) > z_near - margin_m_ && IsPassedBy(key, u, v)) return true;
     return false;
   }
 
@@ -270,14 +375,16 @@ class Projection {
 
   MapData& map_;
   const DepthFrame& frame_;
-  const DepthView& view_;
+  DepthView& view_;
+  LaneFrame lanes_;
   const CameraIntrinsics& K_;
   Vector3d start_;                    ///< camera [voxels]
   Matrix3d to_camera_;                ///< voxels from the camera -> camera frame [m]
   Vector3d per_u_, per_v_, forward_;  ///< ray of (u, v): voxels per metre of depth
   std::array<Vector3d, 4> inward_;    ///< normals of the image's side planes, camera frame
-  CubeExtent voxel_, block_;
+  std::array<CubeExtent, 4> cubes_;   ///< of edges 1, 2, 4 and 8 voxels
   bool is_exact_ = false, is_counted_ = false;
+  double margin_m_ = 0;  ///< far above rounding, far below a voxel
   double ball_m2_ = 0, parallel_ = 0, slack_m_ = 0;
 };
 

@@ -56,7 +56,7 @@ const std::vector<PixelVoxel>& VoxelMap::Integrate(const DepthImage& depth_m,
   CROSSNAV_CHECK(depth_m.width == camera.width_px && depth_m.height == camera.height_px,
                  "depth image and camera differ in size");
   const DepthFrame frame{depth_m, camera, T_world_camera};
-  data_->view.Reset(depth_m, data_->config);
+  data_->view.Resize(depth_m.width, depth_m.height);
   const KeyBounds bounds = CollectEnds(*data_, frame);
   if (IsProjectionCheaper(*data_, frame))
     CollectFreeByProjection(*data_, frame, bounds);

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/geometry/end_rows.h"
+
+#include <algorithm>
+
+// This file is compiled once per instruction set by the include below.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crossnav/geometry/end_rows.cpp"  // NOLINT
+#include <hwy/foreach_target.h>                              // IWYU pragma: keep
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace crossnav::geometry::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Wide = hn::ScalableTag<double>;
+using Reach = hn::Rebind<float, Wide>;
+using Index = hn::Rebind<std::int32_t, Wide>;
+
+// chosen: rounding of the row's formula stays below 1e-10 voxels for maps of many kilometres.
+constexpr double kDoubt_vox = 1e-9;
+
+struct Lanes {
+  hn::Vec<Wide> reach;
+  hn::Mask<Wide> says;     // the pixel says something
+  hn::Mask<Wide> is_near;  // a face is nearer than rounding may decide
+};
+
+// Voxel coordinate along one axis.
+HWY_INLINE hn::Vec<Wide> FloorOf(const RowRays& rays, int axis, hn::Vec<Wide> u, Lanes* lanes) {
+  const Wide d;
+  const auto ray = hn::MulAdd(hn::Set(d, rays.step[axis]), u, hn::Set(d, rays.base[axis]));
+  const auto q = hn::MulAdd(lanes->reach, ray, hn::Set(d, rays.start[axis]));
+  const auto floor = hn::Floor(q);
+  const auto fraction = hn::Sub(q, floor);
+  const auto to_face = hn::Min(fraction, hn::Sub(hn::Set(d, 1.0), fraction));
+  lanes->is_near = hn::Or(lanes->is_near, hn::Lt(to_face, hn::Set(d, kDoubt_vox)));
+  return floor;
+}
+
+HWY_INLINE void ComputeLanes(const float* depth_m, int u, const RowRays& rays, RowEnds* ends,
+                             float* reach_m) {
+  const Wide d;
+  const Reach df;
+  const Index di;
+  const auto depth = hn::PromoteTo(d, hn::LoadU(df, depth_m + u));
+  const auto least = hn::Set(d, rays.depth_min_m);
+  const auto most = hn::Set(d, static_cast<double>(static_cast<float>(rays.depth_max_m)));
+  const auto greatest = hn::Set(d, static_cast<double>(std::numeric_limits<float>::max()));
+  Lanes lanes;
+  lanes.says =
+      hn::And(hn::And(hn::Ge(depth, least), hn::Gt(depth, hn::Zero(d))), hn::Le(depth, greatest));
+  lanes.reach = hn::IfThenElseZero(lanes.says, hn::Min(depth, most));
+  hn::StoreU(hn::DemoteTo(df, lanes.reach), df, reach_m + u);
+  const auto is_beyond = hn::Gt(depth, hn::Set(d, rays.depth_max_m));
+  lanes.is_near = hn::And(is_beyond, lanes.says);
+  const auto pixel = hn::Add(hn::Iota(d, 0.0), hn::Set(d, static_cast<double>(u)));
+  const auto x = FloorOf(rays, 0, pixel, &lanes);
+  const auto y = FloorOf(rays, 1, pixel, &lanes);
+  const auto z = FloorOf(rays, 2, pixel, &lanes);
+  const auto none = hn::Set(d, static_cast<double>(kNoEnd));
+  hn::StoreU(hn::DemoteTo(di, hn::IfThenElse(lanes.says, x, none)), di, ends->x.data() + u);
+  hn::StoreU(hn::DemoteTo(di, y), di, ends->y.data() + u);
+  hn::StoreU(hn::DemoteTo(di, z), di, ends->z.data() + u);
+  const auto special = hn::And(lanes.is_near, lanes.says);
+  if (HWY_LIKELY(hn::AllFalse(d, special))) return;
+  alignas(64) std::array<double, 64> flags;  // chosen: more lanes than any instruction set has
+  hn::Store(hn::IfThenElseZero(special, hn::Set(d, 1.0)), d, flags.data());
+  for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+    if (flags[i] != 0) ends->special[ends->special_count++] = u + static_cast<int>(i);
+}
+
+void ComputeRowLanes(const float* depth_m, int width, const RowRays& rays, RowEnds* ends,
+                     float* reach_m) {
+  const int lanes = static_cast<int>(hn::Lanes(Wide()));
+  ends->special_count = 0;
+  int u = 0;
+  for (; u + lanes <= width; u += lanes) ComputeLanes(depth_m, u, rays, ends, reach_m);
+  if (u == width) return;
+  // The rest through a padded copy.
+  std::array<float, 64> depth_rest{}, reach_rest{};
+  RowEnds& rest = *ends->rest;
+  rest.special_count = 0;
+  std::copy(depth_m + u, depth_m + width, depth_rest.begin());
+  RowRays shifted = rays;
+  for (int a = 0; a < 3; ++a) shifted.base[a] += rays.step[a] * u;
+  ComputeLanes(depth_rest.data(), 0, shifted, &rest, reach_rest.data());
+  for (int i = 0; u + i < width; ++i) {
+    ends->x[u + i] = rest.x[i];
+    ends->y[u + i] = rest.y[i];
+    ends->z[u + i] = rest.z[i];
+    reach_m[u + i] = reach_rest[i];
+  }
+  for (int i = 0; i < rest.special_count; ++i)
+    if (u + rest.special[i] < width) ends->special[ends->special_count++] = u + rest.special[i];
+}
+
+void FindRunsLanes(int width, RowEnds* ends) {
+  const hn::ScalableTag<std::int32_t> d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  std::int32_t* starts = ends->starts.data();
+  int count = 0, u = 1;
+  const auto differs = [&](const std::vector<std::int32_t>& key, int at) {
+    return hn::Ne(hn::LoadU(d, key.data() + at), hn::LoadU(d, key.data() + at - 1));
+  };
+  starts[count++] = 0;
+  for (; u + lanes <= width; u += lanes) {
+    const auto is_start =
+        hn::Or(hn::Or(differs(ends->x, u), differs(ends->y, u)), differs(ends->z, u));
+    if (hn::AllFalse(d, is_start)) continue;
+    count += static_cast<int>(hn::CompressStore(hn::Iota(d, u), is_start, d, starts + count));
+  }
+  for (; u < width; ++u)
+    if (ends->x[u] != ends->x[u - 1] || ends->y[u] != ends->y[u - 1] ||
+        ends->z[u] != ends->z[u - 1])
+      starts[count++] = u;
+  ends->start_count = count;
+}
+
+}  // namespace crossnav::geometry::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace crossnav::geometry {
+
+HWY_EXPORT(ComputeRowLanes);
+HWY_EXPORT(FindRunsLanes);
+
+namespace {
+constexpr int kPad = 64;  // chosen: more lanes than any instruction set has
+}  // namespace
+
+void RowEnds::Resize(int width) {
+  for (auto* list : {&x, &y, &z, &special, &starts}) list->resize(width + kPad);
+  if (width > 0 && !rest) {
+    rest = std::make_unique<RowEnds>();
+    rest->Resize(0);
+  }
+}
+
+void ComputeRow(const float* depth_m, int width, const RowRays& rays, RowEnds* ends,
+                float* reach_m) {
+  HWY_DYNAMIC_DISPATCH(ComputeRowLanes)(depth_m, width, rays, ends, reach_m);
+}
+
+void FindRuns(int width, RowEnds* ends) {
+  HWY_DYNAMIC_DISPATCH(FindRunsLanes)(width, ends);
+}
+
+}  // namespace crossnav::geometry
+#endif  // HWY_ONCE

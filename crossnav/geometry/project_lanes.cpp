@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/geometry/project_lanes.h"
+
+// This file is compiled once per instruction set by the include below.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "crossnav/geometry/project_lanes.cpp"  // NOLINT
+#include <hwy/foreach_target.h>                                   // IWYU pragma: keep
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace crossnav::geometry::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Multiplications and additions are kept apart, fused ones would round differently from one
+// instruction set to the next.
+using Wide = hn::CappedTag<float, 16>;
+using Index = hn::RebindToSigned<Wide>;
+using V = hn::Vec<Wide>;
+using M = hn::Mask<Wide>;
+
+constexpr int kTileShift = 2;  // DepthView's
+
+HWY_INLINE std::uint64_t BitsOf(M mask) {
+  std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(Wide(), mask, bytes.data());
+  return bytes[0] | std::uint64_t{bytes[1]} << 8;
+}
+
+HWY_INLINE hn::Vec<Index> Clamp(hn::Vec<Index> v, int last) {
+  const Index di;
+  return hn::Max(hn::Zero(di), hn::Min(v, hn::Set(di, last)));
+}
+
+struct Picture {
+  V z, u, v;
+};
+
+// The ray nearest to the centre passes through the inner ball and ends beyond the voxel.
+HWY_INLINE M PassedAtCenter(const LaneFrame& f, const Picture& p) {
+  const Wide d;
+  const Index di;
+  const auto ui = hn::NearestInt(p.u), vi = hn::NearestInt(p.v);
+  const auto uc = Clamp(ui, f.width - 1), vc = Clamp(vi, f.height - 1);
+  const M inside = hn::RebindMask(d, hn::And(hn::Eq(ui, uc), hn::Eq(vi, vc)));
+  const V reach = hn::GatherIndex(d, f.reach_m, hn::Add(hn::Mul(vc, hn::Set(di, f.width)), uc));
+  const V du = hn::Mul(hn::Sub(p.u, hn::ConvertTo(d, ui)), hn::Mul(p.z, hn::Set(d, 1 / f.fx)));
+  const V dv = hn::Mul(hn::Sub(p.v, hn::ConvertTo(d, vi)), hn::Mul(p.z, hn::Set(d, 1 / f.fy)));
+  const V miss = hn::Add(hn::Mul(du, du), hn::Mul(dv, dv));
+  const M beyond = hn::Gt(reach, hn::Add(p.z, hn::Set(d, f.half_z + f.margin_m)));
+  return hn::And(hn::And(inside, beyond), hn::Lt(miss, hn::Set(d, f.ball_m2)));
+}
+
+// Some ray in the voxel's picture reaches it.
+HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p) {
+  const Wide d;
+  const Index di;
+  const V z_near = hn::Sub(p.z, hn::Set(d, f.half_z));
+  const V x = hn::Abs(hn::Mul(hn::Sub(p.u, hn::Set(d, f.cx)), hn::Set(d, 1 / f.fx)));
+  const V y = hn::Abs(hn::Mul(hn::Sub(p.v, hn::Set(d, f.cy)), hn::Set(d, 1 / f.fy)));
+  const V half_z = hn::Set(d, f.half_z);
+  const V one_px = hn::Set(d, 1.0F);
+  const V inverse = hn::Div(one_px, z_near);
+  const V ru = hn::Add(one_px, hn::Mul(hn::Mul(hn::Set(d, f.fx), inverse),
+                                       hn::Add(hn::Set(d, f.half_x), hn::Mul(x, half_z))));
+  const V rv = hn::Add(one_px, hn::Mul(hn::Mul(hn::Set(d, f.fy), inverse),
+                                       hn::Add(hn::Set(d, f.half_y), hn::Mul(y, half_z))));
+  const V right = hn::Set(d, static_cast<float>(f.width - 1));
+  const V bottom = hn::Set(d, static_cast<float>(f.height - 1));
+  const M in_view =
+      hn::And(hn::And(hn::Ge(hn::Add(p.u, ru), hn::Zero(d)), hn::Le(hn::Sub(p.u, ru), right)),
+              hn::And(hn::Ge(hn::Add(p.v, rv), hn::Zero(d)), hn::Le(hn::Sub(p.v, rv), bottom)));
+  const auto tu = hn::ShiftRight<kTileShift>(Clamp(hn::ConvertTo(di, p.u), f.width - 1));
+  const auto tv = hn::ShiftRight<kTileShift>(Clamp(hn::ConvertTo(di, p.v), f.height - 1));
+  const V reach =
+      hn::GatherIndex(d, cube.dilated_m, hn::Add(hn::Mul(tv, hn::Set(di, cube.columns)), tu));
+  return hn::And(in_view, hn::Gt(reach, hn::Sub(z_near, hn::Set(d, f.margin_m))));
+}
+
+LaneAnswer AskCube(const LaneFrame& f, const LaneCube& cube) {
+  const Wide d;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
+  LaneAnswer answer;
+  const V far_px = hn::Set(d, 1e6F);
+  for (int z = 0; z < 4; ++z) {
+    for (int i = 0; i < 16; i += kLanes) {
+      const auto along = [&](float first, float step, const std::array<float, 16>& offset) {
+        return hn::Add(hn::Set(d, first + step * static_cast<float>(z)),
+                       hn::LoadU(d, offset.data() + i));
+      };
+      const V x = along(cube.x, f.step_x, f.dx), y = along(cube.y, f.step_y, f.dy);
+      Picture p;
+      p.z = along(cube.z, f.step_z, f.dz);
+      const V inverse = hn::Div(hn::Set(d, 1.0F), p.z);
+      const auto pixel = [&](V at, float focal, float center) {
+        const V px = hn::Add(hn::Mul(hn::Mul(hn::Set(d, focal), at), inverse), hn::Set(d, center));
+        return hn::Max(hn::Neg(far_px), hn::Min(px, far_px));
+      };
+      p.u = pixel(x, f.fx, f.cx);
+      p.v = pixel(y, f.fy, f.cy);
+      const M passed = PassedAtCenter(f, p);
+      const M possible = hn::AndNot(passed, MayReach(f, cube, p));
+      answer.passed |= BitsOf(passed) << (16 * z + i);
+      answer.possible |= BitsOf(possible) << (16 * z + i);
+    }
+  }
+  return answer;
+}
+
+// Times of crossing in metres of depth: the voxel is met from `enter` to `leave`.
+struct Crossing {
+  V enter, leave;
+  M unsure;  // nearly parallel to a face
+};
+
+HWY_INLINE Crossing Cross(const LaneFrame& f, const LaneRows& rows, V pixel, float v) {
+  const Wide d;
+  const V one = hn::Set(d, 1.0F);
+  const V parallel = hn::Set(d, 0.05F);  // chosen: below, float times are too coarse
+  Crossing c{hn::Zero(d), hn::Set(d, 1e30F), hn::Lt(one, hn::Zero(d))};
+  for (int a = 0; a < 3; ++a) {
+    const V ray =
+        hn::Add(hn::Mul(hn::Set(d, f.per_u[a]), pixel), hn::Set(d, f.ray[a] + f.per_v[a] * v));
+    c.unsure = hn::Or(c.unsure, hn::Lt(hn::Abs(ray), parallel));
+    const V inverse = hn::Div(one, ray);
+    const V t0 = hn::Mul(hn::Set(d, rows.lo[a]), inverse);
+    const V t1 = hn::Mul(hn::Set(d, rows.lo[a] + 1), inverse);
+    c.enter = hn::Max(c.enter, hn::Min(t0, t1));
+    c.leave = hn::Min(c.leave, hn::Max(t0, t1));
+  }
+  return c;
+}
+
+LaneRowAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
+  const Wide d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const V slack = hn::Set(d, f.slack_m), z_near = hn::Set(d, rows.z_near_m);
+  const V last = hn::Set(d, static_cast<float>(rows.u1));
+  bool is_possible = false;
+  for (int v = rows.v0; v <= rows.v1; v += rows.step) {
+    for (int u = rows.u0; u <= rows.u1; u += lanes) {
+      const V pixel = hn::Add(hn::Iota(d, 0.0F), hn::Set(d, static_cast<float>(u)));
+      const V reach = hn::LoadU(d, f.reach_m + static_cast<std::ptrdiff_t>(v) * f.width + u);
+      const M reaches = hn::And(hn::Le(pixel, last), hn::Gt(reach, z_near));
+      if (hn::AllFalse(d, reaches)) continue;
+      const Crossing c = Cross(f, rows, pixel, static_cast<float>(v));
+      const M sure = hn::AndNot(c.unsure, hn::And(hn::Gt(c.leave, hn::Add(c.enter, slack)),
+                                                  hn::Gt(reach, hn::Add(c.leave, slack))));
+      if (!hn::AllFalse(d, hn::And(reaches, sure))) return LaneRowAnswer::kCertain;
+      const M maybe =
+          hn::And(hn::Gt(hn::Add(c.leave, slack), c.enter), hn::Gt(hn::Add(reach, slack), c.leave));
+      is_possible |= !hn::AllFalse(d, hn::And(reaches, hn::Or(c.unsure, maybe)));
+    }
+  }
+  return is_possible ? LaneRowAnswer::kPossible : LaneRowAnswer::kNone;
+}
+
+}  // namespace crossnav::geometry::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace crossnav::geometry {
+
+HWY_EXPORT(AskCube);
+HWY_EXPORT(AskRows);
+
+LaneAnswer AskLaneCube(const LaneFrame& frame, const LaneCube& cube) {
+  return HWY_DYNAMIC_DISPATCH(AskCube)(frame, cube);
+}
+
+LaneRowAnswer AskLaneRows(const LaneFrame& frame, const LaneRows& rows) {
+  return HWY_DYNAMIC_DISPATCH(AskRows)(frame, rows);
+}
+
+}  // namespace crossnav::geometry
+#endif  // HWY_ONCE
