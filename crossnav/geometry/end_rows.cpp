@@ -99,22 +99,20 @@ void ComputeRowLanes(const float* depth_m, int width, const RowRays& rays, RowEn
 void FindRunsLanes(int width, RowEnds* ends) {
   const hn::ScalableTag<std::int32_t> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  const std::int32_t *x = ends->x.data(), *y = ends->y.data(), *z = ends->z.data();
   std::int32_t* starts = ends->starts.data();
   int count = 0, u = 1;
-  const auto differs = [&](const std::vector<std::int32_t>& key, int at) {
-    return hn::Ne(hn::LoadU(d, key.data() + at), hn::LoadU(d, key.data() + at - 1));
+  const auto differs = [&](const std::int32_t* key) {
+    return hn::Ne(hn::LoadU(d, key + u), hn::LoadU(d, key + u - 1));
   };
   starts[count++] = 0;
   for (; u + lanes <= width; u += lanes) {
-    const auto is_start =
-        hn::Or(hn::Or(differs(ends->x, u), differs(ends->y, u)), differs(ends->z, u));
+    const auto is_start = hn::Or(hn::Or(differs(x), differs(y)), differs(z));
     if (hn::AllFalse(d, is_start)) continue;
     count += static_cast<int>(hn::CompressStore(hn::Iota(d, u), is_start, d, starts + count));
   }
   for (; u < width; ++u)
-    if (ends->x[u] != ends->x[u - 1] || ends->y[u] != ends->y[u - 1] ||
-        ends->z[u] != ends->z[u - 1])
-      starts[count++] = u;
+    if (x[u] != x[u - 1] || y[u] != y[u - 1] || z[u] != z[u - 1]) starts[count++] = u;
   ends->start_count = count;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -42,19 +43,16 @@ void SettleSpecial(const MapConfig& config, const DepthFrame& frame, int v, RowE
   }
 }
 
-/// Marks each run of equal voxels once, and lists its pixels from `out` on.
-PixelVoxel* MarkRuns(const RowEnds& ends, int row_start, int width, FrameMarker& marker,
-                     KeyBounds* bounds, PixelVoxel* out) {
+/// Marks each run of equal voxels once, and lists it unless the map is clipped there.
+void MarkRuns(const RowEnds& ends, int row_start, int width, FrameMarker& marker,
+              std::vector<EndRun>* runs) {
   for (int i = 0; i < ends.start_count; ++i) {
-    const int first = ends.starts[i];
+    const int u = ends.starts[i];
+    const VoxelKey key{ends.x[u], ends.y[u], ends.z[u]};
+    if (key.x == kNoEnd || !marker.MarkHit(key)) continue;
     const int end = i + 1 < ends.start_count ? ends.starts[i + 1] : width;
-    const VoxelKey key{ends.x[first], ends.y[first], ends.z[first]};
-    if (key.x == kNoEnd) continue;
-    bounds->Add(key);
-    if (!marker.MarkHit(key)) continue;
-    for (int u = first; u < end; ++u) *out++ = {row_start + u, key};
+    runs->push_back({row_start + u, end - u, key});
   }
-  return out;
 }
 
 }  // namespace
@@ -66,16 +64,18 @@ KeyBounds CollectEnds(MapData& map, const DepthFrame& frame) {
   KeyBounds bounds{camera_key, camera_key};
   FrameMarker marker(map);
   map.row_ends.Resize(width);
-  map.pixels.resize(frame.depth_m.data.size());
-  PixelVoxel* out = map.pixels.data();
+  map.ends.Clear();
   for (int v = 0; v < height; ++v) {
     const float* depth_m = &frame.depth_m.data[static_cast<std::size_t>(v) * width];
     ComputeRow(depth_m, width, RaysOfRow(frame, map.config, v), &map.row_ends, map.view.Row(v));
     SettleSpecial(map.config, frame, v, &map.row_ends, &bounds);
     FindRuns(width, &map.row_ends);
-    out = MarkRuns(map.row_ends, v * width, width, marker, &bounds, out);
+    MarkRuns(map.row_ends, v * width, width, marker, map.ends.runs());
   }
-  map.pixels.resize(out - map.pixels.data());
+  for (const GridEntry* entry : map.frame) {
+    bounds.Add(KeyInBlock(entry->key, 0));
+    bounds.Add(KeyInBlock(entry->key, kBlockVoxels - 1));
+  }
   map.view.Fill();
   return bounds;
 }

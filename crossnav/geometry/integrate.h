@@ -17,7 +17,7 @@ struct DepthFrame {
   const Pose& T_world_camera;
 };
 
-/// Smallest box that holds the camera's voxel and all ends.
+/// A box of whole blocks, or more, that holds the camera's voxel and all ends.
 struct KeyBounds {
   VoxelKey lo, hi;
   void Add(const VoxelKey& key) {

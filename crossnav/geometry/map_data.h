@@ -34,7 +34,7 @@ struct MapData {
   std::vector<GridEntry*> frame;    ///< blocks the current frame touched
   RowEnds row_ends;                 ///< scratch
   DepthView view;                   ///< of the current frame
-  std::vector<PixelVoxel> pixels;
+  EndVoxels ends;
   std::vector<StateChange> changes;
   std::uint64_t revision = 0;
 };

@@ -22,7 +22,7 @@ using Eigen::Matrix3d;
 constexpr double kMargin_px = 1e-3;   // chosen: likewise
 constexpr double kLaneMargin = 1e-4;  // chosen: of the greatest reach, for positions in float
 constexpr double kLaneSlack = 3e-4;   // chosen: likewise, for times of crossing in float
-constexpr int kRows = 5;              // chosen: rows of pixels that `fast` looks at per voxel
+constexpr int kRows = 4;              // chosen: rows of pixels that `fast` looks at per voxel
 
 /// Half the extent of a cube, along the camera's axes and across the image's four side planes.
 struct CubeExtent {
@@ -184,22 +184,42 @@ class Projection {
     const double x = std::abs(center.x() / center.z()), y = std::abs(center.y() / center.z());
     const float* dilated = nullptr;
     if (cube.z_near > 0.25 * cubes_[2].half.z()) dilated = view_.Dilated(PictureRadius(cube, x, y));
-    std::uint64_t found = 0, possible = asked;
-    if (dilated != nullptr) {
-      const Vector3d first = CameraPointOf(base + at, 0.5);
-      const LaneAnswer answer =
-          AskLaneCube(lanes_, {static_cast<float>(first.x()), static_cast<float>(first.y()),
-                               static_cast<float>(first.z()), dilated, view_.tile_columns(), 0});
-      found = answer.passed & asked;
-      possible = answer.possible & asked;
-    }
-    for (; possible != 0; possible &= possible - 1) {
+    const std::uint64_t found =
+        dilated != nullptr ? AskInLanes(base + at, dilated, asked) : AskOneByOne(base + at, asked);
+    AddPartBits(found, at, passed);
+  }
+
+  /// `first`: the part's first voxel. Bits as PartBits.
+  std::uint64_t AskInLanes(const VoxelKey& first, const float* dilated, std::uint64_t asked) {
+    const Vector3d corner = CameraPointOf(first, 0.5);
+    AskLaneCube(lanes_,
+                {static_cast<float>(corner.x()), static_cast<float>(corner.y()),
+                 static_cast<float>(corner.z()), dilated, view_.tile_columns()},
+                &answer_);
+    std::uint64_t found = answer_.passed & asked;
+    for (std::uint64_t possible = answer_.possible & asked; possible != 0;
+         possible &= possible - 1) {
       const int i = std::countr_zero(possible);
-      const VoxelKey key = base + at + VoxelKey{i & 3, (i >> 2) & 3, i >> 4};
-      if (IsPassed(key, CameraPointOf(key, 0.5), dilated != nullptr))
+      const CubeView cube{
+          answer_.z_near_m[i], 0, {answer_.u0[i], answer_.v0[i], answer_.u1[i], answer_.v1[i]}};
+      const VoxelKey key = first + VoxelKey{i & 3, (i >> 2) & 3, i >> 4};
+      if (IsPassedInPicture(key, cube)) found |= std::uint64_t{1} << i;
+    }
+    return found;
+  }
+
+  /// The same for voxels at the camera.
+  std::uint64_t AskOneByOne(const VoxelKey& first, std::uint64_t asked) const {
+    std::uint64_t found = 0;
+    for (; asked != 0; asked &= asked - 1) {
+      const int i = std::countr_zero(asked);
+      const VoxelKey key = first + VoxelKey{i & 3, (i >> 2) & 3, i >> 4};
+      const Vector3d center = CameraPointOf(key, 0.5);
+      const CubeView cube = ViewOf(center, cubes_[0]);
+      if (IsPassedNearCenter(center) || (MayReach(cube) && IsPassedInPicture(key, cube)))
         found |= std::uint64_t{1} << i;
     }
-    AddPartBits(found, at, passed);
+    return found;
   }
 
   /// At least half the size, in pixels, of the picture of any voxel of the part.
@@ -237,12 +257,8 @@ class Projection {
       if (!IsKept(map_, KeyInBlock(block_key, cell))) mask->Reset(cell);
   }
 
-  bool IsPassed(const VoxelKey& key, const Vector3d& center, bool is_center_asked) const {
-    if (!is_center_asked && IsPassedNearCenter(center)) return true;
-    const CubeView cube = ViewOf(center, cubes_[0]);
-    if (cube.rect.empty()) return false;
-    if (!is_center_asked && !MayReach(cube)) return false;
-    return is_exact_ ? IsPassedByAny(key, cube) : IsPassedInside(key, cube);
+  bool IsPassedInPicture(const VoxelKey& key, const CubeView& cube) const {
+    return is_exact_ ? IsPassedByAny(key, cube) : IsPassedBySome(key, cube);
   }
 
   /// The pixel whose ray is nearest to `p_camera`, if there is one.
@@ -269,7 +285,7 @@ class Projection {
   }
 
   /// Rows of rays across the voxel's picture.
-  bool IsPassedInside(const VoxelKey& key, const CubeView& cube) const {
+  bool IsPassedBySome(const VoxelKey& key, const CubeView& cube) const {
     const PixelRect& r = cube.rect;
     LaneRows rows = RowsOf(key, r, cube.z_near);
     rows.step = std::max(1, (r.v1 - r.v0 + 1) / kRows);
@@ -384,6 +400,7 @@ class Projection {
   std::array<Vector3d, 4> inward_;    ///< normals of the image's side planes, camera frame
   std::array<CubeExtent, 4> cubes_;   ///< of edges 1, 2, 4 and 8 voxels
   bool is_exact_ = false, is_counted_ = false;
+  LaneAnswer answer_;    ///< scratch
   double margin_m_ = 0;  ///< far above rounding, far below a voxel
   double ball_m2_ = 0, parallel_ = 0, slack_m_ = 0;
 };

@@ -51,20 +51,34 @@ HWY_INLINE M PassedAtCenter(const LaneFrame& f, const Picture& p) {
   return hn::And(hn::And(inside, beyond), hn::Lt(miss, hn::Set(d, f.ball_m2)));
 }
 
-// Some ray in the voxel's picture reaches it.
-HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p) {
+// Half the size of a voxel's picture along one image axis, with room for rounding.
+HWY_INLINE V PictureRadius(const LaneFrame& f, V offset_px, float focal, float half, V inverse) {
+  const Wide d;
+  const V slope = hn::Abs(hn::Mul(offset_px, hn::Set(d, 1 / focal)));
+  const V reach =
+      hn::Add(hn::Set(d, half + f.margin_m), hn::Mul(slope, hn::Set(d, f.half_z + f.margin_m)));
+  const V px = hn::Mul(hn::Mul(hn::Set(d, focal), inverse), reach);
+  return hn::Add(px, hn::Set(d, 0.05F));  // chosen: above rounding of a pixel coordinate
+}
+
+HWY_INLINE void StoreRange(V middle, V radius, int count, std::int32_t* first, std::int32_t* last) {
   const Wide d;
   const Index di;
-  const V z_near = hn::Sub(p.z, hn::Set(d, f.half_z));
-  const V x = hn::Abs(hn::Mul(hn::Sub(p.u, hn::Set(d, f.cx)), hn::Set(d, 1 / f.fx)));
-  const V y = hn::Abs(hn::Mul(hn::Sub(p.v, hn::Set(d, f.cy)), hn::Set(d, 1 / f.fy)));
-  const V half_z = hn::Set(d, f.half_z);
-  const V one_px = hn::Set(d, 1.0F);
-  const V inverse = hn::Div(one_px, z_near);
-  const V ru = hn::Add(one_px, hn::Mul(hn::Mul(hn::Set(d, f.fx), inverse),
-                                       hn::Add(hn::Set(d, f.half_x), hn::Mul(x, half_z))));
-  const V rv = hn::Add(one_px, hn::Mul(hn::Mul(hn::Set(d, f.fy), inverse),
-                                       hn::Add(hn::Set(d, f.half_y), hn::Mul(y, half_z))));
+  const V lo = hn::Max(hn::Sub(middle, radius), hn::Set(d, -1.0F));
+  const V hi = hn::Min(hn::Add(middle, radius), hn::Set(d, static_cast<float>(count - 1)));
+  hn::StoreU(hn::ConvertTo(di, hn::Ceil(hn::Max(lo, hn::Zero(d)))), di, first);
+  hn::StoreU(hn::ConvertTo(di, hn::Floor(hi)), di, last);
+}
+
+// Some ray in the voxel's picture reaches it. `i`: place of the first lane in `answer`.
+HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p, int i,
+                      LaneAnswer* answer) {
+  const Wide d;
+  const Index di;
+  const V z_near = hn::Sub(p.z, hn::Set(d, f.half_z + f.margin_m));
+  const V inverse = hn::Div(hn::Set(d, 1.0F), z_near);
+  const V ru = PictureRadius(f, hn::Sub(p.u, hn::Set(d, f.cx)), f.fx, f.half_x, inverse);
+  const V rv = PictureRadius(f, hn::Sub(p.v, hn::Set(d, f.cy)), f.fy, f.half_y, inverse);
   const V right = hn::Set(d, static_cast<float>(f.width - 1));
   const V bottom = hn::Set(d, static_cast<float>(f.height - 1));
   const M in_view =
@@ -74,14 +88,20 @@ HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p
   const auto tv = hn::ShiftRight<kTileShift>(Clamp(hn::ConvertTo(di, p.v), f.height - 1));
   const V reach =
       hn::GatherIndex(d, cube.dilated_m, hn::Add(hn::Mul(tv, hn::Set(di, cube.columns)), tu));
-  return hn::And(in_view, hn::Gt(reach, hn::Sub(z_near, hn::Set(d, f.margin_m))));
+  const M may = hn::And(in_view, hn::Gt(reach, z_near));
+  if (!hn::AllFalse(d, may)) {
+    StoreRange(p.u, ru, f.width, answer->u0.data() + i, answer->u1.data() + i);
+    StoreRange(p.v, rv, f.height, answer->v0.data() + i, answer->v1.data() + i);
+    hn::StoreU(z_near, d, answer->z_near_m.data() + i);
+  }
+  return may;
 }
 
-LaneAnswer AskCube(const LaneFrame& f, const LaneCube& cube) {
+void AskCube(const LaneFrame& f, const LaneCube& cube, LaneAnswer* answer) {
   const Wide d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
-  LaneAnswer answer;
   const V far_px = hn::Set(d, 1e6F);
+  answer->passed = answer->possible = 0;
   for (int z = 0; z < 4; ++z) {
     for (int i = 0; i < 16; i += kLanes) {
       const auto along = [&](float first, float step, const std::array<float, 16>& offset) {
@@ -98,13 +118,13 @@ LaneAnswer AskCube(const LaneFrame& f, const LaneCube& cube) {
       };
       p.u = pixel(x, f.fx, f.cx);
       p.v = pixel(y, f.fy, f.cy);
+      const int place = 16 * z + i;
       const M passed = PassedAtCenter(f, p);
-      const M possible = hn::AndNot(passed, MayReach(f, cube, p));
-      answer.passed |= BitsOf(passed) << (16 * z + i);
-      answer.possible |= BitsOf(possible) << (16 * z + i);
+      const M possible = hn::AndNot(passed, MayReach(f, cube, p, place, answer));
+      answer->passed |= BitsOf(passed) << place;
+      answer->possible |= BitsOf(possible) << place;
     }
   }
-  return answer;
 }
 
 // Times of crossing in metres of depth: the voxel is met from `enter` to `leave`.
@@ -164,8 +184,8 @@ namespace crossnav::geometry {
 HWY_EXPORT(AskCube);
 HWY_EXPORT(AskRows);
 
-LaneAnswer AskLaneCube(const LaneFrame& frame, const LaneCube& cube) {
-  return HWY_DYNAMIC_DISPATCH(AskCube)(frame, cube);
+void AskLaneCube(const LaneFrame& frame, const LaneCube& cube, LaneAnswer* answer) {
+  HWY_DYNAMIC_DISPATCH(AskCube)(frame, cube, answer);
 }
 
 LaneRowAnswer AskLaneRows(const LaneFrame& frame, const LaneRows& rows) {

@@ -28,16 +28,18 @@ struct LaneFrame {
 struct LaneCube {
   float x = 0, y = 0, z = 0;         ///< centre of its first voxel, camera frame [m]
   const float* dilated_m = nullptr;  ///< DepthView::Dilated for the size of the voxels' pictures
-  int columns = 0, rows = 0;         ///< of `dilated_m`, in tiles
+  int columns = 0;                   ///< of `dilated_m`, in tiles
 };
 
-/// Bit x + 4 y + 16 z.
+/// Bit, and place in the arrays: x + 4 y + 16 z.
 struct LaneAnswer {
   std::uint64_t passed = 0;    ///< certainly passed by the ray nearest to the voxel's centre
-  std::uint64_t possible = 0;  ///< not that, but some ray may pass
+  std::uint64_t possible = 0;  ///< not that, but some ray may pass; only of these:
+  std::array<std::int32_t, 64> u0, v0, u1, v1;  ///< the pixels whose rays may meet the voxel
+  std::array<float, 64> z_near_m;               ///< rays that end before this do not
 };
 
-LaneAnswer AskLaneCube(const LaneFrame& frame, const LaneCube& cube);
+void AskLaneCube(const LaneFrame& frame, const LaneCube& cube, LaneAnswer* answer);
 
 /// Pixels u0..u1 of the rows v0, v0 + step, ... up to v1 against one voxel.
 struct LaneRows {

@@ -116,8 +116,7 @@ MapStats VoxelMap::Stats() const {
     if (entry.block.counts) stats.bytes += sizeof(HitCounts);
   }
   stats.blocks = static_cast<std::int64_t>(data_->grid.size());
-  stats.bytes += static_cast<std::int64_t>(data_->grid.Bytes() +
-                                           data_->pixels.capacity() * sizeof(PixelVoxel) +
+  stats.bytes += static_cast<std::int64_t>(data_->grid.Bytes() + data_->ends.Bytes() +
                                            data_->changes.capacity() * sizeof(StateChange));
   return stats;
 }

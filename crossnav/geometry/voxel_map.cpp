@@ -49,9 +49,8 @@ std::uint64_t VoxelMap::Revision() const {
   return data_->revision;
 }
 
-const std::vector<PixelVoxel>& VoxelMap::Integrate(const DepthImage& depth_m,
-                                                   const CameraIntrinsics& camera,
-                                                   const Pose& T_world_camera) {
+const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntrinsics& camera,
+                                     const Pose& T_world_camera) {
   CROSSNAV_CHECK(T_world_camera.matrix().allFinite(), "the pose must be finite");
   CROSSNAV_CHECK(depth_m.width == camera.width_px && depth_m.height == camera.height_px,
                  "depth image and camera differ in size");
@@ -63,7 +62,7 @@ const std::vector<PixelVoxel>& VoxelMap::Integrate(const DepthImage& depth_m,
   else
     CollectFreeByWalking(*data_, frame);
   MergeFrame(*data_);
-  return data_->pixels;
+  return data_->ends;
 }
 
 namespace {

@@ -13,6 +13,7 @@
 #include "crossnav/core/camera.h"
 #include "crossnav/core/image.h"
 #include "crossnav/core/pose.h"
+#include "crossnav/geometry/end_voxel_list.h"
 #include "crossnav/geometry/map_config.h"
 #include "crossnav/geometry/voxel_block.h"
 #include "crossnav/geometry/voxel_key.h"
@@ -27,12 +28,6 @@ enum class StairMark : std::uint8_t { kNone = 0, kStair = 1, kExpanded = 2, kFak
 struct StateChange {
   VoxelKey key;
   Voxel voxel;
-};
-
-/// A valid depth pixel's end point: which pixel, which voxel. Order: row by row.
-struct PixelVoxel {
-  std::int32_t pixel = 0;  ///< v * width + u
-  VoxelKey key;
 };
 
 struct MapStats {
@@ -57,9 +52,8 @@ class VoxelMap {
   /// End voxels of valid depth pixels become occupied, voxels before them ray-observed free.
   /// `depth_m` H x W planar metres. Returns the end voxel of every valid pixel within depth limits
   /// (memory lifts features through it); valid until the next call.
-  const std::vector<PixelVoxel>& Integrate(const DepthImage& depth_m,
-                                           const CameraIntrinsics& camera,
-                                           const Pose& T_world_camera);
+  const EndVoxels& Integrate(const DepthImage& depth_m, const CameraIntrinsics& camera,
+                             const Pose& T_world_camera);
 
   /// The agent's own cylinder is free from foot to camera; the voxel under the foot supports it.
   void ObserveBody(const Vector3d& p_world_foot, double camera_height_m);

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// The geometric map against OctoMap on the same frames in one run, alternating frame by frame, by
+// process CPU time of one thread. Prints milliseconds per frame and ratios. Insertion includes
+// back-projection on both sides: OctoMap gets the points that this program computes for it.
+//   map_benchmark [compare] [frames]     insertion and classification
+//   map_benchmark growth [frames]        cost per frame over a long walk, and memory
+#include <ctime>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "crossnav/geometry/map_blocks.h"
+#include "crossnav/geometry/voxel_map.h"
+#include "tests/support/box_rooms.h"
+
+#ifdef CROSSNAV_HAVE_OCTOMAP
+#include <octomap/OcTree.h>
+#endif
+
+namespace {
+
+using namespace crossnav;
+using crossnav::testing::BoxRooms;
+using geometry::MapConfig;
+using geometry::VoxelMap;
+
+double CpuMs() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+/// CPU time of `work` [ms].
+template <class F>
+double Time(F&& work) {
+  const double start = CpuMs();
+  work();
+  return CpuMs() - start;
+}
+
+struct Frame {
+  DepthImage depth_m;
+  Pose T_world_camera;
+  Vector3d p_foot;
+};
+
+std::vector<Frame> RenderWalk(const BoxRooms& rooms, const CameraIntrinsics& K, int count,
+                              int storeys) {
+  std::vector<Frame> frames;
+  for (const AgentPose& agent : crossnav::testing::RandomWalk(5, rooms, count, storeys)) {
+    const Pose T = CameraPose(agent, 0.88);
+    frames.push_back({crossnav::testing::RenderDepth(rooms, K, T), T, agent.p_world});
+  }
+  return frames;
+}
+
+MapConfig ConfigOf(const char* rays, const char* clearing = "never") {
+  MapConfig config;
+  config.rays = rays;
+  config.clearing = clearing;
+  return config;
+}
+
+#ifdef CROSSNAV_HAVE_OCTOMAP
+/// What a user of OctoMap writes: back-project, then insert the cloud.
+void InsertIntoOctomap(octomap::OcTree& tree, const CameraIntrinsics& K, const Frame& frame,
+                       bool is_discretized) {
+  octomap::Pointcloud cloud;
+  cloud.reserve(frame.depth_m.data.size());
+  const MapConfig limits;
+  const Eigen::Matrix3d R = frame.T_world_camera.linear();
+  const Vector3d t = frame.T_world_camera.translation();
+  for (int v = 0; v < K.height_px; ++v)
+    for (int u = 0; u < K.width_px; ++u) {
+      const float z = frame.depth_m.At(u, v);
+      if (!(z >= limits.depth_min_m && z <= limits.depth_max_m)) continue;
+      const Vector3d p = R * BackProjectPixel(K, u, v, z) + t;
+      cloud.push_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                      static_cast<float>(p.z()));
+    }
+  const octomap::point3d origin(static_cast<float>(t.x()), static_cast<float>(t.y()),
+                                static_cast<float>(t.z()));
+  tree.insertPointCloud(cloud, origin, -1, true, is_discretized);
+}
+#endif
+
+struct Column {
+  const char* name;
+  std::vector<double> ms;
+  double Mean(std::size_t from = 0) const {
+    double sum = 0;
+    for (std::size_t i = from; i < ms.size(); ++i) sum += ms[i];
+    return ms.size() > from ? sum / static_cast<double>(ms.size() - from) : 0;
+  }
+};
+
+/// Every contestant sees every frame; `fresh`: into an empty map each time.
+void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool fresh) {
+  Column fast{"fast"}, exact{"exact"}, counted{"fast, clearing = evidence"}, states{"states"};
+  VoxelMap fast_map(ConfigOf("fast")), exact_map(ConfigOf("exact")),
+      counted_map(ConfigOf("fast", "evidence"));
+#ifdef CROSSNAV_HAVE_OCTOMAP
+  Column discretized{"OctoMap discretized"}, literal{"OctoMap exact"};
+  octomap::OcTree tree_discretized(0.1), tree_literal(0.1);
+#endif
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Frame& frame = frames[i];
+    if (fresh) {
+      fast_map = VoxelMap(ConfigOf("fast"));
+      exact_map = VoxelMap(ConfigOf("exact"));
+      counted_map = VoxelMap(ConfigOf("fast", "evidence"));
+    }
+    const auto integrate = [&](VoxelMap& map, Column* column) {
+      column->ms.push_back(Time([&] { map.Integrate(frame.depth_m, K, frame.T_world_camera); }));
+    };
+    integrate(fast_map, &fast);
+    fast_map.ObserveBody(frame.p_foot, 0.88);
+    states.ms.push_back(Time([&] { fast_map.UpdateStates(); }));
+    integrate(exact_map, &exact);
+    integrate(counted_map, &counted);
+#ifdef CROSSNAV_HAVE_OCTOMAP
+    if (fresh) {
+      tree_discretized.clear();
+      tree_literal.clear();
+    }
+    discretized.ms.push_back(Time([&] { InsertIntoOctomap(tree_discretized, K, frame, true); }));
+    if (i % 8 == 0)
+      literal.ms.push_back(Time([&] { InsertIntoOctomap(tree_literal, K, frame, false); }));
+#endif
+  }
+  std::printf("%s, %zu frames of %d x %d, CPU ms per frame (mean)\n",
+              fresh ? "each frame into an empty map" : "one map, walking", frames.size(),
+              K.width_px, K.height_px);
+  std::printf("  insertion fast                %8.2f\n", fast.Mean());
+  std::printf("  insertion exact               %8.2f\n", exact.Mean());
+  std::printf("  insertion fast, evidence      %8.2f\n", counted.Mean());
+  std::printf("  classification and inflation  %8.2f   (greatest %.2f)\n", states.Mean(),
+              *std::max_element(states.ms.begin(), states.ms.end()));
+#ifdef CROSSNAV_HAVE_OCTOMAP
+  std::printf("  OctoMap discretized           %8.2f   ratio to fast  %6.1f\n", discretized.Mean(),
+              discretized.Mean() / fast.Mean());
+  std::printf("  OctoMap discretized                      ratio to evidence %6.1f\n",
+              discretized.Mean() / counted.Mean());
+  std::printf("  OctoMap exact                 %8.2f   ratio to exact %6.1f\n", literal.Mean(),
+              literal.Mean() / exact.Mean());
+#else
+  std::printf("  OctoMap is not installed (liboctomap-dev): no comparison\n");
+#endif
+}
+
+/// A long walk through a two-floor house of 400 m2, rendered as it goes.
+void Growth(const CameraIntrinsics& K, int count) {
+  const BoxRooms rooms = crossnav::testing::MakeBoxHouse(3, 20, 10, 2);
+  VoxelMap map;
+  const std::vector<AgentPose> walk = crossnav::testing::RandomWalk(6, rooms, count, 2);
+  double insertion_ms = 0, states_ms = 0;
+  int since = 0;
+  std::printf("frames   insertion   states   (CPU ms per frame since the line before)   map MB\n");
+  for (int i = 1; i <= count; ++i) {
+    const Pose T = CameraPose(walk[i - 1], 0.88);
+    const DepthImage depth_m = crossnav::testing::RenderDepth(rooms, K, T);
+    insertion_ms += Time([&] { map.Integrate(depth_m, K, T); });
+    map.ObserveBody(walk[i - 1].p_world, 0.88);
+    states_ms += Time([&] { map.UpdateStates(); });
+    ++since;
+    if (i != 20 && i != 100 && i % 500 != 0 && i != count) continue;
+    const geometry::MapStats stats = map.Stats();
+    std::printf("%6d   %9.2f   %6.2f   %46s   %6.1f (%lld blocks)\n", i, insertion_ms / since,
+                states_ms / since, "", 1e-6 * static_cast<double>(stats.bytes),
+                static_cast<long long>(stats.blocks));
+    insertion_ms = states_ms = since = 0;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string mode = argc > 1 ? argv[1] : "compare";
+  const int count = argc > 2 ? std::atoi(argv[2]) : 0;
+  const CameraIntrinsics K = SensorConfig().Intrinsics();
+  if (mode == "growth") {
+    Growth(K, count > 0 ? count : 5000);
+    return 0;
+  }
+  const BoxRooms rooms = crossnav::testing::MakeBoxHouse(2, 12, 9);
+  const std::vector<Frame> frames = RenderWalk(rooms, K, count > 0 ? count : 60, 1);
+  Compare(frames, K, true);
+  Compare(frames, K, false);
+  return 0;
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The end voxel of every valid depth pixel within the depth limits, row by row: how features and
+// masks of an image get to voxels. Held as runs of neighbouring pixels that end in the same voxel;
+// the list pixel by pixel, sixteen times as long, is made when it is first asked for. Belongs to
+// the map that made it and to the thread that writes that map; valid until the next frame.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crossnav/geometry/voxel_key.h"
+
+namespace crossnav::geometry {
+
+/// A valid depth pixel's end point: which pixel, which voxel.
+struct PixelVoxel {
+  std::int32_t pixel = 0;  ///< v * width + u
+  VoxelKey key;
+};
+
+/// `count` pixels of one row, from `pixel` on, that end in the same voxel.
+struct EndRun {
+  std::int32_t pixel = 0;
+  std::int32_t count = 0;
+  VoxelKey key;
+};
+
+class EndVoxels {
+ public:
+  const std::vector<EndRun>& runs() const { return runs_; }
+  std::vector<EndRun>* runs() { return &runs_; }
+
+  /// Pixel by pixel. Cost O(pixels) the first time in a frame.
+  const std::vector<PixelVoxel>& pixels() const {
+    if (is_listed_) return pixels_;
+    pixels_.clear();
+    for (const EndRun& run : runs_)
+      for (std::int32_t i = 0; i < run.count; ++i) pixels_.push_back({run.pixel + i, run.key});
+    is_listed_ = true;
+    return pixels_;
+  }
+  operator const std::vector<PixelVoxel>&() const { return pixels(); }  // NOLINT: a list to callers
+  auto begin() const { return pixels().begin(); }
+  auto end() const { return pixels().end(); }
+  std::size_t size() const { return pixels().size(); }
+  bool empty() const { return runs_.empty(); }
+
+  void Clear() {
+    runs_.clear();
+    is_listed_ = false;
+  }
+  std::size_t Bytes() const {
+    return runs_.capacity() * sizeof(EndRun) + pixels_.capacity() * sizeof(PixelVoxel);
+  }
+
+ private:
+  std::vector<EndRun> runs_;
+  mutable std::vector<PixelVoxel> pixels_;
+  mutable bool is_listed_ = false;
+};
+
+}  // namespace crossnav::geometry
