@@ -43,6 +43,7 @@ class EndVoxels {
   auto begin() const { return pixels().begin(); }
   auto end() const { return pixels().end(); }
   std::size_t size() const { return pixels().size(); }
+  const PixelVoxel& operator[](std::size_t i) const { return pixels()[i]; }
   bool empty() const { return runs_.empty(); }
 
   void Clear() {
