@@ -61,4 +61,16 @@ ObjectModel MakeRefrigerator(Rng& rng);
 ObjectModel MakeCooker(Rng& rng);
 ObjectModel MakeSink(Rng& rng);
 
+// furniture_small.cpp
+ObjectModel MakeVase(Rng& rng);
+ObjectModel MakeBowl(Rng& rng);
+ObjectModel MakeBooks(Rng& rng);
+ObjectModel MakeTableLamp(Rng& rng);
+ObjectModel MakeCardboardBox(Rng& rng);
+ObjectModel MakeBin(Rng& rng);
+ObjectModel MakeBasket(Rng& rng);
+ObjectModel MakeOttoman(Rng& rng);
+ObjectModel MakeCeilingLamp(Rng& rng);  ///< origin at the ceiling
+ObjectModel MakeCurtain(Rng& rng);
+
 }  // namespace crossnav::world

@@ -38,6 +38,10 @@ void Transform(Stair& stair, double z_m, F move2) {
     for (auto& p : tread.polygon) p = move2(p);
     tread.top_m += z_m;
   }
+  if (stair.column) {
+    for (auto& p : stair.column->polygon) p = move2(p);
+    stair.column->top_m += z_m;
+  }
   for (auto& rail : stair.railings) {
     rail.a = move3(rail.a);
     rail.b = move3(rail.b);

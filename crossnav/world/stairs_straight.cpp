@@ -6,7 +6,7 @@ namespace crossnav::world {
 namespace {
 
 constexpr double kLanding_m = 0.95;  // chosen: a landing about as long as the flight is wide
-constexpr double kZone_m = 1.0;      // chosen: free ground before and after a flight
+constexpr double kZone_m = 1.1;      // chosen: free ground before and after a flight
 constexpr double kWall_m = 0.06;     // half a wall
 
 std::vector<Vector2d> Strip(double x0, double x1, double half) {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/furniture_source.h"
+
+#include <span>
+#include <string>
+
+#include "crossnav/world/furniture.h"
+
+namespace crossnav::world {
+namespace {
+
+/// Names that people give the same thing; all of them are in the category table.
+void VaryName(ObjectModel& model, Rng& rng) {
+  static constexpr const char* kNames[][3] = {{"couch", "sofa", "couch"},
+                                              {"potted plant", "plant", "houseplant"},
+                                              {"tv", "television", "tv"},
+                                              {"dining chair", "chair", "dining chair"},
+                                              {"computer monitor", "monitor", "computer monitor"}};
+  for (const auto& row : kNames) {
+    if (model.name == row[0]) {
+      model.name = row[rng.Below(3)];
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<ObjectModel> FurnitureSource::Make(std::string_view kind, Rng& rng) const {
+  auto model = MakeFurniture(kind, rng);
+  if (model) VaryName(*model, rng);
+  return model;
+}
+
+}  // namespace crossnav::world
