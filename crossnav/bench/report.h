@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A report over one or more runs: tables per run, per stage, per floor requirement, per scene and
+// category, outcomes, paired comparison, with the paper's numbers beside; Markdown, CSV, JSON, SVG.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crossnav/bench/episode_record.h"
+#include "crossnav/bench/metrics.h"
+
+namespace crossnav::bench {
+
+/// One run as a report shows it.
+struct ReportRun {
+  std::string name;     ///< of its folder
+  std::string variant;  ///< full, no-history-poi, planar; empty where unknown
+  std::string perception, config_hash, episodes_hash;
+  std::vector<EpisodeRecord> episodes;
+};
+
+/// One figure, as a row of the CSV and the JSON file.
+struct ReportFigure {
+  std::string run, group, metric;
+  int episodes = 0;
+  double value = 0;
+  std::optional<Interval> interval;
+  std::optional<double> paper;  ///< of the paper's method that stands beside this variant
+};
+
+/// All figures of all runs, for "all", each floor group, each scene.
+std::vector<ReportFigure> CollectFigures(const std::vector<ReportRun>& runs,
+                                         const BootstrapConfig& bootstrap);
+
+std::string ReportMarkdown(const std::vector<ReportRun>& runs,
+                           const std::vector<ReportFigure>& figures,
+                           const BootstrapConfig& bootstrap);
+std::string ReportCsv(const std::vector<ReportFigure>& figures);
+std::string ReportJson(const std::vector<ReportRun>& runs,
+                       const std::vector<ReportFigure>& figures);
+
+/// Bars per stage of "SR_cond" or "SPL_cond", the paper's values as lines.
+std::string StagePlotSvg(const std::vector<ReportRun>& runs,
+                         const std::vector<ReportFigure>& figures, const std::string& metric);
+/// Stacked bars of outcomes per category of one run, the paper's beside.
+std::string OutcomePlotSvg(const ReportRun& run);
+
+}  // namespace crossnav::bench

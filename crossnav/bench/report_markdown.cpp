@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "crossnav/bench/paper_numbers.h"
+#include "crossnav/bench/report.h"
+
+namespace crossnav::bench {
+namespace {
+
+const ReportFigure* Find(const std::vector<ReportFigure>& figures, const std::string& run,
+                         const std::string& group, const std::string& metric) {
+  for (const ReportFigure& f : figures) {
+    if (f.run == run && f.group == group && f.metric == metric) return &f;
+  }
+  return nullptr;
+}
+
+/// "29.13 [26.1, 32.0]", or "-".
+std::string Cell(const ReportFigure* figure) {
+  if (figure == nullptr) return "-";
+  std::string text = fmt::format("{:.2f}", 100 * figure->value);
+  if (figure->interval) {
+    text +=
+        fmt::format(" [{:.1f}, {:.1f}]", 100 * figure->interval->low, 100 * figure->interval->high);
+  }
+  return text;
+}
+
+std::string Row(const std::vector<std::string>& cells) {
+  std::string text = "|";
+  for (const std::string& cell : cells) text += " " + cell + " |";
+  return text + "\n";
+}
+
+std::string Head(const std::vector<std::string>& cells) {
+  std::string rule = "|";
+  for (std::size_t i = 0; i < cells.size(); ++i) rule += i == 0 ? "---|" : "--:|";
+  return Row(cells) + rule + "\n";
+}
+
+int GoalsOf(const std::vector<ReportRun>& runs) {
+  std::size_t goals = 0;
+  for (const ReportRun& run : runs) {
+    for (const EpisodeRecord& episode : run.episodes) goals = std::max(goals, episode.goals.size());
+  }
+  return static_cast<int>(goals);
+}
+
+std::string SequenceTable(const std::vector<ReportRun>& runs,
+                          const std::vector<ReportFigure>& figures, const std::string& group,
+                          std::span<const PaperRow> paper) {
+  std::string text = Head({"run", "episodes", "SR", "SPL", "PR", "PPL"});
+  for (const ReportRun& run : runs) {
+    const ReportFigure* sr = Find(figures, run.name, group, "SR");
+    if (sr == nullptr) continue;
+    text += Row({run.name, std::to_string(sr->episodes), Cell(sr),
+                 Cell(Find(figures, run.name, group, "SPL")),
+                 Cell(Find(figures, run.name, group, "PR")),
+                 Cell(Find(figures, run.name, group, "PPL"))});
+  }
+  for (const PaperRow& row : paper) {
+    text += Row({fmt::format("*paper: {}*", row.method), group == "all" ? "927" : "288",
+                 fmt::format("{:.2f}", row.sr), fmt::format("{:.2f}", row.spl),
+                 fmt::format("{:.2f}", row.pr), fmt::format("{:.2f}", row.ppl)});
+  }
+  return text;
+}
+
+std::string StageTable(const std::vector<ReportRun>& runs, const std::vector<ReportFigure>& figures,
+                       const std::string& group, const std::string& metric,
+                       std::span<const PaperRow> paper) {
+  const int goals = GoalsOf(runs);
+  std::vector<std::string> head = {"run"};
+  for (int k = 1; k <= goals; ++k) head.push_back(fmt::format("k={}", k));
+  std::string text = Head(head);
+  for (const ReportRun& run : runs) {
+    std::vector<std::string> cells = {run.name};
+    for (int k = 1; k <= goals; ++k) {
+      cells.push_back(Cell(Find(figures, run.name, group, fmt::format("{}_{}", metric, k))));
+    }
+    text += Row(cells);
+  }
+  for (const PaperRow& row : paper) {
+    const auto& values = metric == "SR_cond" ? row.sr_cond : row.spl_cond;
+    std::vector<std::string> cells = {fmt::format("*paper: {}*", row.method)};
+    for (int k = 0; k < goals; ++k) {
+      cells.push_back(k < 3 ? fmt::format("{:.2f}", values[static_cast<std::size_t>(k)]) : "-");
+    }
+    text += Row(cells);
+  }
+  return text;
+}
+
+/// One line per group of a run; `groups` by name.
+std::string GroupTable(const std::map<std::string, std::vector<EpisodeRecord>>& groups) {
+  std::string text = Head({"group", "episodes", "SR", "SPL", "PR", "PPL"});
+  for (const auto& [name, episodes] : groups) {
+    const Metrics m = ComputeMetrics(episodes);
+    text += Row({name, std::to_string(m.episodes), fmt::format("{:.2f}", 100 * m.sr),
+                 fmt::format("{:.2f}", 100 * m.spl), fmt::format("{:.2f}", 100 * m.pr),
+                 fmt::format("{:.2f}", 100 * m.ppl)});
+  }
+  return text;
+}
+
+std::string OutcomeTableText(const ReportRun& run) {
+  std::vector<std::string> head = {"goal", "total"};
+  for (const std::string_view name : kOutcomeNames) head.emplace_back(name);
+  std::string text = Head(head);
+  for (const auto& [goal, counts] : CountOutcomes(run.episodes)) {
+    int total = 0;
+    for (const int count : counts) total += count;
+    std::vector<std::string> cells = {goal, std::to_string(total)};
+    for (const int count : counts) cells.push_back(std::to_string(count));
+    text += Row(cells);
+  }
+  if (run.variant != "full") return text;
+  for (const PaperOutcomes& p : kPaperOutcomes) {
+    text += Row({fmt::format("*paper: {}*", p.goal), std::to_string(p.total),
+                 std::to_string(p.success), std::to_string(p.not_reached),
+                 std::to_string(p.misdetection), std::to_string(p.all_explored),
+                 std::to_string(p.stuck), std::to_string(p.out_of_time)});
+  }
+  return text;
+}
+
+std::string CategoryTableText(const ReportRun& run) {
+  std::string text = Head({"goal", "executed", "SR", "SPL"});
+  for (const auto& [name, category] : PerCategory(run.episodes)) {
+    text += Row({name, std::to_string(category.executed), fmt::format("{:.2f}", 100 * category.sr),
+                 fmt::format("{:.2f}", 100 * category.spl)});
+  }
+  return text;
+}
+
+/// Episodes of both runs, in the same order.
+void Align(const ReportRun& a, const ReportRun& b, std::vector<EpisodeRecord>& in_a,
+           std::vector<EpisodeRecord>& in_b) {
+  std::map<std::string, const EpisodeRecord*> by_id;
+  for (const EpisodeRecord& episode : b.episodes) by_id[episode.episode_id] = &episode;
+  for (const EpisodeRecord& episode : a.episodes) {
+    const auto other = by_id.find(episode.episode_id);
+    if (other == by_id.end()) continue;
+    in_a.push_back(episode);
+    in_b.push_back(*other->second);
+  }
+}
+
+std::string PairedTable(const ReportRun& a, const ReportRun& b, const BootstrapConfig& bootstrap) {
+  std::vector<EpisodeRecord> in_a, in_b;
+  Align(a, b, in_a, in_b);
+  if (in_a.empty()) return "No episode is in both runs.\n";
+  const auto differences = ComparePaired(in_a, in_b, bootstrap);
+  std::string text = fmt::format("{} episodes in both; points of per cent.\n\n", in_a.size()) +
+                     Head({"metric", "difference", "95 %"});
+  for (const auto& [name, statistic] : NamedStatistics(ComputeMetrics(in_a).goals)) {
+    const auto found = differences.find(name);
+    if (found == differences.end() || name == "distance_to_goal_m") continue;
+    text += Row({name, fmt::format("{:+.2f}", 100 * found->second.difference),
+                 fmt::format("[{:+.2f}, {:+.2f}]", 100 * found->second.interval.low,
+                             100 * found->second.interval.high)});
+  }
+  return text;
+}
+
+std::string RunSection(const ReportRun& run) {
+  return fmt::format("\n## {}\n\nvariant {}, {}, config {}, episodes {}\n", run.name,
+                     run.variant.empty() ? "unknown" : run.variant,
+                     run.perception.empty() ? "unknown perception" : run.perception,
+                     run.config_hash, run.episodes_hash) +
+         "\n### Floor requirement\n\n" + GroupTable(GroupByCrossFloor(run.episodes)) +
+         "\n### Scenes\n\n" + GroupTable(GroupByScene(run.episodes)) + "\n### Categories\n\n" +
+         CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run);
+}
+
+}  // namespace
+
+std::string ReportMarkdown(const std::vector<ReportRun>& runs,
+                           const std::vector<ReportFigure>& figures,
+                           const BootstrapConfig& bootstrap) {
+  std::string text =
+      "# Report\n\nPer cent, with bootstrap 95 % intervals over episodes. The paper's numbers were "
+      "taken on HM3D with networks; they stand beside ours and are no target.\n";
+  text += "\n## All episodes\n\n" + SequenceTable(runs, figures, "all", kPaperAll);
+  text += "\n## Episodes that require a floor change\n\n" +
+          SequenceTable(runs, figures, "cfr", kPaperCrossFloor);
+  for (const std::string metric : {"SR_cond", "SPL_cond"}) {
+    const std::string name = metric == "SR_cond" ? "Conditional SR" : "Conditional SPL";
+    text +=
+        "\n## " + name + ", all episodes\n\n" + StageTable(runs, figures, "all", metric, kPaperAll);
+    text += "\n## " + name + ", floor change required\n\n" +
+            StageTable(runs, figures, "cfr", metric, kPaperCrossFloor);
+  }
+  for (const ReportRun& run : runs) text += RunSection(run);
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    text += fmt::format("\n## {} against {}, paired\n\n", runs[i].name, runs[0].name) +
+            PairedTable(runs[0], runs[i], bootstrap);
+  }
+  return text;
+}
+
+}  // namespace crossnav::bench
