@@ -23,8 +23,7 @@ constexpr double kDoubt_vox = 1e-9;
 
 struct Lanes {
   hn::Vec<Wide> reach;
-  hn::Mask<Wide> says;     // the pixel says something
-  hn::Mask<Wide> is_near;  // a face is nearer than rounding may decide
+  hn::Vec<Wide> off_middle;  // greatest distance from the middle of a voxel, over the axes
 };
 
 // Voxel coordinate along one axis.
@@ -33,9 +32,8 @@ HWY_INLINE hn::Vec<Wide> FloorOf(const RowRays& rays, int axis, hn::Vec<Wide> u,
   const auto ray = hn::MulAdd(hn::Set(d, rays.step[axis]), u, hn::Set(d, rays.base[axis]));
   const auto q = hn::MulAdd(lanes->reach, ray, hn::Set(d, rays.start[axis]));
   const auto floor = hn::Floor(q);
-  const auto fraction = hn::Sub(q, floor);
-  const auto to_face = hn::Min(fraction, hn::Sub(hn::Set(d, 1.0), fraction));
-  lanes->is_near = hn::Or(lanes->is_near, hn::Lt(to_face, hn::Set(d, kDoubt_vox)));
+  const auto off = hn::Abs(hn::Sub(hn::Sub(q, floor), hn::Set(d, 0.5)));
+  lanes->off_middle = hn::Max(lanes->off_middle, off);
   return floor;
 }
 
@@ -48,22 +46,21 @@ HWY_INLINE void ComputeLanes(const float* depth_m, int u, const RowRays& rays, R
   const auto least = hn::Set(d, rays.depth_min_m);
   const auto most = hn::Set(d, static_cast<double>(static_cast<float>(rays.depth_max_m)));
   const auto greatest = hn::Set(d, static_cast<double>(std::numeric_limits<float>::max()));
-  Lanes lanes;
-  lanes.says =
+  const auto says =
       hn::And(hn::And(hn::Ge(depth, least), hn::Gt(depth, hn::Zero(d))), hn::Le(depth, greatest));
-  lanes.reach = hn::IfThenElseZero(lanes.says, hn::Min(depth, most));
+  Lanes lanes{hn::IfThenElseZero(says, hn::Min(depth, most)), hn::Zero(d)};
   hn::StoreU(hn::DemoteTo(df, lanes.reach), df, reach_m + u);
-  const auto is_beyond = hn::Gt(depth, hn::Set(d, rays.depth_max_m));
-  lanes.is_near = hn::And(is_beyond, lanes.says);
   const auto pixel = hn::Add(hn::Iota(d, 0.0), hn::Set(d, static_cast<double>(u)));
   const auto x = FloorOf(rays, 0, pixel, &lanes);
   const auto y = FloorOf(rays, 1, pixel, &lanes);
   const auto z = FloorOf(rays, 2, pixel, &lanes);
   const auto none = hn::Set(d, static_cast<double>(kNoEnd));
-  hn::StoreU(hn::DemoteTo(di, hn::IfThenElse(lanes.says, x, none)), di, ends->x.data() + u);
+  hn::StoreU(hn::DemoteTo(di, hn::IfThenElse(says, x, none)), di, ends->x.data() + u);
   hn::StoreU(hn::DemoteTo(di, y), di, ends->y.data() + u);
   hn::StoreU(hn::DemoteTo(di, z), di, ends->z.data() + u);
-  const auto special = hn::And(lanes.is_near, lanes.says);
+  const auto is_near = hn::Gt(lanes.off_middle, hn::Set(d, 0.5 - kDoubt_vox));
+  const auto is_beyond = hn::Gt(depth, hn::Set(d, rays.depth_max_m));
+  const auto special = hn::And(hn::Or(is_near, is_beyond), says);
   if (HWY_LIKELY(hn::AllFalse(d, special))) return;
   alignas(64) std::array<double, 64> flags;  // chosen: more lanes than any instruction set has
   hn::Store(hn::IfThenElseZero(special, hn::Set(d, 1.0)), d, flags.data());

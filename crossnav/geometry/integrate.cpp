@@ -27,9 +27,9 @@ void CollectFreeByWalking(MapData& map, const DepthFrame& frame) {
 }
 
 bool IsProjectionCheaper(const MapData& map, const DepthFrame& frame) {
-  // Voxels per pixel against ray steps per pixel, of every 61st pixel; a voxel asked costs about
+  // Voxels per pixel against ray steps per pixel, of every 251st pixel; a voxel asked costs about
   // eight steps. chosen: measured once, the decision is not sensitive.
-  constexpr std::size_t kStride = 61;
+  constexpr std::size_t kStride = 251;
   constexpr double kVoxelCost = 8, kStepsPerVoxel = 1.5;
   const double pixel = 1 / (frame.camera.fx * frame.camera.fy);
   double voxels = 0, steps = 0;

@@ -22,7 +22,8 @@ using Eigen::Matrix3d;
 constexpr double kMargin_px = 1e-3;   // chosen: likewise
 constexpr double kLaneMargin = 1e-4;  // chosen: of the greatest reach, for positions in float
 constexpr double kLaneSlack = 3e-4;   // chosen: likewise, for times of crossing in float
-constexpr int kRows = 4;              // chosen: rows of pixels that `fast` looks at per voxel
+constexpr double kInner = 0.4;        // chosen: of a voxel's edge, near its corners
+constexpr int kRows = 4;              // chosen: of a voxel's pixels, that `fast` looks at
 
 /// Half the extent of a cube, along the camera's axes and across the image's four side planes.
 struct CubeExtent {
@@ -63,6 +64,9 @@ class Projection {
     inward_ = {Vector3d(K_.fx, 0, K_.cx), Vector3d(-K_.fx, 0, right), Vector3d(0, K_.fy, K_.cy),
                Vector3d(0, -K_.fy, bottom)};
     for (int level = 0; level < 4; ++level) cubes_[level] = ExtentOf(1 << level);
+    for (int part = 0; part < 8; ++part)
+      part_offset_[part] =
+          to_camera_ * Vector3d(part & 1 ? 2 : -2, part & 2 ? 2 : -2, part & 4 ? 2 : -2);
     is_exact_ = map.config.rays == "exact";
     is_counted_ = map.config.clearing == "evidence";
     ball_m2_ = 0.49 * 0.49 * s * s;
@@ -163,10 +167,15 @@ class Projection {
     const BlockMask open = Open(entry != nullptr ? &entry->block : nullptr);
     if (!open.Any()) return;
     const VoxelKey base = KeyInBlock(block_key, 0);
-    if (!MayReach(ViewOf(CameraPointOf(base, 0.5 * kBlockSide), cubes_[3]))) return;
+    const Vector3d center = CameraPointOf(base, 0.5 * kBlockSide);
+    if (!MayReach(ViewOf(center, cubes_[3]))) return;
     BlockMask passed;
-    for (int part = 0; part < 8; ++part)
-      AskPart(base, {part & 1 ? 4 : 0, part & 2 ? 4 : 0, part & 4 ? 4 : 0}, open, &passed);
+    for (int part = 0; part < 8; ++part) {
+      const VoxelKey at{part & 1 ? 4 : 0, part & 2 ? 4 : 0, part & 4 ? 4 : 0};
+      const std::uint64_t asked = PartBits(open, at);
+      if (asked != 0)
+        AddPartBits(AskPart(base + at, center + part_offset_[part], asked), at, &passed);
+    }
     if (!passed.Any()) return;
     if (map_.config.clip_to_extent) DropOutside(block_key, &passed);
     if (entry == nullptr) entry = &map_.grid.TouchEntry(block_key);
@@ -174,41 +183,36 @@ class Projection {
     ListInFrame(map_, *entry);
   }
 
-  /// The 4 x 4 x 4 voxels at `at` in the block at `base`.
-  void AskPart(const VoxelKey& base, const VoxelKey& at, const BlockMask& open, BlockMask* passed) {
-    const std::uint64_t asked = PartBits(open, at);
-    if (asked == 0) return;
-    const Vector3d center = CameraPointOf(base + at, 2);
+  /// 4 x 4 x 4 voxels from `first` on. Bits as PartBits.
+  std::uint64_t AskPart(const VoxelKey& first, const Vector3d& center, std::uint64_t asked) {
     const CubeView cube = ViewOf(center, cubes_[2]);
-    if (!MayReach(cube)) return;
-    const double x = std::abs(center.x() / center.z()), y = std::abs(center.y() / center.z());
+    if (!MayReach(cube)) return 0;
     const float* dilated = nullptr;
-    if (cube.z_near > 0.25 * cubes_[2].half.z()) dilated = view_.Dilated(PictureRadius(cube, x, y));
-    const std::uint64_t found =
-        dilated != nullptr ? AskInLanes(base + at, dilated, asked) : AskOneByOne(base + at, asked);
-    AddPartBits(found, at, passed);
+    if (cube.z_near > 0.25 * cubes_[2].half.z())
+      dilated = view_.Dilated(PictureRadius(cube, center));
+    return dilated != nullptr ? AskInLanes(first, center, dilated, asked)
+                              : AskOneByOne(first, asked);
   }
 
   /// `first`: the part's first voxel. Bits as PartBits.
-  std::uint64_t AskInLanes(const VoxelKey& first, const float* dilated, std::uint64_t asked) {
-    const Vector3d corner = CameraPointOf(first, 0.5);
-    AskLaneCube(lanes_,
-                {static_cast<float>(corner.x()), static_cast<float>(corner.y()),
-                 static_cast<float>(corner.z()), dilated, view_.tile_columns()},
-                &answer_);
-    std::uint64_t found = answer_.passed & asked;
-    for (std::uint64_t possible = answer_.possible & asked; possible != 0;
-         possible &= possible - 1) {
-      const int i = std::countr_zero(possible);
-      const CubeView cube{
-          answer_.z_near_m[i], 0, {answer_.u0[i], answer_.v0[i], answer_.u1[i], answer_.v1[i]}};
-      const VoxelKey key = first + VoxelKey{i & 3, (i >> 2) & 3, i >> 4};
-      if (IsPassedInPicture(key, cube)) found |= std::uint64_t{1} << i;
-    }
-    return found;
+  std::uint64_t AskInLanes(const VoxelKey& first, const Vector3d& center, const float* dilated,
+                           std::uint64_t asked) const {
+    const Vector3d corner = center - to_camera_ * Vector3d::Constant(1.5);
+    LaneCube cube;
+    cube.x = static_cast<float>(corner.x());
+    cube.y = static_cast<float>(corner.y());
+    cube.z = static_cast<float>(corner.z());
+    cube.lo = {static_cast<float>(first.x - start_.x()), static_cast<float>(first.y - start_.y()),
+               static_cast<float>(first.z - start_.z())};
+    cube.dilated_m = dilated;
+    cube.columns = view_.tile_columns();
+    cube.asked = asked;
+    cube.rows = is_exact_ ? 0 : kRows;
+    const LaneAnswer answer = AskLaneCube(lanes_, cube);
+    return is_exact_ ? answer.passed | AskOneByOne(first, answer.possible) : answer.passed;
   }
 
-  /// The same for voxels at the camera.
+  /// The same in double: at the camera, and where float cannot decide.
   std::uint64_t AskOneByOne(const VoxelKey& first, std::uint64_t asked) const {
     std::uint64_t found = 0;
     for (; asked != 0; asked &= asked - 1) {
@@ -216,15 +220,16 @@ class Projection {
       const VoxelKey key = first + VoxelKey{i & 3, (i >> 2) & 3, i >> 4};
       const Vector3d center = CameraPointOf(key, 0.5);
       const CubeView cube = ViewOf(center, cubes_[0]);
-      if (IsPassedNearCenter(center) || (MayReach(cube) && IsPassedInPicture(key, cube)))
+      if (IsPassedNearCenter(center) || (MayReach(cube) && IsPassedInPicture(key, center, cube)))
         found |= std::uint64_t{1} << i;
     }
     return found;
   }
 
   /// At least half the size, in pixels, of the picture of any voxel of the part.
-  double PictureRadius(const CubeView& cube, double x, double y) const {
-    const double inverse = 1 / cube.z_near;
+  double PictureRadius(const CubeView& cube, const Vector3d& center) const {
+    const double inverse = 1 / cube.z_near, middle = 1 / center.z();
+    const double x = std::abs(center.x()) * middle, y = std::abs(center.y()) * middle;
     const Vector3d& part = cubes_[2].half;
     const Vector3d& half = cubes_[0].half;
     const double far_x = x + (part.x() + x * part.z()) * inverse;
@@ -257,10 +262,6 @@ class Projection {
       if (!IsKept(map_, KeyInBlock(block_key, cell))) mask->Reset(cell);
   }
 
-  bool IsPassedInPicture(const VoxelKey& key, const CubeView& cube) const {
-    return is_exact_ ? IsPassedByAny(key, cube) : IsPassedBySome(key, cube);
-  }
-
   /// The pixel whose ray is nearest to `p_camera`, if there is one.
   bool PixelOf(const Vector3d& p_camera, int* u, int* v, double* miss_m2) const {
     if (p_camera.z() <= 0) return false;
@@ -284,24 +285,21 @@ class Projection {
     return view_.ReachAt(u, v) > center.z() + cubes_[0].half.z() + margin_m_ && miss_m2 < ball_m2_;
   }
 
-  /// Rows of rays across the voxel's picture.
-  bool IsPassedBySome(const VoxelKey& key, const CubeView& cube) const {
-    const PixelRect& r = cube.rect;
-    LaneRows rows = RowsOf(key, r, cube.z_near);
-    rows.step = std::max(1, (r.v1 - r.v0 + 1) / kRows);
-    rows.v0 += rows.step / 2;
-    return AskLaneRows(lanes_, rows) == LaneRowAnswer::kCertain;
+  bool IsPassedInPicture(const VoxelKey& key, const Vector3d& center, const CubeView& cube) const {
+    return is_exact_ ? IsPassedByAny(key, cube) : IsPassedInside(key, center);
   }
 
-  LaneRows RowsOf(const VoxelKey& key, const PixelRect& r, double z_near) const {
-    return {r.u0,
-            r.u1,
-            r.v0,
-            r.v1,
-            1,
-            static_cast<float>(std::max(0.0, z_near - 2 * lanes_.margin_m)),
-            {static_cast<float>(key.x - start_.x()), static_cast<float>(key.y - start_.y()),
-             static_cast<float>(key.z - start_.z())}};
+  /// The rays nearest to eight inner points.
+  bool IsPassedInside(const VoxelKey& key, const Vector3d& center) const {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3d offset((corner & 1) ? kInner : -kInner, (corner & 2) ? kInner : -kInner,
+                            (corner & 4) ? kInner : -kInner);
+      int u = 0, v = 0;
+      double miss_m2 = 0;
+      if (PixelOf(center + to_camera_ * offset, &u, &v, &miss_m2) && IsPassedBy(key, u, v))
+        return true;
+    }
+    return false;
   }
 
   bool IsPassedByAny(const VoxelKey& key, const CubeView& cube) const {
@@ -312,18 +310,30 @@ class Projection {
       for (int u = r.u0; u <= r.u1; u += kSide) {
         const PixelRect part{u, v, std::min(r.u1, u + kSide - 1), std::min(r.v1, v + kSide - 1)};
         if (!is_whole && !MayMeet(key, part)) continue;
-        if (IsPassedInPart(key, part, cube.z_near)) return true;
+        if (IsPassedInPart(key, part, cube.z_near - margin_m_)) return true;
       }
     }
     return false;
   }
 
   bool IsPassedInPart(const VoxelKey& key, const PixelRect& r, double z_near) const {
-    const LaneRowAnswer answer = AskLaneRows(lanes_, RowsOf(key, r, z_near));
-    if (answer != LaneRowAnswer::kPossible) return answer == LaneRowAnswer::kCertain;
-    for (int v = r.v0; v <= r.v1; ++v)
-      for (int u = r.u0; u <= r.u1; ++u)
-        if (view_.ReachAt(u, v) > z_near - margin_m_ && IsPassedBy(key, u, v)) return true;
+    const RowsAnswer answer = AskLaneRows(
+        lanes_, {r.u0,
+                 r.u1,
+                 r.v0,
+                 r.v1,
+                 1,
+                 static_cast<float>(std::max(0.0, z_near - lanes_.margin_m)),
+                 {static_cast<float>(key.x - start_.x()), static_cast<float>(key.y - start_.y()),
+                  static_cast<float>(key.z - start_.z())}});
+    if (answer == RowsAnswer::kCertain) return true;
+    return answer == RowsAnswer::kPossible && IsPassedInTile(key, r, z_near);
+  }
+
+  bool IsPassedInTile(const VoxelKey& key, const PixelRect& tile, double z_near) const {
+    for (int v = tile.v0; v <= tile.v1; ++v)
+      for (int u = tile.u0; u <= tile.u1; ++u)
+        if (view_.ReachAt(u, v) >= z_near && IsPassedBy(key, u, v)) return true;
     return false;
   }
 
@@ -394,11 +404,12 @@ class Projection {
   DepthView& view_;
   LaneFrame lanes_;
   const CameraIntrinsics& K_;
-  Vector3d start_;                    ///< camera [voxels]
-  Matrix3d to_camera_;                ///< voxels from the camera -> camera frame [m]
-  Vector3d per_u_, per_v_, forward_;  ///< ray of (u, v): voxels per metre of depth
-  std::array<Vector3d, 4> inward_;    ///< normals of the image's side planes, camera frame
-  std::array<CubeExtent, 4> cubes_;   ///< of edges 1, 2, 4 and 8 voxels
+  Vector3d start_;                       ///< camera [voxels]
+  Matrix3d to_camera_;                   ///< voxels from the camera -> camera frame [m]
+  Vector3d per_u_, per_v_, forward_;     ///< ray of (u, v): voxels per metre of depth
+  std::array<Vector3d, 4> inward_;       ///< normals of the image's side planes, camera frame
+  std::array<Vector3d, 8> part_offset_;  ///< of a block's eight parts from its centre, camera frame
+  std::array<CubeExtent, 4> cubes_;      ///< of edges 1, 2, 4 and 8 voxels
   bool is_exact_ = false, is_counted_ = false;
   LaneAnswer answer_;    ///< scratch
   double margin_m_ = 0;  ///< far above rounding, far below a voxel

@@ -36,6 +36,12 @@ struct Picture {
   V z, u, v;
 };
 
+// The pixels whose rays may meet each voxel, and the depth where it begins.
+struct Pictures {
+  alignas(64) std::array<std::int32_t, 64> u0, v0, u1, v1;
+  alignas(64) std::array<float, 64> z_near_m;
+};
+
 // The ray nearest to the centre passes through the inner ball and ends beyond the voxel.
 HWY_INLINE M PassedAtCenter(const LaneFrame& f, const Picture& p) {
   const Wide d;
@@ -70,9 +76,9 @@ HWY_INLINE void StoreRange(V middle, V radius, int count, std::int32_t* first, s
   hn::StoreU(hn::ConvertTo(di, hn::Floor(hi)), di, last);
 }
 
-// Some ray in the voxel's picture reaches it. `i`: place of the first lane in `answer`.
+// Some ray in the voxel's picture reaches it. `i`: place of the first lane in `out`.
 HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p, int i,
-                      LaneAnswer* answer) {
+                      Pictures* out) {
   const Wide d;
   const Index di;
   const V z_near = hn::Sub(p.z, hn::Set(d, f.half_z + f.margin_m));
@@ -90,18 +96,19 @@ HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p
       hn::GatherIndex(d, cube.dilated_m, hn::Add(hn::Mul(tv, hn::Set(di, cube.columns)), tu));
   const M may = hn::And(in_view, hn::Gt(reach, z_near));
   if (!hn::AllFalse(d, may)) {
-    StoreRange(p.u, ru, f.width, answer->u0.data() + i, answer->u1.data() + i);
-    StoreRange(p.v, rv, f.height, answer->v0.data() + i, answer->v1.data() + i);
-    hn::StoreU(z_near, d, answer->z_near_m.data() + i);
+    StoreRange(p.u, ru, f.width, out->u0.data() + i, out->u1.data() + i);
+    StoreRange(p.v, rv, f.height, out->v0.data() + i, out->v1.data() + i);
+    hn::StoreU(z_near, d, out->z_near_m.data() + i);
   }
   return may;
 }
 
-void AskCube(const LaneFrame& f, const LaneCube& cube, LaneAnswer* answer) {
+// The voxels' pictures; returns those passed at the centre, and those that may be passed.
+HWY_INLINE LaneAnswer AskCenters(const LaneFrame& f, const LaneCube& cube, Pictures* out) {
   const Wide d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
   const V far_px = hn::Set(d, 1e6F);
-  answer->passed = answer->possible = 0;
+  LaneAnswer answer;
   for (int z = 0; z < 4; ++z) {
     for (int i = 0; i < 16; i += kLanes) {
       const auto along = [&](float first, float step, const std::array<float, 16>& offset) {
@@ -120,11 +127,12 @@ void AskCube(const LaneFrame& f, const LaneCube& cube, LaneAnswer* answer) {
       p.v = pixel(y, f.fy, f.cy);
       const int place = 16 * z + i;
       const M passed = PassedAtCenter(f, p);
-      const M possible = hn::AndNot(passed, MayReach(f, cube, p, place, answer));
-      answer->passed |= BitsOf(passed) << place;
-      answer->possible |= BitsOf(possible) << place;
+      const M possible = hn::AndNot(passed, MayReach(f, cube, p, place, out));
+      answer.passed |= BitsOf(passed) << place;
+      answer.possible |= BitsOf(possible) << place;
     }
   }
+  return answer;
 }
 
 // Times of crossing in metres of depth: the voxel is met from `enter` to `leave`.
@@ -151,7 +159,7 @@ HWY_INLINE Crossing Cross(const LaneFrame& f, const LaneRows& rows, V pixel, flo
   return c;
 }
 
-LaneRowAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
+RowsAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
   const Wide d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const V slack = hn::Set(d, f.slack_m), z_near = hn::Set(d, rows.z_near_m);
@@ -166,13 +174,39 @@ LaneRowAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
       const Crossing c = Cross(f, rows, pixel, static_cast<float>(v));
       const M sure = hn::AndNot(c.unsure, hn::And(hn::Gt(c.leave, hn::Add(c.enter, slack)),
                                                   hn::Gt(reach, hn::Add(c.leave, slack))));
-      if (!hn::AllFalse(d, hn::And(reaches, sure))) return LaneRowAnswer::kCertain;
+      if (!hn::AllFalse(d, hn::And(reaches, sure))) return RowsAnswer::kCertain;
       const M maybe =
           hn::And(hn::Gt(hn::Add(c.leave, slack), c.enter), hn::Gt(hn::Add(reach, slack), c.leave));
       is_possible |= !hn::AllFalse(d, hn::And(reaches, hn::Or(c.unsure, maybe)));
     }
   }
-  return is_possible ? LaneRowAnswer::kPossible : LaneRowAnswer::kNone;
+  return is_possible ? RowsAnswer::kPossible : RowsAnswer::kNone;
+}
+
+LaneAnswer AskCube(const LaneFrame& f, const LaneCube& cube) {
+  Pictures pictures;
+  LaneAnswer answer = AskCenters(f, cube, &pictures);
+  answer.passed &= cube.asked;
+  std::uint64_t left = answer.possible & cube.asked;
+  answer.possible = 0;
+  for (; left != 0; left &= left - 1) {
+    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
+    const int height = pictures.v1[i] - pictures.v0[i] + 1;
+    const int step = cube.rows == 0 ? 1 : HWY_MAX(1, height / cube.rows);
+    const LaneRows rows{
+        pictures.u0[i],
+        pictures.u1[i],
+        pictures.v0[i] + step / 2,
+        pictures.v1[i],
+        step,
+        pictures.z_near_m[i],
+        {cube.lo[0] + static_cast<float>(i & 3), cube.lo[1] + static_cast<float>((i >> 2) & 3),
+         cube.lo[2] + static_cast<float>(i >> 4)}};
+    const RowsAnswer found = AskRows(f, rows);
+    if (found == RowsAnswer::kCertain) answer.passed |= std::uint64_t{1} << i;
+    if (found == RowsAnswer::kPossible) answer.possible |= std::uint64_t{1} << i;
+  }
+  return answer;
 }
 
 }  // namespace crossnav::geometry::HWY_NAMESPACE
@@ -184,11 +218,11 @@ namespace crossnav::geometry {
 HWY_EXPORT(AskCube);
 HWY_EXPORT(AskRows);
 
-void AskLaneCube(const LaneFrame& frame, const LaneCube& cube, LaneAnswer* answer) {
-  HWY_DYNAMIC_DISPATCH(AskCube)(frame, cube, answer);
+LaneAnswer AskLaneCube(const LaneFrame& frame, const LaneCube& cube) {
+  return HWY_DYNAMIC_DISPATCH(AskCube)(frame, cube);
 }
 
-LaneRowAnswer AskLaneRows(const LaneFrame& frame, const LaneRows& rows) {
+RowsAnswer AskLaneRows(const LaneFrame& frame, const LaneRows& rows) {
   return HWY_DYNAMIC_DISPATCH(AskRows)(frame, rows);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The two inner loops of the projection (project.cpp), vectorised with Highway, chosen at run time:
-// 64 voxels against the depth image, and a row of pixels against one voxel. In float with room for
-// rounding: what they call certain is certain, the rest is left to the caller. Internal.
+// The inner loops of the projection (project.cpp), vectorised with Highway, chosen at run time: 64
+// voxels against the depth image, then rows of pixels against the voxels that are left. In float
+// with room for rounding: what they call certain is certain, the rest is left to the caller.
+// Internal.
 #pragma once
 
 #include <array>
@@ -24,34 +25,33 @@ struct LaneFrame {
   float slack_m = 0;                      ///< of times of crossing
 };
 
-/// 4 x 4 x 4 voxels in front of the camera.
+/// 4 x 4 x 4 voxels in front of the camera. Bit x + 4 y + 16 z.
 struct LaneCube {
   float x = 0, y = 0, z = 0;         ///< centre of its first voxel, camera frame [m]
+  std::array<float, 3> lo{};         ///< lower faces of its first voxel, from the camera [voxels]
   const float* dilated_m = nullptr;  ///< DepthView::Dilated for the size of the voxels' pictures
   int columns = 0;                   ///< of `dilated_m`, in tiles
+  std::uint64_t asked = 0;
+  int rows = 0;  ///< of pixels to look at in a voxel's picture; 0: all
 };
 
-/// Bit, and place in the arrays: x + 4 y + 16 z.
 struct LaneAnswer {
-  std::uint64_t passed = 0;    ///< certainly passed by the ray nearest to the voxel's centre
-  std::uint64_t possible = 0;  ///< not that, but some ray may pass; only of these:
-  std::array<std::int32_t, 64> u0, v0, u1, v1;  ///< the pixels whose rays may meet the voxel
-  std::array<float, 64> z_near_m;               ///< rays that end before this do not
+  std::uint64_t passed = 0;    ///< some ray certainly passes the voxel before it ends
+  std::uint64_t possible = 0;  ///< with rows = 0: float cannot decide. The others: none passes
 };
 
-void AskLaneCube(const LaneFrame& frame, const LaneCube& cube, LaneAnswer* answer);
+LaneAnswer AskLaneCube(const LaneFrame& frame, const LaneCube& cube);
 
-/// Pixels u0..u1 of the rows v0, v0 + step, ... up to v1 against one voxel.
+/// Rows v0, v0 + step, ... up to v1 of pixels u0..u1 against one voxel.
 struct LaneRows {
   int u0 = 0, u1 = 0, v0 = 0, v1 = 0, step = 1;
   float z_near_m = 0;         ///< rays that end before this do not reach the voxel
   std::array<float, 3> lo{};  ///< the voxel's lower faces, from the camera [voxels]
 };
 
-enum class LaneRowAnswer { kNone, kPossible, kCertain };
+/// kCertain: some ray passes the voxel before it ends; kNone: none does.
+enum class RowsAnswer { kNone, kPossible, kCertain };
 
-/// kCertain: some pixel's ray passes the voxel before it ends; kNone: none does; kPossible: float
-/// cannot decide.
-LaneRowAnswer AskLaneRows(const LaneFrame& frame, const LaneRows& rows);
+RowsAnswer AskLaneRows(const LaneFrame& frame, const LaneRows& rows);
 
 }  // namespace crossnav::geometry
