@@ -36,24 +36,30 @@ struct AccessorView {
       return normalized ? std::max(value / top, -1.0F) : value;
     };
     switch (component_type) {
-      case TINYGLTF_COMPONENT_TYPE_FLOAT: return Read<float>(element, component);
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return Read<float>(element, component);
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return scaled(Read<std::uint8_t>(element, component), 255.0F);
-      case TINYGLTF_COMPONENT_TYPE_BYTE: return scaled(Read<std::int8_t>(element, component), 127.0F);
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return scaled(Read<std::int8_t>(element, component), 127.0F);
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
         return scaled(Read<std::uint16_t>(element, component), 65535.0F);
       case TINYGLTF_COMPONENT_TYPE_SHORT:
         return scaled(Read<std::int16_t>(element, component), 32767.0F);
-      default: return static_cast<float>(Read<std::uint32_t>(element, component));
+      default:
+        return static_cast<float>(Read<std::uint32_t>(element, component));
     }
   }
 
   /// Of an index accessor (unsigned 8, 16 or 32 bits).
   std::uint32_t Index(std::size_t element) const {
     switch (component_type) {
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return Read<std::uint8_t>(element, 0);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return Read<std::uint16_t>(element, 0);
-      default: return Read<std::uint32_t>(element, 0);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return Read<std::uint8_t>(element, 0);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return Read<std::uint16_t>(element, 0);
+      default:
+        return Read<std::uint32_t>(element, 0);
     }
   }
 };
@@ -93,8 +99,12 @@ inline Result<AccessorView> ViewAccessor(const tinygltf::Model& model, int index
   if (a.count > 0 && a.byteOffset + stride * (a.count - 1) + element > view.byteLength) {
     return bad("reaches beyond its buffer view");
   }
-  return AccessorView{bytes.data() + view.byteOffset + a.byteOffset, stride, a.count, components,
-                      a.componentType, a.normalized};
+  return AccessorView{bytes.data() + view.byteOffset + a.byteOffset,
+                      stride,
+                      a.count,
+                      components,
+                      a.componentType,
+                      a.normalized};
 }
 
 }  // namespace crossnav::sim

@@ -60,7 +60,8 @@ class Reader {
 
   void Note(std::string note) {
     auto& notes = model_.notes;
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+    if (std::find(notes.begin(), notes.end(), note) == notes.end())
+      notes.push_back(std::move(note));
   }
 
   /// Encoded bytes of an image, empty where its buffer view is out of range.
@@ -70,7 +71,8 @@ class Reader {
     const auto& view = gltf_.bufferViews[static_cast<std::size_t>(image.bufferView)];
     if (view.buffer < 0 || view.buffer >= static_cast<int>(gltf_.buffers.size())) return {};
     const auto& bytes = gltf_.buffers[static_cast<std::size_t>(view.buffer)].data;
-    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) return {};
+    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+      return {};
     return std::span(bytes).subspan(view.byteOffset, view.byteLength);
   }
 
@@ -111,11 +113,13 @@ class Reader {
       const auto& pbr = m.pbrMetallicRoughness;
       Material material{{255, 255, 255}, -1};
       if (pbr.baseColorFactor.size() >= 3) {
-        material.colour = {LinearToSrgb(pbr.baseColorFactor[0]), LinearToSrgb(pbr.baseColorFactor[1]),
+        material.colour = {LinearToSrgb(pbr.baseColorFactor[0]),
+                           LinearToSrgb(pbr.baseColorFactor[1]),
                            LinearToSrgb(pbr.baseColorFactor[2])};
       }
       material.texture = TextureOf(pbr.baseColorTexture.index);
-      if (material.texture < 0 && pbr.baseColorTexture.index >= 0) material.colour = {200, 200, 200};
+      if (material.texture < 0 && pbr.baseColorTexture.index >= 0)
+        material.colour = {200, 200, 200};
       texture_cut_out.resize(model_.textures.size(), false);
       if (material.texture >= 0 && m.alphaMode != "OPAQUE") {
         texture_cut_out[static_cast<std::size_t>(material.texture)] = true;
@@ -137,9 +141,9 @@ class Reader {
       T.translate(Eigen::Vector3d(node.translation[0], node.translation[1], node.translation[2]));
     }
     if (node.rotation.size() == 4) {
-      T.rotate(Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1],
-                                  node.rotation[2])
-                   .normalized());
+      T.rotate(
+          Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])
+              .normalized());
     }
     if (node.scale.size() == 3) {
       T.scale(Eigen::Vector3d(node.scale[0], node.scale[1], node.scale[2]));
@@ -150,13 +154,15 @@ class Reader {
   // NOLINTNEXTLINE(misc-no-recursion): depth and total are limited
   Result<void> AddNode(int index, const Eigen::Matrix4d& T_file_parent, int depth) {
     const std::string at = "node " + std::to_string(index);
-    if (index < 0 || index >= static_cast<int>(gltf_.nodes.size())) return Bad("does not exist", at);
+    if (index < 0 || index >= static_cast<int>(gltf_.nodes.size()))
+      return Bad("does not exist", at);
     if (depth > kMaxNodeDepth) return Bad("is nested deeper than 64 levels (a cycle?)", at);
     if (++nodes_visited_ > 1'000'000) return Bad("more than a million nodes (a cycle?)", at);
     const tinygltf::Node& node = gltf_.nodes[static_cast<std::size_t>(index)];
     const Eigen::Matrix4d T_file_node = T_file_parent * LocalTransform(node);
     if (!T_file_node.allFinite()) return Bad("has a transform that is not finite", at);
-    if (node.mesh >= static_cast<int>(gltf_.meshes.size())) return Bad("its mesh does not exist", at);
+    if (node.mesh >= static_cast<int>(gltf_.meshes.size()))
+      return Bad("its mesh does not exist", at);
     if (node.mesh >= 0) {
       for (const auto& primitive : gltf_.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
         if (auto ok = AddPrimitive(primitive, T_file_node, at); !ok) return ok;

@@ -137,8 +137,8 @@ class GroundTruthSegmenter : public perception::Segmenter {
     for (const auto& [id, pixels] : count) {
       const SceneInstance* instance = simulator_.scene().FindInstance(id);
       const bool is_goal = instance != nullptr && !instance->category.empty();
-      const double score = BoxOverlap(frame, id, box) + (is_goal ? 0.5 : 0) +
-                           1e-9 * static_cast<double>(pixels);
+      const double score =
+          BoxOverlap(frame, id, box) + (is_goal ? 0.5 : 0) + 1e-9 * static_cast<double>(pixels);
       if (score > best_score) {
         best = id;
         best_score = score;

@@ -11,12 +11,12 @@
 namespace crossnav::sim {
 
 struct GroundTruthConfig {
-  double max_distance_m = 8.0;      // chosen: detectors miss what is far
-  int min_visible_px = 200;         // chosen: and what is tiny
+  double max_distance_m = 8.0;  // chosen: detectors miss what is far
+  int min_visible_px = 200;     // chosen: and what is tiny
   int feature_dim = 768;
   int feature_rows = 24, feature_cols = 24;
-  double feature_noise = 0.25;      // chosen: norm of the seeded noise against unit text vectors
-  double confusion = 0.35;          // chosen: cosine between look-alikes such as bed and sofa
+  double feature_noise = 0.25;  // chosen: norm of the seeded noise against unit text vectors
+  double confusion = 0.35;      // chosen: cosine between look-alikes such as bed and sofa
   std::uint64_t seed = 1;
 };
 

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -62,27 +66,26 @@ Feature RandomUnit(std::uint64_t seed, int dim) {
   return v;
 }
 
-// "TV_monitor " -> "tv monitor"; names of the category table become their category.
-std::string CanonicalName(std::string_view text) {
+// "TV_monitor " -> "tv monitor"
+std::string SpacedName(std::string_view text) {
   std::string name;
   for (char c : text)
     name += c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  while (!name.empty() && name.back() == ' ') name.pop_back();
-  name.erase(0, name.find_first_not_of(' ') == std::string::npos ? 0 : name.find_first_not_of(' '));
+  const std::size_t first = name.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return {};
+  return name.substr(first, name.find_last_not_of(" \t\r\n") + 1 - first);
+}
+
+// Names of the category table become their category.
+std::string CanonicalName(std::string_view text) {
+  const std::string name = SpacedName(text);
   const auto known = DefaultCategories().find(name);
-  if (known == DefaultCategories().end()) return name;
-  std::string category = known->second;
-  std::replace(category.begin(), category.end(), '_', ' ');
-  return category;
+  return known == DefaultCategories().end() ? name : SpacedName(known->second);
 }
 
 bool IsCategory(std::string_view name) {
-  for (std::string_view category : kCategories) {
-    std::string spaced(category);
-    std::replace(spaced.begin(), spaced.end(), '_', ' ');
-    if (spaced == name) return true;
-  }
-  return false;
+  return std::any_of(kCategories.begin(), kCategories.end(),
+                     [&](std::string_view category) { return SpacedName(category) == name; });
 }
 
 bool HasWord(std::string_view name, std::string_view word) {
@@ -104,32 +107,68 @@ std::vector<std::string> LookAlikesOf(const std::string& name) {
   return out;
 }
 
-// Unit vectors of names; one common direction plus each name's own, mixed among look-alikes.
+using NamedFeatures = std::map<std::string, Feature>;
+
+// Unit vectors of names: known ones as given, others from one common direction plus each name's
+// own, mixed among look-alikes.
 class TextSpace {
  public:
   TextSpace(int dim, std::uint64_t seed, double confusion)
       : dim_(dim), seed_(seed), confusion_(confusion), common_(RandomUnit(MixSeed(seed, 7), dim)) {}
 
+  /// In the space of the `known` vectors, of which there must be one.
+  TextSpace(NamedFeatures known, std::uint64_t seed, double confusion)
+      : dim_(static_cast<int>(known.begin()->second.size())),
+        seed_(seed),
+        confusion_(confusion),
+        common_(dim_, 0.0f),
+        has_known_(true),
+        vectors_(std::move(known)) {
+    for (auto& [name, v] : vectors_) {
+      Normalize(v);
+      AddScaled(1.0 / static_cast<double>(vectors_.size()), v, common_);
+    }
+    common_share_ = 0;
+    for (float x : common_) common_share_ += static_cast<double>(x) * x;
+    Normalize(common_);
+  }
+
+  int dim() const { return dim_; }
+
+  /// The name under which `text` is known.
+  std::string Resolve(std::string_view text) const {
+    if (!has_known_) return CanonicalName(text);
+    const std::string name = SpacedName(text), category = CanonicalName(text);
+    if (vectors_.count(name) > 0) return name;
+    for (const auto& [from, to] : kClipNames)
+      if (from == category && vectors_.count(std::string(to)) > 0) return std::string(to);
+    return category;
+  }
+
+  /// Of a resolved name.
   const Feature& Of(const std::string& name) {
     const auto found = vectors_.find(name);
     if (found != vectors_.end()) return found->second;
     Feature own = Own(name);
     const double c = confusion_;
-    const std::vector<std::string> others = LookAlikesOf(name);
     // Two that mix in each other meet at the cosine c with this much; one that leans, with c.
     const double mutual = c > 0 ? (1 - std::sqrt(1 - c * c)) / c : 0;
     const double lean = c / std::sqrt(1 - c * c);
-    for (const std::string& other : others)
+    for (const std::string& other : LookAlikesOf(name))
       AddScaled(IsCategory(name) ? mutual : lean, Own(other), own);
     Normalize(own);
     Feature v(dim_, 0.0f);
-    AddScaled(std::sqrt(kCommonShare), common_, v);
-    AddScaled(std::sqrt(1 - kCommonShare), own, v);
+    AddScaled(std::sqrt(common_share_), common_, v);
+    AddScaled(std::sqrt(1 - common_share_), own, v);
     Normalize(v);
     return vectors_.emplace(name, std::move(v)).first->second;
   }
 
  private:
+  // The categories' words in the list of names that comes with the vectors.
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kClipNames = {
+      {{"sofa", "couch"}, {"plant", "houseplant"}, {"tv monitor", "television"}}};
+
   Feature Own(const std::string& name) const {
     return RandomUnit(MixSeed(seed_, HashString(name)), dim_);
   }
@@ -137,9 +176,67 @@ class TextSpace {
   int dim_;
   std::uint64_t seed_;
   double confusion_;
+  double common_share_ = kCommonShare;
   Feature common_;
-  std::map<std::string, Feature> vectors_;
+  bool has_known_ = false;
+  NamedFeatures vectors_;
 };
+
+float FloatOfHalf(std::uint16_t bits) {
+  const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+  const double size = exponent == 0    ? std::ldexp(fraction, -24)
+                      : exponent == 31 ? HUGE_VAL
+                                       : std::ldexp(1024 + fraction, exponent - 25);
+  return static_cast<float>(bits >> 15 != 0 ? -size : size);
+}
+
+// A two-dimensional little-endian float16 or float32 array of `rows` rows in NumPy's format 1.
+Result<std::vector<Feature>> ReadNpy(const std::filesystem::path& path, std::size_t rows) {
+  const auto bad = [&](const char* what) {
+    return Fail(ErrorCode::kMalformed, what, path.string());
+  };
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return Fail(ErrorCode::kNotFound, "no such file", path.string());
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (bytes.size() < 10 || bytes.compare(0, 8, std::string("\x93NUMPY\x01\x00", 8)) != 0)
+    return bad("not an array in NumPy's format 1");
+  const std::size_t begin =
+      10 + static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]);
+  if (begin > bytes.size()) return bad("ends inside its header");
+  const std::string header = bytes.substr(10, begin - 10);
+  const std::size_t item = header.find("'<f2'") != std::string::npos   ? 2
+                           : header.find("'<f4'") != std::string::npos ? 4
+                                                                       : 0;
+  if (item == 0 || header.find("'fortran_order': False") == std::string::npos)
+    return bad("must hold rows of little-endian float16 or float32");
+  const std::size_t size = bytes.size() - begin;
+  if (rows == 0 || size == 0 || size % (rows * item) != 0)
+    return bad("must hold one row for each name beside it");
+  std::vector<Feature> out(rows, Feature(size / (rows * item)));
+  const char* p = bytes.data() + begin;
+  for (Feature& row : out)
+    for (float& x : row) {
+      std::uint32_t bits = 0;
+      std::memcpy(&bits, p, item);
+      x = item == 2 ? FloatOfHalf(static_cast<std::uint16_t>(bits)) : std::bit_cast<float>(bits);
+      if (!std::isfinite(x)) return bad("holds a number that is not finite");
+      p += item;
+    }
+  return out;
+}
+
+Result<NamedFeatures> ReadClip(const std::filesystem::path& dir) {
+  std::ifstream in(dir / "oid_names.txt");
+  if (!in) return Fail(ErrorCode::kNotFound, "no such file", (dir / "oid_names.txt").string());
+  std::vector<std::string> names;
+  for (std::string line; std::getline(in, line);)
+    if (!SpacedName(line).empty()) names.push_back(SpacedName(line));
+  auto rows = ReadNpy(dir / "oid_clip_a+cname.npy", names.size());
+  if (!rows) return tl::unexpected(rows.error());
+  NamedFeatures out;
+  for (std::size_t i = 0; i < names.size(); ++i) out.emplace(names[i], std::move((*rows)[i]));
+  return out;
+}
 
 std::uint64_t SeedOfPose(std::uint64_t seed, const Pose& pose) {
   for (int i = 0; i < 12; ++i) {
@@ -202,19 +299,18 @@ void BlurCells(CellContents& contents, int rows, int cols) {
 
 class GroundTruthEncoder : public perception::DenseEncoder {
  public:
-  GroundTruthEncoder(const Simulator& simulator, const GroundTruthConfig& config)
-      : simulator_(simulator),
-        config_(config),
-        texts_(config.feature_dim, config.seed, config.confusion) {
+  GroundTruthEncoder(const Simulator& simulator, const GroundTruthConfig& config, TextSpace texts)
+      : simulator_(simulator), config_(config), texts_(std::move(texts)) {
+    config_.feature_dim = texts_.dim();
     for (int i = 0; i < kNoiseVectors; ++i)
-      noise_.push_back(RandomUnit(MixSeed(config.seed, 1000 + i), config.feature_dim));
+      noise_.push_back(RandomUnit(MixSeed(config.seed, 1000 + i), config_.feature_dim));
   }
 
   int Dim() const override { return config_.feature_dim; }
   std::string Name() const override { return "ground-truth"; }
 
   Result<std::vector<float>> EncodeText(std::string_view text) override {
-    return texts_.Of(CanonicalName(text));
+    return texts_.Of(texts_.Resolve(text));
   }
 
   Result<FeatureGrid> EncodeImage(const Observation& obs) override {
@@ -249,9 +345,8 @@ class GroundTruthEncoder : public perception::DenseEncoder {
     const auto found = looks_.find(id);
     if (found != looks_.end()) return found->second;
     const SceneInstance* instance = simulator_.scene().FindInstance(id);
-    std::string name = "unknown";
-    if (instance != nullptr)
-      name = CanonicalName(instance->category.empty() ? instance->name : instance->category);
+    // By the raw name where it says more than the category.
+    const std::string name = texts_.Resolve(instance != nullptr ? instance->name : "unknown");
     Rng rng(MixSeed(config_.seed, static_cast<std::uint64_t>(id)), 17);
     Feature look = texts_.Of(name);
     const std::vector<std::string> others = LookAlikesOf(name);
@@ -292,7 +387,17 @@ class GroundTruthEncoder : public perception::DenseEncoder {
 
 std::unique_ptr<perception::DenseEncoder> MakeGroundTruthEncoder(const Simulator& simulator,
                                                                  const GroundTruthConfig& config) {
-  return std::make_unique<GroundTruthEncoder>(simulator, config);
+  return std::make_unique<GroundTruthEncoder>(
+      simulator, config, TextSpace(config.feature_dim, config.seed, config.confusion));
+}
+
+Result<std::unique_ptr<perception::DenseEncoder>> MakeGroundTruthEncoder(
+    const Simulator& simulator, const GroundTruthConfig& config,
+    const std::filesystem::path& clip_dir) {
+  auto known = ReadClip(clip_dir);
+  if (!known) return tl::unexpected(known.error());
+  return std::make_unique<GroundTruthEncoder>(
+      simulator, config, TextSpace(std::move(*known), config.seed, config.confusion));
 }
 
 }  // namespace crossnav::sim

@@ -54,8 +54,8 @@ struct JpegErrors {
 };
 
 // Reads into `rgb`; nothing with a destructor may live in this frame because of longjmp.
-bool ReadJpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors,
-              std::span<const std::uint8_t> bytes, RgbImage& rgb) {
+bool ReadJpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, std::span<const std::uint8_t> bytes,
+              RgbImage& rgb) {
   if (setjmp(errors.jump) != 0) return false;
   jpeg_create_decompress(&jpeg);
   jpeg_mem_src(&jpeg, const_cast<unsigned char*>(bytes.data()),

@@ -12,7 +12,8 @@
 namespace crossnav::sim {
 
 /// Decodes by content (not by name). `opaque` is filled only where the image has alpha below 128.
-/// kUnsupported for anything but PNG and JPEG, kMalformed for a broken one; `where` goes into errors.
+/// kUnsupported for anything but PNG and JPEG, kMalformed for a broken one; `where` goes into
+/// errors.
 Result<Texture> DecodeImage(std::span<const std::uint8_t> bytes, const std::string& where);
 
 }  // namespace crossnav::sim

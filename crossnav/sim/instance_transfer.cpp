@@ -101,9 +101,9 @@ bool KeepNearest(RTCPointQueryFunctionArguments* arguments) {
 EmbreeScene MakeQueryScene(RTCDevice device, const TriangleMesh& mesh) {
   EmbreeScene scene(rtcNewScene(device));
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), mesh.vertices.size()));
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                               mesh.vertices.size()));
   auto* triangles = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(std::uint32_t), mesh.triangles.size()));
@@ -154,7 +154,8 @@ std::vector<std::int32_t> InstancesByColour(const GltfModel& semantic,
       }
       return NearestTexel(semantic.textures[static_cast<std::size_t>(material.texture)], u, v);
     }
-    if (!mesh.vertex_colours.empty()) return mesh.vertex_colours[corner[place == 0 ? 0 : place - 1]];
+    if (!mesh.vertex_colours.empty())
+      return mesh.vertex_colours[corner[place == 0 ? 0 : place - 1]];
     return material.colour;
   };
   std::vector<std::int32_t> instance(mesh.triangles.size(), 0);
@@ -175,8 +176,9 @@ std::vector<std::int32_t> TransferInstances(const TriangleMesh& source, const Tr
   std::vector<std::int32_t> instance(target.triangles.size(), 0);
   for (std::size_t t = 0; t < instance.size(); ++t) {
     const TriangleKey key = KeyOf(target, t);
-    const auto found = std::lower_bound(index.begin(), index.end(), key,
-                                        [](const auto& a, const TriangleKey& k) { return a.first < k; });
+    const auto found =
+        std::lower_bound(index.begin(), index.end(), key,
+                         [](const auto& a, const TriangleKey& k) { return a.first < k; });
     if (found != index.end() && found->first == key) {
       instance[t] = found->second;
       continue;
@@ -187,8 +189,9 @@ std::vector<std::int32_t> TransferInstances(const TriangleMesh& source, const Tr
       scene = MakeQueryScene(device.get(), source);
     }
     const auto& corner = target.triangles[t];
-    const Vector3f centre = (target.vertices[corner[0]] + target.vertices[corner[1]] +
-                             target.vertices[corner[2]]) / 3.0F;
+    const Vector3f centre =
+        (target.vertices[corner[0]] + target.vertices[corner[1]] + target.vertices[corner[2]]) /
+        3.0F;
     const std::int64_t nearest = NearestTriangle(scene.get(), source, centre, max_m);
     if (nearest >= 0) instance[t] = source.triangle_instance[static_cast<std::size_t>(nearest)];
   }

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
 #include <fstream>
 #include <mutex>
-#include <numeric>
 
 #include <recastnavigation/DetourCommon.h>
 #include <xxhash.h>
@@ -15,13 +14,15 @@
 #include "crossnav/core/check.h"
 #include "crossnav/sim/atomic_file.h"
 #include "crossnav/sim/navmesh_detail.h"
+#include "crossnav/sim/surface_path.h"
+#include "crossnav/sim/walk_graph.h"
 
 namespace crossnav::sim {
 namespace {
 
-constexpr int kMaxNodes = 65535;      // Detour's own limit
-constexpr int kMaxPathPolys = 16384;
-constexpr double kStopShort_m = 0.01; // chosen: stay off the border, where Detour's ray gets stuck
+constexpr int kMaxNodes = 65535;       // Detour's own limit
+constexpr double kStopShort_m = 0.01;  // chosen: stay off the border, where Detour's ray gets stuck
+constexpr float kOffBorder_m = 0.01F;
 constexpr double kSnapXy_m = 0.5, kSnapZ_m = 0.5;
 
 struct OnMesh {
@@ -35,6 +36,7 @@ struct NavMesh::Impl {
   NavMeshSettings settings;
   DetourMesh mesh;
   DetourQuery query;
+  std::optional<WalkGraph> graph;
   dtQueryFilter filter;
   std::uint64_t hash = 0;
   FloorPlan plan;
@@ -46,6 +48,7 @@ struct NavMesh::Impl {
     query.reset(dtAllocNavMeshQuery());
     if (!query || dtStatusFailed(query->init(mesh.get(), kMaxNodes))) return false;
     filter.setIncludeFlags(kWalkFlag);
+    graph.emplace(*mesh);
     plan = FindFloors(*mesh);
     double total = 0;
     ForEachDetailTriangle(*mesh, [&](dtPolyRef, const WorldTriangle& t) {
@@ -73,33 +76,34 @@ struct NavMesh::Impl {
     return found;
   }
 
-  /// Corners of a short path in Recast's frame; empty where there is none.
-  std::vector<RecastPoint> Corners(const OnMesh& a, const OnMesh& b) const {
-    std::vector<dtPolyRef> polys(kMaxPathPolys);
-    int count = 0;
-    const dtStatus status = query->findPath(a.ref, b.ref, a.p.data(), b.p.data(), &filter,
-                                            polys.data(), &count, kMaxPathPolys);
-    // A partial path is a success for Detour: compare the last polygon with the goal's.
-    if (dtStatusFailed(status) || count == 0 || polys[static_cast<std::size_t>(count) - 1] != b.ref) {
-      return {};
+  /// Detour's ray is stuck where it starts on a border: such a walk begins a centimetre inside, on
+  /// the way to the middle of the (convex) polygon.
+  void StepOffBorder(OnMesh& start) const {
+    float distance = 0;
+    RecastPoint wall{}, normal{};
+    const dtStatus status =
+        query->findDistanceToWall(start.ref, start.p.data(), 2 * kOffBorder_m, &filter, &distance,
+                                  wall.data(), normal.data());
+    if (dtStatusFailed(status) || distance >= 0.5F * kOffBorder_m) return;
+    const dtMeshTile* tile = nullptr;
+    const dtPoly* poly = nullptr;
+    if (dtStatusFailed(mesh->getTileAndPolyByRef(start.ref, &tile, &poly))) return;
+    RecastPoint middle{};
+    for (int i = 0; i < poly->vertCount; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        middle[static_cast<std::size_t>(axis)] +=
+            tile->verts[3 * poly->verts[i] + axis] / static_cast<float>(poly->vertCount);
+      }
     }
-    std::vector<RecastPoint> corners(static_cast<std::size_t>(2 * count + 2));
-    int corner_count = 0;
-    if (dtStatusFailed(query->findStraightPath(
-            a.p.data(), b.p.data(), polys.data(), count, corners.front().data(), nullptr, nullptr,
-            &corner_count, static_cast<int>(corners.size()), 0))) {
-      return {};
+    const float length = std::hypot(middle[0] - start.p[0], middle[2] - start.p[2]);
+    if (length > 1e-5F) {
+      dtVlerp(start.p.data(), start.p.data(), middle.data(), std::min(1.0F, kOffBorder_m / length));
     }
-    corners.resize(static_cast<std::size_t>(corner_count));
-    return corners;
+    query->getPolyHeight(start.ref, start.p.data(), &start.p[1]);
   }
 
-  static double Length(const std::vector<RecastPoint>& corners) {
-    double length = 0;
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-      length += dtVdist(corners[i - 1].data(), corners[i].data());
-    }
-    return length;
+  std::optional<WalkPath> FindShortest(const OnMesh& a, std::span<const SurfacePoint> goals) const {
+    return graph->FindShortest({a.ref, WorldFromRecast(a.p.data())}, goals);
   }
 };
 
@@ -110,7 +114,7 @@ NavMesh::NavMesh(NavMesh&&) noexcept = default;
 namespace {
 
 std::uint64_t KeyOf(const Scene& scene, const NavMeshSettings& s) {
-  constexpr std::uint64_t kBuilder = 1;  // raise when the same input gives another navmesh
+  constexpr std::uint64_t kBuilder = 2;  // raise when the same input gives another navmesh
   const std::array<double, 7> numbers{s.agent_height_m, s.agent_radius_m, s.max_climb_m,
                                       s.max_slope_deg,  s.cell_m,         s.cell_height_m,
                                       s.min_island_m2};
@@ -141,7 +145,8 @@ Result<NavMesh> NavMesh::Build(const Scene& scene, const NavMeshSettings& settin
 Result<NavMesh> NavMesh::BuildCached(const Scene& scene, const NavMeshSettings& settings) {
   const std::uint64_t key = KeyOf(scene, settings);
   char name[64];
-  std::snprintf(name, sizeof(name), "%016llx.crossnav.navmesh", static_cast<unsigned long long>(key));
+  std::snprintf(name, sizeof(name), "%016llx.crossnav.navmesh",
+                static_cast<unsigned long long>(key));
   const std::filesystem::path file = scene.folder / name;
   const auto bytes = ReadBytes(file);
   if (DetourMesh mesh = LoadTiles(bytes, key)) {
@@ -159,11 +164,21 @@ Result<NavMesh> NavMesh::BuildCached(const Scene& scene, const NavMeshSettings& 
   return built;
 }
 
-const NavMeshSettings& NavMesh::settings() const { return impl_->settings; }
-std::uint64_t NavMesh::Hash() const { return impl_->hash; }
-double NavMesh::AreaM2() const { return impl_->plan.area_m2; }
-const std::vector<Floor>& NavMesh::Floors() const { return impl_->plan.floors; }
-const std::vector<FloorConnection>& NavMesh::Connections() const { return impl_->plan.connections; }
+const NavMeshSettings& NavMesh::settings() const {
+  return impl_->settings;
+}
+std::uint64_t NavMesh::Hash() const {
+  return impl_->hash;
+}
+double NavMesh::AreaM2() const {
+  return impl_->plan.area_m2;
+}
+const std::vector<Floor>& NavMesh::Floors() const {
+  return impl_->plan.floors;
+}
+const std::vector<FloorConnection>& NavMesh::Connections() const {
+  return impl_->plan.connections;
+}
 
 int NavMesh::FloorOf(const Vector3d& p_world) const {
   int best = 0;
@@ -184,8 +199,7 @@ std::optional<Vector3d> NavMesh::Snap(const Vector3d& p_world, double xy_m, doub
 std::vector<double> NavMesh::HeightsAt(double x_m, double y_m, double z_low_m,
                                        double z_high_m) const {
   const std::lock_guard lock(impl_->mutex);
-  const RecastPoint centre =
-      RecastFromWorld({x_m, y_m, 0.5 * (z_low_m + z_high_m)});
+  const RecastPoint centre = RecastFromWorld({x_m, y_m, 0.5 * (z_low_m + z_high_m)});
   const RecastPoint half{0.01F, static_cast<float>(0.5 * (z_high_m - z_low_m)), 0.01F};
   std::array<dtPolyRef, 64> polys{};
   int count = 0;
@@ -208,17 +222,18 @@ std::vector<double> NavMesh::HeightsAt(double x_m, double y_m, double z_low_m,
 
 Vector3d NavMesh::WalkStraight(const Vector3d& start_world, const Vector3d& end_world) const {
   const std::lock_guard lock(impl_->mutex);
-  const auto start = impl_->Find(start_world, kSnapXy_m, kSnapZ_m);
+  auto start = impl_->Find(start_world, kSnapXy_m, kSnapZ_m);
   if (!start || !end_world.allFinite()) return start_world;
   RecastPoint end = RecastFromWorld(end_world);
+  impl_->StepOffBorder(*start);
   const double wanted = std::hypot(end[0] - start->p[0], end[2] - start->p[2]);
   if (wanted < 1e-6) return WorldFromRecast(start->p.data());
   std::array<dtPolyRef, 256> visited{};
   dtRaycastHit hit{};
   hit.path = visited.data();
   hit.maxPath = static_cast<int>(visited.size());
-  const dtStatus status = impl_->query->raycast(start->ref, start->p.data(), end.data(),
-                                                &impl_->filter, 0, &hit);
+  const dtStatus status =
+      impl_->query->raycast(start->ref, start->p.data(), end.data(), &impl_->filter, 0, &hit);
   if (dtStatusFailed(status) || hit.pathCount == 0) return WorldFromRecast(start->p.data());
   double share = 1;
   if (hit.t < 1) share = std::max(0.0, hit.t - kStopShort_m / wanted);
@@ -240,45 +255,44 @@ Vector3d NavMesh::WalkStraight(const Vector3d& start_world, const Vector3d& end_
   return WorldFromRecast(start->p.data());
 }
 
-std::vector<Vector3d> NavMesh::ShortestPath(const Vector3d& a_world, const Vector3d& b_world) const {
+std::vector<Vector3d> NavMesh::ShortestPath(const Vector3d& a_world,
+                                            const Vector3d& b_world) const {
   const std::lock_guard lock(impl_->mutex);
   const auto a = impl_->Find(a_world, kSnapXy_m, kSnapZ_m);
   const auto b = impl_->Find(b_world, kSnapXy_m, kSnapZ_m);
-  std::vector<Vector3d> path;
-  if (!a || !b) return path;
-  for (const RecastPoint& p : impl_->Corners(*a, *b)) path.push_back(WorldFromRecast(p.data()));
-  return path;
+  if (!a || !b) return {};
+  const SurfacePoint goal{b->ref, WorldFromRecast(b->p.data())};
+  const auto path = impl_->FindShortest(*a, std::span(&goal, 1));
+  if (!path) return {};
+  return KeepShape(LiftPath(*impl_->query, *path, WorldFromRecast(a->p.data()), goal.p_world));
 }
 
 std::optional<double> NavMesh::Geodesic(const Vector3d& a_world, const Vector3d& b_world) const {
   return Geodesic(a_world, std::span(&b_world, 1));
 }
 
-std::optional<double> NavMesh::Geodesic(const Vector3d& a_world, std::span<const Vector3d> goals_world,
+std::optional<double> NavMesh::Geodesic(const Vector3d& a_world,
+                                        std::span<const Vector3d> goals_world,
                                         std::size_t* nearest) const {
   const std::lock_guard lock(impl_->mutex);
   const auto a = impl_->Find(a_world, kSnapXy_m, kSnapZ_m);
   if (!a) return std::nullopt;
-  const Vector3d from = WorldFromRecast(a->p.data());
-  // Straight-line distance bounds a path from below, so the goals are tried nearest first.
-  std::vector<std::pair<double, std::size_t>> order;
+  std::vector<SurfacePoint> goals;
+  std::vector<std::size_t> index;
   for (std::size_t i = 0; i < goals_world.size(); ++i) {
     const auto goal = impl_->Find(goals_world[i], kSnapXy_m, kSnapZ_m);
-    if (goal) order.emplace_back((WorldFromRecast(goal->p.data()) - from).norm(), i);
+    if (!goal) continue;
+    goals.push_back({goal->ref, WorldFromRecast(goal->p.data())});
+    index.push_back(i);
   }
-  std::sort(order.begin(), order.end());
-  std::optional<double> best;
-  for (const auto& [bound, i] : order) {
-    if (best && bound >= *best) break;
-    const auto goal = impl_->Find(goals_world[i], kSnapXy_m, kSnapZ_m);
-    const auto corners = impl_->Corners(*a, *goal);
-    if (corners.empty()) continue;
-    const double length = Impl::Length(corners);
-    if (best && length >= *best) continue;
-    best = length;
-    if (nearest != nullptr) *nearest = i;
-  }
-  return best;
+  const auto path = impl_->FindShortest(*a, goals);
+  if (!path) return std::nullopt;
+  if (nearest != nullptr) *nearest = index[path->goal];
+  const auto points =
+      LiftPath(*impl_->query, *path, WorldFromRecast(a->p.data()), goals[path->goal].p_world);
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i].p - points[i - 1].p).norm();
+  return length;
 }
 
 std::optional<Vector3d> NavMesh::RandomPoint(Rng& rng) const {

@@ -41,7 +41,7 @@ void Visit(V& visit, NavMeshSettings& c) {
 
 /// A floor: navmesh area of about one height (clusters of connected flat area).
 struct Floor {
-  int id = 0;         ///< 0 = lowest
+  int id = 0;  ///< 0 = lowest
   double height_m = 0;
   double area_m2 = 0;
 };
@@ -94,7 +94,9 @@ class NavMesh {
   int FloorOf(const Vector3d& p_world) const;
 
   /// Centres and areas of the walkable polygons, for pictures.
-  struct Triangle { std::array<Vector3f, 3> p_world; };
+  struct Triangle {
+    std::array<Vector3f, 3> p_world;
+  };
   std::vector<Triangle> Triangles() const;
 
  private:

@@ -13,7 +13,8 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr int kTileCells = 256;  // chosen: 7.7 m at 0.03 m; keeps every 16-bit index of Recast far away
+constexpr int kTileCells =
+    256;  // chosen: 7.7 m at 0.03 m; keeps every 16-bit index of Recast far away
 constexpr int kMaxTiles = 1024;  // chosen: leaves 12 bits for the polygons of a tile
 constexpr int kVertsPerPoly = 6;
 
@@ -21,8 +22,7 @@ template <class T, void (*Free)(T*)>
 struct RecastRelease {
   void operator()(T* p) const { Free(p); }
 };
-using Heightfield =
-    std::unique_ptr<rcHeightfield, RecastRelease<rcHeightfield, rcFreeHeightField>>;
+using Heightfield = std::unique_ptr<rcHeightfield, RecastRelease<rcHeightfield, rcFreeHeightField>>;
 using CompactField = std::unique_ptr<rcCompactHeightfield,
                                      RecastRelease<rcCompactHeightfield, rcFreeCompactHeightfield>>;
 using ContourSet = std::unique_ptr<rcContourSet, RecastRelease<rcContourSet, rcFreeContourSet>>;
@@ -77,7 +77,7 @@ rcConfig MakeConfig(const NavMeshSettings& s, const Soup& soup) {
   config.minRegionArea = 64;                       // chosen: 8 x 8 cells, 0.06 m2
   config.mergeRegionArea = 400;
   config.maxVertsPerPoly = kVertsPerPoly;
-  config.detailSampleDist = 6 * config.cs;         // as habitat-sim
+  config.detailSampleDist = 6 * config.cs;  // as habitat-sim
   config.detailSampleMaxError = config.ch;
   config.tileSize = kTileCells;
   config.borderSize = config.walkableRadius + 3;
@@ -102,7 +102,8 @@ struct TileBuilder {
     std::vector<int> corners;
     std::vector<unsigned char> area;
     for (const int t : triangles) {
-      for (int k = 0; k < 3; ++k) corners.push_back(soup.triangles[static_cast<std::size_t>(3 * t + k)]);
+      for (int k = 0; k < 3; ++k)
+        corners.push_back(soup.triangles[static_cast<std::size_t>(3 * t + k)]);
       area.push_back(soup.area[static_cast<std::size_t>(t)]);
     }
     if (!rcRasterizeTriangles(&context, soup.vertices.data(),
@@ -123,7 +124,8 @@ struct TileBuilder {
     solid.reset();
     if (!rcErodeWalkableArea(&context, config.walkableRadius, *field)) return false;
     // Layer regions never overlap themselves, which watershed ones do on narrow spiral stairs.
-    if (!rcBuildLayerRegions(&context, *field, config.borderSize, config.minRegionArea)) return false;
+    if (!rcBuildLayerRegions(&context, *field, config.borderSize, config.minRegionArea))
+      return false;
     return Polygonise(*field, polys, detail);
   }
 
@@ -219,7 +221,8 @@ int BitsFor(int count) {
 
 Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settings) {
   const Soup soup = MakeSoup(scene, settings.max_slope_deg);
-  if (soup.triangles.empty()) return Fail(ErrorCode::kInvalid, "the scene has no triangles", scene.id);
+  if (soup.triangles.empty())
+    return Fail(ErrorCode::kInvalid, "the scene has no triangles", scene.id);
   const rcConfig config = MakeConfig(settings, soup);
   const double tile_m = config.tileSize * settings.cell_m;
   const double wide_m = soup.max[0] - soup.min[0], deep_m = soup.max[2] - soup.min[2];
@@ -227,7 +230,8 @@ Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settin
   if (tiles > kMaxTiles || (soup.max[1] - soup.min[1]) / settings.cell_height_m > 8000) {
     return Fail(ErrorCode::kUnsupported,
                 "the scene is too large for navmesh cells of " + std::to_string(settings.cell_m) +
-                    " m; set a larger cell_m", scene.id);
+                    " m; set a larger cell_m",
+                scene.id);
   }
   const int nx = std::max(1, static_cast<int>(std::ceil(wide_m / tile_m + 1e-9)));
   const int nz = std::max(1, static_cast<int>(std::ceil(deep_m / tile_m + 1e-9)));
@@ -239,8 +243,11 @@ Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settin
   const int tile_bits = BitsFor(nx * nz);
   params.maxTiles = 1 << tile_bits;
   params.maxPolys = 1 << std::min(22 - tile_bits, 16);
-  const auto failed = [&scene](const char* what) { return Fail(ErrorCode::kUnsupported, what, scene.id); };
-  if (!mesh || dtStatusFailed(mesh->init(&params))) return failed("Detour cannot hold this navmesh");
+  const auto failed = [&scene](const char* what) {
+    return Fail(ErrorCode::kUnsupported, what, scene.id);
+  };
+  if (!mesh || dtStatusFailed(mesh->init(&params)))
+    return failed("Detour cannot hold this navmesh");
 
   const auto bins = BinTriangles(soup, config, nx, nz);
   for (int z = 0; z < nz; ++z) {
@@ -251,8 +258,10 @@ Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settin
       const float border_m = static_cast<float>(config.borderSize) * config.cs;
       builder.config.bmin[0] = soup.min[0] + static_cast<float>(x) * params.tileWidth - border_m;
       builder.config.bmin[2] = soup.min[2] + static_cast<float>(z) * params.tileHeight - border_m;
-      builder.config.bmax[0] = soup.min[0] + static_cast<float>(x + 1) * params.tileWidth + border_m;
-      builder.config.bmax[2] = soup.min[2] + static_cast<float>(z + 1) * params.tileHeight + border_m;
+      builder.config.bmax[0] =
+          soup.min[0] + static_cast<float>(x + 1) * params.tileWidth + border_m;
+      builder.config.bmax[2] =
+          soup.min[2] + static_cast<float>(z + 1) * params.tileHeight + border_m;
       PolyMesh polys;
       DetailMesh detail;
       if (!builder.Build(triangles, polys, detail)) return failed("Recast failed on a tile");

@@ -83,7 +83,8 @@ DetourMesh LoadTiles(const std::vector<std::uint8_t>& bytes, std::uint64_t key) 
     body += sizeof(size);
     left -= sizeof(size);
     if (size <= 0 || static_cast<std::size_t>(size) > left) return nullptr;
-    auto* data = static_cast<unsigned char*>(dtAlloc(static_cast<std::size_t>(size), DT_ALLOC_PERM));
+    auto* data =
+        static_cast<unsigned char*>(dtAlloc(static_cast<std::size_t>(size), DT_ALLOC_PERM));
     if (data == nullptr) return nullptr;
     std::memcpy(data, body, static_cast<std::size_t>(size));
     if (dtStatusFailed(mesh->addTile(data, size, DT_TILE_FREE_DATA, 0, nullptr))) {

@@ -23,7 +23,9 @@ using RecastPoint = std::array<float, 3>;
 inline RecastPoint RecastFromWorld(const Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.z()), static_cast<float>(-p.y())};
 }
-inline Vector3d WorldFromRecast(const float* p) { return {p[0], -p[2], p[1]}; }
+inline Vector3d WorldFromRecast(const float* p) {
+  return {p[0], -p[2], p[1]};
+}
 
 struct DetourRelease {
   void operator()(dtNavMesh* mesh) const { dtFreeNavMesh(mesh); }
@@ -52,9 +54,10 @@ void ForEachDetailTriangle(const dtNavMesh& mesh, Fn&& fn) {
         const unsigned char* corner = &tile->detailTris[(detail.triBase + t) * 4];
         WorldTriangle triangle;
         for (unsigned k = 0; k < 3; ++k) {
-          const float* v = corner[k] < poly.vertCount
-                               ? &tile->verts[poly.verts[corner[k]] * 3]
-                               : &tile->detailVerts[(detail.vertBase + corner[k] - poly.vertCount) * 3];
+          const float* v =
+              corner[k] < poly.vertCount
+                  ? &tile->verts[poly.verts[corner[k]] * 3]
+                  : &tile->detailVerts[(detail.vertBase + corner[k] - poly.vertCount) * 3];
           triangle[k] = WorldFromRecast(v);
         }
         fn(base | static_cast<dtPolyRef>(p), triangle);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Floors and the links between them, from the navmesh alone. The surface is sampled on a 0.1 m grid;
-// a floor is connected flat area of at least 4 m2, heights within 0.5 m merged; what is neither
-// (flights, landings, ramps) links the floors that it touches.
+// Floors and the links between them, from the navmesh alone. The surface is sampled on a 0.1 m
+// grid; a floor is connected flat area of at least 4 m2, heights within 0.5 m merged; what is
+// neither (flights, landings, ramps) links the floors that it touches.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,12 +13,12 @@ namespace crossnav::sim {
 namespace {
 
 constexpr double kGrid_m = 0.1;
-constexpr double kMinFloor_m2 = 4.0;   // chosen: larger than any landing
-constexpr double kMergeHeight_m = 0.5; // chosen: sunken rooms are not storeys
-constexpr double kSameStep_m = 0.30;   // neighbours further apart in height are not connected
-constexpr int kSlopeReach = 3;         // samples to each side
-constexpr double kMaxSlope = 0.21;     // tan 12 degrees; flights rise at 20 and more
-constexpr double kOnFloor_m = 0.25;    // chosen: above any threshold, below two risers
+constexpr double kMinFloor_m2 = 4.0;    // chosen: larger than any landing
+constexpr double kMergeHeight_m = 0.5;  // chosen: sunken rooms are not storeys
+constexpr double kSameStep_m = 0.30;    // neighbours further apart in height are not connected
+constexpr int kSlopeReach = 3;          // samples to each side
+constexpr double kMaxSlope = 0.21;      // tan 12 degrees; flights rise at 20 and more
+constexpr double kOnFloor_m = 0.25;     // chosen: above any threshold, below two risers
 
 struct Sample {
   int x = 0, y = 0;
@@ -28,8 +28,8 @@ struct Sample {
 
 /// Grid points covered by triangle `t`, with the height there.
 void SampleTriangle(const WorldTriangle& t, std::vector<Sample>& out) {
-  const double det = (t[1].x() - t[0].x()) * (t[2].y() - t[0].y()) -
-                     (t[2].x() - t[0].x()) * (t[1].y() - t[0].y());
+  const double det =
+      (t[1].x() - t[0].x()) * (t[2].y() - t[0].y()) - (t[2].x() - t[0].x()) * (t[1].y() - t[0].y());
   if (std::abs(det) < 1e-12) return;
   const auto [x_low, x_high] = std::minmax({t[0].x(), t[1].x(), t[2].x()});
   const auto [y_low, y_high] = std::minmax({t[0].y(), t[1].y(), t[2].y()});
@@ -52,7 +52,8 @@ struct ByPlace {
 
 std::vector<Sample> SampleSurface(const dtNavMesh& mesh) {
   std::vector<Sample> samples;
-  ForEachDetailTriangle(mesh, [&](dtPolyRef, const WorldTriangle& t) { SampleTriangle(t, samples); });
+  ForEachDetailTriangle(mesh,
+                        [&](dtPolyRef, const WorldTriangle& t) { SampleTriangle(t, samples); });
   std::sort(samples.begin(), samples.end(), ByPlace{});
   const auto same = [](const Sample& a, const Sample& b) {  // shared edges give a point twice
     return a.x == b.x && a.y == b.y && std::abs(a.z - b.z) < kSameStep_m;

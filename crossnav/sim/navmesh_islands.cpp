@@ -3,7 +3,6 @@
 // the main island is the one around most goal objects, then the one with most ground under cover.
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -13,13 +12,13 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr double kMinShare = 0.1;     // chosen: of the main island's area; smaller ones are furniture
-constexpr double kMinCover = 0.5;     // chosen: share of an indoor island that has something above
-constexpr double kObjectReach_m = 1;  // an island holds the objects whose boxes it comes this near
+constexpr double kMinShare = 0.1;  // chosen: of the main island's area; smaller ones are furniture
+constexpr double kMinCover = 0.5;  // chosen: share of an indoor island that has something above
+constexpr double kObjectReach_m = 1;  // an object belongs to the nearest island, if within this
 
 struct Island {
   double area_m2 = 0, covered_m2 = 0;
-  std::set<int> objects;  // goal instances that stand on it or hang above it
+  int objects = 0;  // goal instances that stand on it or hang above it
   bool IsIndoor() const { return covered_m2 >= kMinCover * area_m2; }
 };
 
@@ -59,31 +58,50 @@ class IslandFinder {
   const dtNavMesh& mesh_;
 };
 
+/// The nearest island to a goal object, in plan.
+struct Holder {
+  const SceneInstance* object = nullptr;
+  double distance_m = kObjectReach_m;
+  std::size_t island = 0;
+};
+
+void Consider(const Vector3d& centre, std::size_t island, Holder& holder) {
+  const Box3& box = holder.object->box;
+  const double above_m = box.min.z() - centre.z();
+  const double distance_m = box.HorizontalDistance(centre);
+  if (above_m < -0.3 || above_m > 1.5 || distance_m >= holder.distance_m) return;
+  holder.distance_m = distance_m;
+  holder.island = island;
+}
+
 std::vector<Island> Measure(const dtNavMesh& mesh, const Scene& scene, const IslandFinder& finder) {
   std::vector<Island> islands(finder.count);
+  std::vector<Holder> holders;
+  for (const SceneInstance& instance : scene.instances) {
+    if (!instance.category.empty() && !instance.box.empty()) holders.push_back({&instance});
+  }
   const RayCaster caster(scene);
   ForEachDetailTriangle(mesh, [&](dtPolyRef ref, const WorldTriangle& t) {
     const double area_m2 = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
     const Vector3d centre = (t[0] + t[1] + t[2]) / 3;
-    Island& island = islands[finder.island_of.at(ref)];
-    island.area_m2 += area_m2;
+    const std::size_t island = finder.island_of.at(ref);
+    islands[island].area_m2 += area_m2;
     if (caster.Cast(centre + Vector3d(0, 0, 0.3), Vector3d::UnitZ(), 20.0)) {
-      island.covered_m2 += area_m2;
+      islands[island].covered_m2 += area_m2;
     }
-    for (const SceneInstance& object : scene.instances) {
-      if (object.category.empty() || object.box.empty()) continue;
-      const double above_m = object.box.min.z() - centre.z();
-      if (above_m > -0.3 && above_m < 1.5 && object.box.HorizontalDistance(centre) < kObjectReach_m) {
-        island.objects.insert(object.id);
-      }
+    for (Holder& holder : holders) {
+      for (const Vector3d& p : {centre, t[0], t[1], t[2]}) Consider(p, island, holder);
     }
   });
+  for (const Holder& holder : holders) {
+    if (holder.distance_m < kObjectReach_m) ++islands[holder.island].objects;
+  }
   return islands;
 }
 
 bool IsBetter(const Island& a, const Island& b) {
-  return std::tuple(a.objects.size(), a.covered_m2, a.area_m2) >
-         std::tuple(b.objects.size(), b.covered_m2, b.area_m2);
+  return std::tuple(a.objects, a.covered_m2, a.area_m2) >
+         std::tuple(b.objects, b.covered_m2, b.area_m2);
 }
 
 }  // namespace
@@ -97,8 +115,8 @@ void DropIslands(dtNavMesh& mesh, const Scene& scene, const NavMeshSettings& set
   std::vector<bool> keep;
   for (const Island& island : islands) {
     // Without goal objects to tell a storey from a roof, being indoors has to.
-    const bool is_storey = main.objects.empty() ? island.IsIndoor() || !main.IsIndoor()
-                                                : !island.objects.empty();
+    const bool is_storey =
+        main.objects == 0 ? island.IsIndoor() || !main.IsIndoor() : island.objects > 0;
     const bool is_main = &island == &main && island.area_m2 >= settings.min_island_m2;
     keep.push_back(is_main || (island.area_m2 >= least_m2 && is_storey));
   }

@@ -15,8 +15,8 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr double kCut_m = 2.0;        // chosen: over every chair back, under door lintels
-constexpr double kBelow_m = 0.6;      // how far under the floor still belongs to it (sunken parts)
+constexpr double kCut_m = 2.0;    // chosen: over every chair back, under door lintels
+constexpr double kBelow_m = 0.6;  // how far under the floor still belongs to it (sunken parts)
 constexpr int kMaxSide_px = 4096;
 
 Rgb8 Mix(const Rgb8& a, const Rgb8& b, double share_b) {
@@ -71,14 +71,16 @@ RgbImage ColourInstances(const InstanceImage& instance) {
     const std::int32_t id = instance.data[i];
     if (id == 0) continue;
     const std::uint64_t h = MixSeed(static_cast<std::uint64_t>(id), 0x5eed);
-    const auto channel = [h](int shift) { return static_cast<std::uint8_t>(64 + (h >> shift) % 192); };
+    const auto channel = [h](int shift) {
+      return static_cast<std::uint8_t>(64 + (h >> shift) % 192);
+    };
     out.data[i] = {channel(0), channel(16), channel(32)};
   }
   return out;
 }
 
-TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh& navmesh, int floor,
-                      double px_per_m) {
+TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh& navmesh,
+                      int floor, double px_per_m) {
   CROSSNAV_CHECK(floor >= 0 && floor < static_cast<int>(navmesh.Floors().size()), "no such floor");
   CROSSNAV_CHECK(px_per_m > 0, "px_per_m must be positive");
   const double ground = navmesh.Floors()[static_cast<std::size_t>(floor)].height_m;
@@ -106,8 +108,8 @@ TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh
       const double below_m = ground - hit->p_world.z();
       Rgb8 colour = hit->colour;
       if (below_m > kBelow_m) colour = Mix(colour, {40, 40, 60}, 0.6);  // seen through a stairwell
-      const auto heights = navmesh.HeightsAt(eye.x(), eye.y(), hit->p_world.z() - 0.2,
-                                             hit->p_world.z() + 0.2);
+      const auto heights =
+          navmesh.HeightsAt(eye.x(), eye.y(), hit->p_world.z() - 0.2, hit->p_world.z() + 0.2);
       if (!heights.empty() && below_m <= kBelow_m) colour = Mix(colour, {60, 190, 90}, 0.3);
       out.image.At(u, v) = colour;
     }

@@ -35,7 +35,7 @@ struct TopDown {
 
 /// Floor `floor` of the navmesh from above, cut 2 m over its ground so that furniture shows and the
 /// ceiling does not; walkable ground is tinted green. `floor` must exist; at most 4096 px a side.
-TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh& navmesh, int floor,
-                      double px_per_m);
+TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh& navmesh,
+                      int floor, double px_per_m);
 
 }  // namespace crossnav::sim

@@ -117,8 +117,8 @@ struct RayCaster::Impl {
 
   /// `n` and `d` need not be unit vectors.
   Rgb8 ColourOf(const Hit& hit, const Vector3f& n, const Vector3f& d) const {
-    const float light = Light(n / std::sqrt(std::max(n.squaredNorm(), 1e-30F)),
-                              d / std::sqrt(d.squaredNorm()));
+    const float light =
+        Light(n / std::sqrt(std::max(n.squaredNorm(), 1e-30F)), d / std::sqrt(d.squaredNorm()));
     const TriangleLook& look = looks[hit.geometry][hit.primitive];
     const Colour3f base =
         look.is_flat != 0
@@ -130,7 +130,9 @@ struct RayCaster::Impl {
   }
 };
 
-RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) { impl_->Build(); }
+RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
+  impl_->Build();
+}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 
@@ -147,8 +149,10 @@ struct RayGenerator {
         forward(T_world_camera.linear().col(2).cast<float>()),
         right(T_world_camera.linear().col(0).cast<float>()),
         down(T_world_camera.linear().col(1).cast<float>()),
-        fx(static_cast<float>(K.fx)), fy(static_cast<float>(K.fy)),
-        cx(static_cast<float>(K.cx)), cy(static_cast<float>(K.cy)) {}
+        fx(static_cast<float>(K.fx)),
+        fy(static_cast<float>(K.fy)),
+        cx(static_cast<float>(K.cx)),
+        cy(static_cast<float>(K.cy)) {}
 
   void Fill(int u0, int v0, RTCRayHit16& packet) const {
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -188,8 +192,8 @@ Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_came
     for (int u0 = 0; u0 < camera.width_px; u0 += kTileWidth) {
       generator.Fill(u0, v0, packet);
       for (int lane = 0; lane < kLanes; ++lane) {
-        const bool inside = u0 + lane % kTileWidth < camera.width_px &&
-                            v0 + lane / kTileWidth < camera.height_px;
+        const bool inside =
+            u0 + lane % kTileWidth < camera.width_px && v0 + lane / kTileWidth < camera.height_px;
         valid[static_cast<std::size_t>(lane)] = inside ? -1 : 0;
       }
       IntersectPacket(impl_->rays.get(), valid.data(), &packet);

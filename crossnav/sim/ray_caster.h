@@ -15,8 +15,8 @@ namespace crossnav::sim {
 
 struct Frame {
   RgbImage rgb;
-  DepthImage depth_m;       ///< planar z, 0 where no surface
-  InstanceImage instance;   ///< 0 where none
+  DepthImage depth_m;      ///< planar z, 0 where no surface
+  InstanceImage instance;  ///< 0 where none
 };
 
 struct RayHit {
@@ -24,7 +24,7 @@ struct RayHit {
   int instance = 0;
   Vector3d p_world = Vector3d::Zero();
   std::uint32_t triangle = 0;
-  Rgb8 colour;              ///< as Render would show it
+  Rgb8 colour;  ///< as Render would show it
 };
 
 class RayCaster {
@@ -40,7 +40,8 @@ class RayCaster {
   Frame Render(const CameraIntrinsics& camera, const Pose& T_world_camera) const;
 
   /// First surface along the ray, within `max_m`.
-  std::optional<RayHit> Cast(const Vector3d& p_world, const Vector3d& direction, double max_m) const;
+  std::optional<RayHit> Cast(const Vector3d& p_world, const Vector3d& direction,
+                             double max_m) const;
 
  private:
   std::unique_ptr<Impl> impl_;

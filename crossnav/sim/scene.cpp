@@ -9,8 +9,8 @@
 
 #include <xxhash.h>
 
-#include "crossnav/core/check.h"
 #include "category_data.h"
+#include "crossnav/core/check.h"
 #include "crossnav/sim/scene_reader.h"
 
 namespace crossnav::sim {
@@ -22,7 +22,9 @@ constexpr double kMaxTransfer_m = 0.05;  // chosen: half a voxel
 
 /// THE conversion from an HM3D file's frame to the world's. Files are z up; Habitat turns them into
 /// (x_f, z_f, -y_f), and world = (-z_h, -x_h, y_h).
-Vector3f WorldFromFile(const Vector3f& p_file) { return {p_file.y(), -p_file.x(), p_file.z()}; }
+Vector3f WorldFromFile(const Vector3f& p_file) {
+  return {p_file.y(), -p_file.x(), p_file.z()};
+}
 
 void ToWorld(TriangleMesh& mesh) {
   for (Vector3f& v : mesh.vertices) v = WorldFromFile(v);
@@ -52,21 +54,27 @@ Result<SceneFiles> FindSceneFiles(const fs::path& folder) {
   if (error) return Fail(ErrorCode::kNotFound, "scene folder cannot be read", folder.string());
   std::sort(files.begin(), files.end());
   const std::string name = folder.filename().string();
-  const std::string hash = name.substr(name.find('-') == std::string::npos ? 0 : name.find('-') + 1);
+  const std::string hash =
+      name.substr(name.find('-') == std::string::npos ? 0 : name.find('-') + 1);
   SceneFiles found;
   const auto prefer = [&hash](fs::path& slot, const fs::path& file, const std::string& wanted) {
     if (slot.empty() || file.filename() == hash + wanted) slot = file;
   };
   for (const fs::path& file : files) {
     const std::string f = file.filename().string();
-    if (EndsWith(f, ".semantic.glb")) prefer(found.semantic, file, ".semantic.glb");
-    else if (EndsWith(f, ".semantic.txt")) prefer(found.text, file, ".semantic.txt");
-    else if (EndsWith(f, ".glb")) prefer(found.render, file, ".glb");
+    if (EndsWith(f, ".semantic.glb"))
+      prefer(found.semantic, file, ".semantic.glb");
+    else if (EndsWith(f, ".semantic.txt"))
+      prefer(found.text, file, ".semantic.txt");
+    else if (EndsWith(f, ".glb"))
+      prefer(found.render, file, ".glb");
   }
-  if (found.render.empty()) return Fail(ErrorCode::kNotFound, "holds no .glb file", folder.string());
+  if (found.render.empty())
+    return Fail(ErrorCode::kNotFound, "holds no .glb file", folder.string());
   if (found.semantic.empty() != found.text.empty()) {
     return Fail(ErrorCode::kNotFound,
-                "has only one of .semantic.glb and .semantic.txt; both are needed", folder.string());
+                "has only one of .semantic.glb and .semantic.txt; both are needed",
+                folder.string());
   }
   return found;
 }

@@ -28,20 +28,20 @@ struct Material {
 };
 
 struct TriangleMesh {
-  std::vector<Vector3f> vertices;                        // [m], world
-  std::vector<std::array<float, 2>> uvs;                 // per vertex, or empty
-  std::vector<Rgb8> vertex_colours;                      // per vertex, or empty; multiplies the material
+  std::vector<Vector3f> vertices;         // [m], world
+  std::vector<std::array<float, 2>> uvs;  // per vertex, or empty
+  std::vector<Rgb8> vertex_colours;       // per vertex, or empty; multiplies the material
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint16_t> triangle_material;          // per triangle
-  std::vector<std::int32_t> triangle_instance;           // per triangle, 0 = none
+  std::vector<std::uint16_t> triangle_material;  // per triangle
+  std::vector<std::int32_t> triangle_instance;   // per triangle, 0 = none
 };
 
 struct SceneInstance {
-  int id = 0;             ///< > 0, as in the semantic text
-  std::string name;       ///< raw name, e.g. "dining chair"
-  std::string category;   ///< one of kCategories, or empty
+  int id = 0;            ///< > 0, as in the semantic text
+  std::string name;      ///< raw name, e.g. "dining chair"
+  std::string category;  ///< one of kCategories, or empty
   int region = 0;
-  Box3 box;               ///< of its triangles [m]
+  Box3 box;  ///< of its triangles [m]
 };
 
 struct Scene {

@@ -8,13 +8,13 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr double kGrid_m = 0.1;         // benchmark protocol, "Viewpoints and distances"
+constexpr double kGrid_m = 0.1;  // benchmark protocol, "Viewpoints and distances"
 constexpr double kReach_m = 1.0;
 constexpr double kMinCoverage = 0.05;
-constexpr double kPitchStep_deg = 30;   // three pitches: -30, 0, +30
-constexpr double kBelowFoot_m = 0.3;    // chosen: what is wholly under the ground is another floor's
-constexpr double kAboveFoot_m = 2.2;    // chosen: and so is what hangs above every wall cabinet
-constexpr int kRaysAcross = 24;         // chosen: 576 rays over the instance's angular extent
+constexpr double kPitchStep_deg = 30;  // three pitches: -30, 0, +30
+constexpr double kBelowFoot_m = 0.3;   // chosen: what is wholly under the ground is another floor's
+constexpr double kAboveFoot_m = 2.2;   // chosen: and so is what hangs above every wall cabinet
+constexpr int kRaysAcross = 24;        // chosen: 576 rays over the instance's angular extent
 
 /// The instance alone, as a scene for rays of its own.
 Scene OnlyInstance(const Scene& scene, int id) {
@@ -74,11 +74,13 @@ class CoverageMeter {
  public:
   CoverageMeter(const Scene& scene, const RayCaster& caster, const SceneInstance& instance,
                 const SensorConfig& sensor)
-      : alone_(OnlyInstance(scene, instance.id)), alone_caster_(alone_), caster_(caster),
+      : alone_(OnlyInstance(scene, instance.id)),
+        alone_caster_(alone_),
+        caster_(caster),
         instance_(instance) {
     half_wide_rad_ = DegToRad(sensor.hfov_deg) / 2;
-    const double half_high_rad = std::atan(std::tan(half_wide_rad_) * sensor.height_px /
-                                           sensor.width_px);
+    const double half_high_rad =
+        std::atan(std::tan(half_wide_rad_) * sensor.height_px / sensor.width_px);
     max_elevation_rad_ = std::min(half_high_rad + DegToRad(kPitchStep_deg), DegToRad(89));
   }
 
@@ -120,8 +122,9 @@ class CoverageMeter {
 
 }  // namespace
 
-std::vector<Vector3d> Viewpoints(const Scene& scene, const NavMesh& navmesh, const RayCaster& caster,
-                                 const SceneInstance& instance, const SensorConfig& sensor) {
+std::vector<Vector3d> Viewpoints(const Scene& scene, const NavMesh& navmesh,
+                                 const RayCaster& caster, const SceneInstance& instance,
+                                 const SensorConfig& sensor) {
   std::vector<Vector3d> points;
   const Box3& box = instance.box;
   if (box.empty()) return points;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `crossnav scene info` reports, and the viewpoints of instances that benchmark and report share.
+// What `crossnav scene info` reports, and the viewpoints of instances that benchmark and report
+// share.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,9 @@ namespace crossnav::sim {
 /// rays of even angular spacing; visible is the share of these rays whose first hit is the
 /// instance. Only points on the main connected ground around; ordered by x, then y, then z.
 /// Deterministic. Costs about 0.1 ms per grid point.
-std::vector<Vector3d> Viewpoints(const Scene& scene, const NavMesh& navmesh, const RayCaster& caster,
-                                 const SceneInstance& instance, const SensorConfig& sensor);
+std::vector<Vector3d> Viewpoints(const Scene& scene, const NavMesh& navmesh,
+                                 const RayCaster& caster, const SceneInstance& instance,
+                                 const SensorConfig& sensor);
 
 /// Floor that holds most of `viewpoints`, -1 where there are none (nobody can see the instance).
 int FloorOfViewpoints(const NavMesh& navmesh, const std::vector<Vector3d>& viewpoints);

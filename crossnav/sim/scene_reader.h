@@ -31,8 +31,8 @@ Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::strin
 std::vector<std::int32_t> InstancesByColour(const GltfModel& semantic,
                                             std::span<const SemanticLine> lines);
 
-/// Instance of each triangle of `target` from `source` (same frame): identical triangles first, then
-/// the nearest surface within `max_m` of the triangle's centre; 0 where there is none.
+/// Instance of each triangle of `target` from `source` (same frame): identical triangles first,
+/// then the nearest surface within `max_m` of the triangle's centre; 0 where there is none.
 std::vector<std::int32_t> TransferInstances(const TriangleMesh& source, const TriangleMesh& target,
                                             double max_m);
 

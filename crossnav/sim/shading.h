@@ -14,8 +14,8 @@ namespace crossnav::sim {
 /// What a hit needs to know of its triangle, eight bytes so that it stays in the cache.
 struct TriangleLook {
   std::int32_t instance = 0;
-  Rgb8 colour;              ///< final where `is_flat`
-  std::uint8_t is_flat = 1; ///< neither texture nor vertex colours
+  Rgb8 colour;               ///< final where `is_flat`
+  std::uint8_t is_flat = 1;  ///< neither texture nor vertex colours
 };
 
 struct Colour3f {
@@ -58,19 +58,20 @@ inline Colour3f SurfaceColour(const Scene& scene, std::uint32_t triangle, float 
   if (!mesh.vertex_colours.empty()) {
     const Rgb8 &a = mesh.vertex_colours[corner[0]], &b = mesh.vertex_colours[corner[1]],
                &c = mesh.vertex_colours[corner[2]];
-    multiply({w0 * a.r + s * b.r + t * c.r, w0 * a.g + s * b.g + t * c.g,
-              w0 * a.b + s * b.b + t * c.b});
+    multiply(
+        {w0 * a.r + s * b.r + t * c.r, w0 * a.g + s * b.g + t * c.g, w0 * a.b + s * b.b + t * c.b});
   }
   return colour;
 }
 
-/// Share of light [0, 1] on a surface with unit normal `n` seen along the unit ray `d` (both world).
+/// Share of light [0, 1] on a surface with unit normal `n` seen along the unit ray `d` (both
+/// world).
 inline float Light(const Vector3f& n, const Vector3f& d) {
   const float facing = std::abs(n.dot(d));
   const float towards_viewer = n.dot(d) > 0 ? -1.0F : 1.0F;  // meshes are not wound consistently
-  return std::clamp(0.52F + 0.32F * facing +
-                        towards_viewer * (0.10F * n.z() + 0.06F * n.x() + 0.03F * n.y()),
-                    0.0F, 1.0F);
+  return std::clamp(
+      0.52F + 0.32F * facing + towards_viewer * (0.10F * n.z() + 0.06F * n.x() + 0.03F * n.y()),
+      0.0F, 1.0F);
 }
 
 }  // namespace crossnav::sim

@@ -66,10 +66,16 @@ double Simulator::Step(Action action) {
     case Action::kTurnRight:
       agent_.yaw_rad = WrapAngle(agent_.yaw_rad - DegToRad(action_.turn_deg));
       return 0;
-    case Action::kLookUp: tilt(DegToRad(action_.pitch_deg)); return 0;
-    case Action::kLookDown: tilt(-DegToRad(action_.pitch_deg)); return 0;
-    case Action::kStop: return 0;
-    case Action::kMoveForward: break;
+    case Action::kLookUp:
+      tilt(DegToRad(action_.pitch_deg));
+      return 0;
+    case Action::kLookDown:
+      tilt(-DegToRad(action_.pitch_deg));
+      return 0;
+    case Action::kStop:
+      return 0;
+    case Action::kMoveForward:
+      break;
   }
   const Vector3d ahead(std::cos(agent_.yaw_rad), std::sin(agent_.yaw_rad), 0);
   const Vector3d before = agent_.p_world;

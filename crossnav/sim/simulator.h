@@ -19,7 +19,8 @@ class Simulator {
   Simulator(const Scene& scene, const NavMesh& navmesh, const RayCaster& caster,
             const SensorConfig& sensor, const ActionConfig& action);
 
-  /// Places the agent; the point is snapped to the navmesh. Error if none is near or it is not finite.
+  /// Places the agent; the point is snapped to the navmesh. Error if none is near or it is not
+  /// finite.
   Result<void> Reset(const AgentPose& start);
 
   /// Executes one action (kStop does nothing). A blocked forward stops at the obstacle: no sliding.
