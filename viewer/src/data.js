@@ -86,7 +86,9 @@ export function logLines(replay) {
       mode = step.mode;
       reason = step.reason;
     }
-    for (const text of step.events) lines.push({ index, kind: "event", text });
+    for (const text of step.events) {
+      if (text !== `mode: ${step.mode}`) lines.push({ index, kind: "event", text });
+    }
     while (stages.length && stages[0].last_step <= step.step) {
       const stage = stages.shift();
       const kind = stage.success ? "success" : "failure";

@@ -7,6 +7,14 @@ export function byId(id) {
   return document.getElementById(id);
 }
 
+/// Scrolls `box` (which must be positioned) so far that `row` can be seen.
+function keepInView(row, box) {
+  const top = row.offsetTop;
+  if (top < box.scrollTop || top + row.offsetHeight > box.scrollTop + box.clientHeight) {
+    box.scrollTop = top - box.clientHeight + row.offsetHeight + 4;
+  }
+}
+
 /// Element with class, text or children.
 export function make(tag, className, content) {
   const element = document.createElement(tag);
@@ -129,6 +137,8 @@ export class CandidatesPanel {
     const candidates = this.replay.steps[index].candidates;
     byId("candidate-count").textContent = candidates.length ? String(candidates.length) : "none";
     this.body.replaceChildren(...candidates.map((c, i) => this.row(c, i)));
+    const target = this.body.querySelector(".target");
+    if (target) keepInView(target, this.body.closest(".scroll"));
   }
 
   row(candidate, i) {
@@ -227,11 +237,7 @@ export class LogPanel {
       this.rows[i].classList.toggle("now", line.index === index);
     });
     if (last < 0) return;
-    const row = this.rows[last], list = this.list;
-    const top = row.offsetTop;  // the list is positioned
-    if (top < list.scrollTop || top + row.offsetHeight > list.scrollTop + list.clientHeight) {
-      list.scrollTop = top - list.clientHeight + row.offsetHeight + 4;
-    }
+    keepInView(this.rows[last], this.list);
   }
 }
 

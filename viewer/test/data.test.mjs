@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// The page's data handling, without a browser.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+
+import { OrbitCamera, projectPoint } from "../src/camera.js";
+import { floorLevels, floorOf, forEachRunVoxel, logLines, segments } from "../src/data.js";
+import { VoxelHistory, blockFaces } from "../src/voxels.js";
+
+// The same bytes as in tests/trace/voxel_codec_test.cpp.
+const RUNS = [0x02, 0x01, 0x04, 0x02, 0x01, 0x00, 0x02, 0x03, 0x01, 0x0a];
+
+test("runs decode to the voxels that the C++ side encoded", () => {
+  const got = [];
+  forEachRunVoxel(new Uint8Array(RUNS), 0, RUNS.length, (...voxel) => got.push(voxel));
+  assert.deepEqual(got, [[1, -1, 2, 1], [1, -1, 3, 1], [1, 0, 0, 10]]);
+});
+
+const zigzag = (n) => (n >= 0 ? 2 * n : -2 * n - 1);
+
+/// Runs of single voxels near the origin, one byte a number.
+function encode(voxels) {
+  const bytes = [];
+  let last = [0, 0, 0];
+  for (const [x, y, z, value] of voxels) {
+    bytes.push(...[x, y, z].map((v, i) => zigzag(v - last[i])), 1, value);
+    last = [x, y, z];
+  }
+  return bytes;
+}
+
+/// Pseudo-random changes on a few voxels, several steps, some values back to 0.
+function makeHistory(steps) {
+  let state = 12345;
+  const next = (n) => (state = (state * 1103515245 + 12345) % 2147483648) % n;
+  const bytes = [], ends = [], maps = [];
+  const map = new Map();
+  for (let s = 0; s < steps; ++s) {
+    const changed = new Map();
+    for (let i = 0; i < 30; ++i) {
+      changed.set([next(20) - 10, next(4) - 18, next(6)].join(), next(3) * (1 + 8 * next(2)) % 16);
+    }
+    for (const [key, value] of changed) map.set(key, value);
+    bytes.push(...encode([...changed].map(([key, value]) => [...key.split(",").map(Number), value])));
+    ends.push(bytes.length);
+    maps.push(new Map(map));
+  }
+  return { history: new VoxelHistory(new Uint8Array(bytes), ends), maps };
+}
+
+test("any seek gives the map as it was after that step", () => {
+  const { history, maps } = makeHistory(25);
+  for (const step of [24, 0, 13, 12, 24, 3, 3, 20, -1, 7]) {
+    history.seek(step);
+    for (const key of maps[24].keys()) {
+      const expected = step < 0 ? 0 : maps[step].get(key) || 0;
+      assert.equal(history.get(...key.split(",").map(Number)), expected, `${key} at ${step}`);
+    }
+  }
+});
+
+test("seeking marks exactly enough blocks: faces equal those of a map built anew", () => {
+  const { history } = makeHistory(25);
+  const isShown = [false, true, false, false, false, true, true, true];
+  const cache = new Map();
+  for (const step of [24, 5, 17, 0, 24]) {
+    history.seek(step);
+    for (const block of history.dirty) cache.set(block, blockFaces(history, block, isShown));
+    history.dirty.clear();
+    for (const block of history.blocks.values()) {
+      assert.deepEqual(cache.get(block), blockFaces(history, block, isShown));
+    }
+  }
+});
+
+test("a lone voxel has five faces, two neighbours share none", () => {
+  const shown = [false, true, false, false, false, false, false, false];
+  const count = (voxels) => {
+    const bytes = encode(voxels);
+    const history = new VoxelHistory(new Uint8Array(bytes), [bytes.length]);
+    return [...history.blocks.values()].reduce(
+      (sum, block) => sum + blockFaces(history, block, shown).length / 8, 0);
+  };
+  assert.equal(count([[0, 0, 0, 1]]), 5);
+  assert.equal(count([[15, 0, 0, 1], [16, 0, 0, 1]]), 8);  // over a block's border
+  assert.equal(count([[0, 0, 0, 1], [0, 0, 1, 1]]), 9);    // the lower one's top is covered
+  assert.equal(count([[0, 0, 0, 2]]), 0);
+});
+
+test("an upper face knows the air above it", () => {
+  const bytes = encode([[0, 0, 0, 1], [0, 0, 1, 10]]);
+  const history = new VoxelHistory(new Uint8Array(bytes), [bytes.length]);
+  const [block] = history.blocks.values();
+  const faces = blockFaces(history, block, [false, true, false, false, false, false, false, false]);
+  const up = [...Array(5).keys()].find((i) => faces[8 * i + 6] === 4);
+  assert.equal(faces[8 * up + 7], 1 | (10 << 4));
+});
+
+test("floors are the levels where time was spent", () => {
+  const steps = [0, 0, 0, 0.1, 1.4, 2.8, 2.8, 2.75].map((level_m) => ({ level_m }));
+  assert.deepEqual(floorLevels(steps), [0, 2.8]);
+  assert.deepEqual(floorLevels([]), []);
+  assert.deepEqual([-1, 0, 2.6, 2.75, 5].map((z) => floorOf([0, 2.8], z)), [0, 0, 0, 1, 1]);
+  assert.equal(floorOf([], 3), 0);
+});
+
+test("segments and log follow the steps", () => {
+  const step = (number, mode, events = []) => ({ step: number, mode, reason: mode + "!", events });
+  const replay = {
+    steps: [step(0, "a", ["goal activated: bed"]), step(1, "a"), step(2, "b", ["mode: b", "hit"])],
+    stages: [{ goal: "bed", outcome: "success", success: true, last_step: 1 }],
+  };
+  assert.deepEqual(segments(replay.steps, (s) => s.mode),
+    [{ from: 0, to: 1, key: "a" }, { from: 2, to: 2, key: "b" }]);
+  assert.deepEqual(logLines(replay).map((line) => [line.index, line.kind, line.text]), [
+    [0, "mode", "a!"], [0, "event", "goal activated: bed"], [1, "success", "bed: success"],
+    [2, "mode", "b!"], [2, "event", "hit"]]);
+});
+
+test("the camera holds the box that it frames and puts its middle in the middle", () => {
+  const camera = new OrbitCamera();
+  for (const [aspect, shift, pitch] of [[1.6, 0, 0.9], [0.6, 0, 0.4], [1.6, 0.25, 1.5707]]) {
+    Object.assign(camera, { aspect, shift, pitch });
+    camera.frame([-4, 2, 0], [6, 9, 5]);
+    const matrix = camera.matrix();
+    const middle = projectPoint(matrix, [1, 5.5, 2.5], 200, 100);
+    assert.ok(Math.abs(middle[0] - 100 * (1 + shift)) < 0.01 && Math.abs(middle[1] - 50) < 0.01);
+    let widest = 0;
+    for (let i = 0; i < 8; ++i) {
+      const corner = [i & 1 ? 6 : -4, i & 2 ? 9 : 2, i & 4 ? 5 : 0];
+      const [x, y] = projectPoint(matrix, corner, 2, 2);
+      assert.ok(x > 2 * shift && x < 2 && y > 0 && y < 2, `${corner} at ${x}, ${y}`);
+      widest = Math.max(widest, Math.abs(y - 1), Math.abs(x - 1 - shift) / (1 - shift));
+    }
+    assert.ok(widest > 0.8);
+  }
+  assert.equal(projectPoint(camera.matrix(), camera.eye().map((v, i) => v + (i === 2 ? 9 : 0)), 2, 2),
+    null);
+});
+
+test("the scripts can be joined: no top-level name stands in two files", () => {
+  const list = readFileSync(new URL("../files.cmake", import.meta.url), "utf8");
+  const owner = new Map();
+  for (const [path] of list.matchAll(/src\/\w+\.js/g)) {
+    const text = readFileSync(new URL("../" + path, import.meta.url), "utf8");
+    const declared = text.matchAll(/^(?:export )?(?:async )?(?:function|class|const|let) (\w+)/gm);
+    for (const [, name] of declared) {
+      assert.equal(owner.get(name), undefined, `${name} in ${path} and ${owner.get(name)}`);
+      owner.set(name, path);
+    }
+  }
+  assert.ok(owner.size > 30);
+});

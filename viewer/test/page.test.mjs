@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The page in a browser without a screen, opened from the disk: it draws, it asks nobody, keys work.
+// $CROSSNAV_SCREENSHOTS (a folder) keeps what was seen.
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+
+import { optional, samplePath } from "./sample.mjs";
+
+const playwright = await optional("playwright-core");
+const chromium = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser",
+  "/usr/bin/google-chrome"].find((path) => path && existsSync(path));
+const skip = !playwright ? "playwright-core is not installed"
+  : !chromium ? "there is no Chromium" : !samplePath("sample.html") && "no sample";
+const FLAGS = ["--no-sandbox", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync", "--no-first-run", "--disable-quic"];
+const SOFTWARE_GL = ["--disable-gpu", "--enable-unsafe-swiftshader", "--use-gl=angle",
+  "--use-angle=swiftshader"];
+
+let browser = null;
+before(async () => {
+  if (skip) return;
+  browser = await playwright.chromium.launch(
+    { executablePath: chromium, args: [...FLAGS, ...SOFTWARE_GL] });
+});
+after(() => browser?.close());
+
+/// The page with everything that went wrong in it. Software drawing is slow: times are generous.
+async function show(name, hash = "", from = browser) {
+  const page = await from.newPage({ viewport: { width: 1280, height: 760 } });
+  const trouble = [];
+  page.on("pageerror", (error) => trouble.push(error.message));
+  page.on("console", (line) => { if (line.type() === "error") trouble.push(line.text()); });
+  page.on("request", (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) trouble.push(`asked for ${request.url()}`);
+  });
+  await page.goto("file://" + samplePath(name) + hash);
+  await page.waitForFunction(() => document.body.dataset.drawn !== undefined, null,
+    { timeout: 90000 });
+  return { page, trouble };
+}
+
+async function keep(page, name) {
+  const folder = process.env.CROSSNAV_SCREENSHOTS;
+  if (folder) await page.screenshot({ path: join(folder, name + ".png") });
+}
+
+/// How many different colours the 3D view shows.
+function coloursOf(page) {
+  return page.evaluate(() => {
+    const gl = document.getElementById("gl").getContext("webgl2");
+    const { drawingBufferWidth: w, drawingBufferHeight: h } = gl;
+    const pixels = new Uint8Array(4 * w * h);
+    gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    const seen = new Set();
+    for (let i = 0; i < pixels.length; i += 4) {
+      seen.add((pixels[i] << 16) | (pixels[i + 1] << 8) | pixels[i + 2]);
+    }
+    return seen.size;
+  });
+}
+
+async function press(page, key, drawn) {
+  await page.keyboard.press(key);
+  await page.waitForFunction((step) => document.body.dataset.drawn === step, String(drawn),
+    { timeout: 60000 });
+}
+
+test("the page draws the map and asks nobody", { skip }, async () => {
+  const { page, trouble } = await show("sample.html", "#step=70");
+  assert.ok((await coloursOf(page)) > 50);
+  assert.match(await page.textContent("#counter"), /^step 70 of \d+$/);
+  assert.equal(await page.textContent("#mode"), "stair explore");
+  assert.ok((await page.locator("#candidates tr").count()) >= 5);
+  assert.ok(await page.locator("#camera-image").evaluate((image) => image.decode().then(() => image.naturalWidth)) > 0);
+  await keep(page, "light");
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("keys, buttons and the time line move through the steps", { skip }, async () => {
+  const { page, trouble } = await show("sample.html");
+  await press(page, "ArrowRight", 1);
+  await press(page, "Shift+ArrowRight", 11);
+  await press(page, "ArrowLeft", 10);
+  const last = await page.evaluate(() => JSON.parse(
+    document.getElementById("replay-data").textContent).steps.length - 1);
+  await press(page, "End", last);
+  assert.equal(await page.locator("#goals .bad").count(), 1);
+  assert.equal(await page.locator("#goals .good").count(), 2);
+  assert.match(await page.textContent("#verification-state"), /passed/);
+  await press(page, "Home", 0);
+  await page.keyboard.press("]");
+  assert.match(await page.textContent("#facts"), /bed/);
+  await page.locator("#log li").last().click();
+  assert.match(await page.textContent("#counter"), new RegExp(`^step ${last} `));
+  const box = await page.locator("#timeline").boundingBox();
+  await page.mouse.click(box.x + 2, box.y + 20);
+  assert.match(await page.textContent("#counter"), /^step 0 /);
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("playing moves on and stops at the end", { skip }, async () => {
+  const { page, trouble } = await show("sample.html", "#step=125");
+  await page.selectOption("#speed", "25");
+  await page.click("#play");
+  await page.waitForFunction(() => /Play/.test(document.getElementById("play").textContent), null,
+    { timeout: 60000 });
+  assert.match(await page.textContent("#counter"), /^step (\d+) of \1$/);
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("floors, spread, layers and the dark theme draw", { skip }, async () => {
+  const { page, trouble } = await show("sample.html", "#step=130&theme=dark&spread=3&floors=all");
+  const all = await coloursOf(page);
+  await keep(page, "dark");
+  for (const key of ["1", "t", "f", "0"]) await page.keyboard.press(key);
+  for (const row of await page.locator("#legend input").all()) await row.click();
+  await page.waitForTimeout(500);
+  assert.notEqual(await coloursOf(page), all);
+  await keep(page, "layers");
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("a torn replay says so and shows what there is", { skip }, async () => {
+  const { page, trouble } = await show("torn.html");
+  assert.match(await page.textContent("#notice"), /cut off/);
+  assert.ok((await coloursOf(page)) > 50);
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("without WebGL the rest still works", { skip }, async () => {
+  const plain = await playwright.chromium.launch(
+    { executablePath: chromium, args: [...FLAGS, "--disable-gpu", "--disable-3d-apis"] });
+  try {
+    const { page, trouble } = await show("sample.html", "#step=70", plain);
+    assert.match(await page.textContent("#view-message"), /cannot be drawn/);
+    await press(page, "ArrowRight", 71);
+    await keep(page, "no-webgl");
+    assert.deepEqual(trouble.filter((text) => !/WebGL/.test(text)), []);
+  } finally {
+    await plain.close();
+  }
+});
