@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/architecture.h"
 #include "crossnav/world/furnish.h"
@@ -30,6 +32,18 @@ Result<void> CheckParams(const HouseParams& params) {
   return {};
 }
 
+/// Floors and area drawn from the seed alone: were they drawn anew for each attempt, the houses
+/// that are easy to draw would crowd out the others.
+HouseParams Settled(HouseParams params) {
+  Rng rng(params.seed, 0);
+  constexpr int kFloors[] = {1, 2, 2, 2, 2, 3, 3, 4};
+  const int floors = kFloors[rng.Below(std::size(kFloors))];
+  const double area_m2 = std::exp(rng.Uniform(std::log(60.0), std::log(240.0)));
+  if (params.floors == 0) params.floors = floors;
+  if (params.area_m2 == 0) params.area_m2 = area_m2;
+  return params;
+}
+
 void Describe(const HousePlan& plan, const sim::Scene& scene, HouseReport& report) {
   report.scene_id = plan.id;
   report.floors = static_cast<int>(plan.levels.size());
@@ -48,8 +62,8 @@ std::string SceneIdOf(const HouseParams& params) {
 }
 
 Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt) {
-  Rng rng(params.seed, static_cast<std::uint64_t>(attempt));
-  auto plan = DrawHousePlan(params, rng);
+  Rng rng(params.seed, static_cast<std::uint64_t>(attempt) + 1);
+  auto plan = DrawHousePlan(Settled(params), rng);
   if (!plan) return plan;
   plan->id = SceneIdOf(params);
   Furnish(*plan, FurnitureSource{}, rng);
@@ -74,6 +88,7 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
     }
     if (auto ok = CheckHouse(*plan, scene, *navmesh); !ok) {
       ++report.refusals[ok.error().what];
+      if (getenv("DBG")) { fmt::print("  {}\n", ok.error().Message()); (void)WriteScene(scene, out_dir / "bad" / std::to_string(attempt)); }
       continue;
     }
     report.area_m2 = navmesh->AreaM2();

@@ -131,9 +131,28 @@ struct Draft {
     }
   }
 
+  std::size_t LevelOf(int room) const {
+    return static_cast<std::size_t>(plan.rooms[static_cast<std::size_t>(room)].level);
+  }
+
+  /// The longest wall of `room` along the corridor; a door into a stair shaft would be no use.
+  Wall* FindCorridorWall(int room) {
+    const Rect near = layout.levels[LevelOf(room)].corridor.Grown(0.1);
+    const int hall = hall_of_level[LevelOf(room)];
+    Wall* best = nullptr;
+    for (Wall& w : plan.walls) {
+      const bool is_pair =
+          (w.room == room && w.other_room == hall) || (w.room == hall && w.other_room == room);
+      if (!is_pair || !near.Contains(w.a) || !near.Contains(w.b)) continue;
+      if (!best || (w.b - w.a).norm() > (best->b - best->a).norm()) best = &w;
+    }
+    return best;
+  }
+
   /// A door or passage somewhere along the wall of two rooms.
   bool Connect(int from, int to) {
-    Wall* wall = FindWall(plan, from, to);
+    Wall* wall =
+        from == hall_of_level[LevelOf(to)] ? FindCorridorWall(to) : FindWall(plan, from, to);
     if (!wall) return false;
     const double length = (wall->b - wall->a).norm();
     const RoomType type = plan.rooms[static_cast<std::size_t>(to)].type;
@@ -276,19 +295,12 @@ struct Draft {
   std::vector<std::pair<int, int>> balconies;
 };
 
-int DrawFloors(const HouseParams& params, Rng& rng) {
-  if (params.floors > 0) return params.floors;
-  constexpr int kFloors[] = {1, 2, 2, 2, 2, 3, 3, 4};
-  return kFloors[rng.Below(std::size(kFloors))];
-}
-
 }  // namespace
 
 Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng) {
   LayoutParams lp;
-  lp.levels = DrawFloors(params, rng);
-  lp.area_m2 =
-      params.area_m2 > 0 ? params.area_m2 : std::exp(rng.Uniform(std::log(60.0), std::log(240.0)));
+  lp.levels = params.floors;
+  lp.area_m2 = params.area_m2;
   lp.slab_m = 0.01 * rng.Int(20, 30);
   lp.has_basement = lp.levels >= 2 && rng.Chance(0.3);
   Draft draft{params, rng, {}, {}, lp.has_basement ? 1 : 0, {}, {}, true, {}};
