@@ -159,7 +159,7 @@ void Agent::Impl::NoticeBump(const AgentPose& agent) {
   if (!bumps.Update(agent, world.step, config.map)) return;
   goal.events.push_back("bump");
   if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
-  const auto escape = policy::EscapeActions(world.map, agent, bumps.obstacles(), config.action);
+  const auto escape = policy::EscapeActions(world.map, agent, bumps.bumped_yaws(), config.action);
   goal.script.assign(escape.begin(), escape.end());
   goal.events.push_back("stuck: stepping aside");
 }

@@ -79,6 +79,8 @@ void StartSession(Situation& now, const policy::Flight& flight) {
   }
   now.goal.session =
       policy::BeginSession(flight.direction, now.world.level_m, now.agent.p_world, first);
+  policy::PromoteStairs(*now.goal.session, now.world.stairs, now.world.map,
+                        now.config.policy.stair);
   now.goal.steps_without_stair_target = 0;
   now.goal.scanned_landing_m = -1e9;
   now.goal.commitment.reset();

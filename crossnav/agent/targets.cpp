@@ -261,12 +261,26 @@ std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
 }
 
 std::optional<Target> ChooseStairFrontier(const Situation& now) {
-  GraphRules rules;
-  rules.kind = GraphKind::kStair;
-  rules.obstacles = now.obstacles;
-  for (const Candidate& candidate :
-       StairFrontiers(*now.goal.session, now.world.map, now.agent.p_world)) {
-    if (auto target = PlanTo(now, candidate, rules, true)) return target;
+  if (!now.start) return std::nullopt;
+  const auto frontiers = StairFrontiers(*now.goal.session, now.world.map, now.agent.p_world);
+  const double here_m =
+      now.goal.session->direction * (now.agent.p_world.z() - now.goal.session->entrance_level_m);
+  planner::PlannerConfig local = now.config.planner;
+  local.max_expansions = 8000;  // chosen: a flight and its landings
+  // Steps that were seen one by one first; the sphere bridges treads that hide behind their risers.
+  for (const GraphKind kind : {GraphKind::kNormal, GraphKind::kStair}) {
+    for (const Candidate& candidate : frontiers) {
+      const bool is_behind = candidate.score < here_m + 0.1;
+      if (is_behind && kind == GraphKind::kNormal) break;
+      GraphRules rules;
+      rules.kind = kind;
+      rules.obstacles = now.obstacles;
+      for (const bool allow_inflated : {false, true}) {
+        rules.allow_inflated = allow_inflated;
+        Plan plan = FindPath(now.world.map, *now.start, candidate.standing, rules, local);
+        if (plan.found()) return MakeTarget(candidate, std::move(plan), rules);
+      }
+    }
   }
   return std::nullopt;
 }

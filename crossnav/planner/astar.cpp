@@ -20,6 +20,7 @@ using geometry::IsSurface;
 using geometry::kBlockVoxels;
 using geometry::Voxel;
 
+constexpr double kSteepest = 1.2;  // chosen: 50 degrees, the steepest flight that counts as a stair
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct NodeBlock {
@@ -159,22 +160,38 @@ class Search {
     return length <= 1.75 || IsBridge(from, to);
   }
 
-  /// A long edge bridges a gap in what was seen, never a wall, a drop that was seen, or an
-  /// obstacle.
+  /// A long edge bridges a gap in what was seen: treads hidden behind their risers. Never a wall, a
+  /// drop that was seen, an obstacle, or a rise steeper than a stair.
   bool IsBridge(const VoxelKey& from, const VoxelKey& to) {
+    const double run = std::hypot(to.x - from.x, to.y - from.y);
+    if (std::abs(to.z - from.z) > kSteepest * run + 1.5) return false;
     const int samples =
         std::max({std::abs(to.x - from.x), std::abs(to.y - from.y), std::abs(to.z - from.z)});
+    int unknown = 0;
     for (int i = 1; i < samples; ++i) {
       const double t = static_cast<double>(i) / samples;
       const auto between = [t](int a, int b) {
         return static_cast<std::int32_t>(std::lround(a + t * (b - a)));
       };
       const VoxelKey key{between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
-      if (cursor_.At(key).state == geometry::VoxelState::kTraversableFake) return false;
       if (rules_.obstacles && rules_.obstacles->contains(key)) return false;
+      if (IsDrop(key)) return false;
+      const bool is_unknown = cursor_.At(key).state == geometry::VoxelState::kUnknown;
+      unknown = is_unknown ? unknown + 1 : 0;
+      if (unknown > 1)
+        return false;  // through what nobody has seen: the inside of a wall or a flight
     }
     const double voxel_m = map_.config().voxel_m;
     return map_.HasLineOfSight(CenterOf(from, voxel_m), CenterOf(to, voxel_m));
+  }
+
+  /// Air was seen for the whole support depth below. Over a hidden tread it was not.
+  bool IsDrop(const VoxelKey& key) {
+    for (int k = 0; k < support_vox_; ++k) {
+      const geometry::VoxelState state = cursor_.At({key.x, key.y, key.z - k}).state;
+      if (state == geometry::VoxelState::kUnknown || IsSurface(state)) return false;
+    }
+    return true;
   }
 
   bool IsOnLevel(const VoxelKey& key) {

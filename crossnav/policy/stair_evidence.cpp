@@ -128,15 +128,20 @@ std::vector<Flight> FlightsFrom(const StairEvidence& evidence, const VoxelMap& m
     Flight flight;
     flight.direction = direction;
     std::vector<VoxelKey> first_step, ahead;
-    for (const VoxelKey& key : cluster) {
-      if (rise(key) <= std::max(lowest, 0.0) + 2.5 * voxel_m) first_step.push_back(key);
+    const auto treads = ColumnTops(cluster);
+    double lowest_tread = 1e9;
+    for (const VoxelKey& key : treads) lowest_tread = std::min(lowest_tread, rise(key));
+    for (const VoxelKey& key : treads) {
+      if (rise(key) <= std::max(lowest_tread, 0.0) + 2.5 * voxel_m) first_step.push_back(key);
     }
     flight.p_entrance_world = CentroidOf(first_step, voxel_m);
     double probability = 0;
     int confirmed = 0;
-    for (const VoxelKey& key : cluster) {
+    for (const VoxelKey& key : treads) {
       const Vector3d d = CenterOf(key, voxel_m) - flight.p_entrance_world;
       if (d.head<2>().norm() < 1.2 && rise(key) > 0.3) ahead.push_back(key);
+    }
+    for (const VoxelKey& key : cluster) {
       const StairVoxel& voxel = evidence.voxels().at(key);
       probability += voxel.probability;
       confirmed += voxel.is_confirmed;

@@ -17,18 +17,6 @@ constexpr double kFullRise_m = 0.35;  // chosen: a 20 degree flight rises this m
 constexpr double kFlatSlope = 0.21;   // chosen: 12 degrees, half of the gentlest flight
 constexpr double kResidualGood_m = 0.10, kResidualBad_m = 0.25;  // chosen: one riser, and beyond it
 
-/// Highest voxel of each column: the surface one would step on.
-std::vector<VoxelKey> ColumnTops(const std::vector<VoxelKey>& sorted) {
-  std::vector<VoxelKey> tops;
-  for (const VoxelKey& key : sorted) {
-    if (!tops.empty() && tops.back().x == key.x && tops.back().y == key.y)
-      tops.back() = key;
-    else
-      tops.push_back(key);
-  }
-  return tops;
-}
-
 std::vector<VoxelKey> Near(const std::vector<VoxelKey>& keys, const VoxelKey& center,
                            double radius_vox) {
   std::vector<VoxelKey> near;
@@ -66,6 +54,17 @@ double HeadRoom(const VoxelMap& map, const std::vector<VoxelKey>& tops) {
 }
 
 }  // namespace
+
+std::vector<VoxelKey> ColumnTops(const std::vector<VoxelKey>& sorted) {
+  std::vector<VoxelKey> tops;
+  for (const VoxelKey& key : sorted) {
+    if (!tops.empty() && tops.back().x == key.x && tops.back().y == key.y)
+      tops.back() = key;
+    else
+      tops.push_back(key);
+  }
+  return tops;
+}
 
 PlaneFit FitPlane(const std::vector<VoxelKey>& voxels, double voxel_m) {
   PlaneFit fit;

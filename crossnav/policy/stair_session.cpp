@@ -85,7 +85,8 @@ StairSession BeginSession(int direction, double entrance_level_m, const Vector3d
   session.direction = direction;
   session.entrance_level_m = entrance_level_m;
   session.p_entrance_world = p_world_foot;
-  session.cluster.insert(flight.begin(), flight.end());
+  const auto treads = ColumnTops(flight);
+  session.cluster.insert(treads.begin(), treads.end());
   return session;
 }
 
@@ -103,6 +104,8 @@ void PromoteStairs(StairSession& session, const StairEvidence& evidence, VoxelMa
     if (RiseOf(session, CenterOf(key, voxel_m).z()) < -0.3)
       continue;  // another flight, the other way
     if (map.StairMarkAt(key) == StairMark::kStair || !near.Contains(key)) continue;
+    // Risers and sides carry no foot: only what is on top of its column.
+    if (IsSurface(map.StateAt({key.x, key.y, key.z + 1}))) continue;
     added.push_back(key);
   }
   map.MarkStair(added, StairMark::kStair);

@@ -138,7 +138,8 @@ std::optional<Action> PitchTowards(const AgentPose& agent, double wanted_rad,
 }
 
 std::vector<Action> EscapeActions(const VoxelMap& map, const AgentPose& agent,
-                                  const std::set<VoxelKey>& obstacles, const ActionConfig& action) {
+                                  const std::vector<double>& tried_yaw_rad,
+                                  const ActionConfig& action) {
   const double voxel_m = map.config().voxel_m, turn_rad = DegToRad(action.turn_deg);
   const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
   VoxelMap::Cursor cursor(map);
@@ -146,12 +147,15 @@ std::vector<Action> EscapeActions(const VoxelMap& map, const AgentPose& agent,
   double best_score = -1;
   for (int k = -turns / 2 + 1; k <= turns / 2; ++k) {
     const double yaw = agent.yaw_rad + k * turn_rad;
-    double score = 0;
+    const bool is_tried = std::any_of(
+        tried_yaw_rad.begin(), tried_yaw_rad.end(),
+        [&](double tried) { return std::abs(WrapAngle(yaw - tried)) < 0.5 * turn_rad; });
+    double score = is_tried ? -0.5 : 0;
     for (double ahead = voxel_m; ahead < 1.0; ahead += voxel_m) {
       const Vector3d p =
           agent.p_world + Vector3d(std::cos(yaw) * ahead, std::sin(yaw) * ahead, 0.5 * voxel_m);
       const VoxelKey key = geometry::KeyOf(p, voxel_m);
-      if (obstacles.contains(key) || !IsWalkable(cursor, key, true)) break;
+      if (is_tried || !IsWalkable(cursor, key, true)) break;
       score += IsWalkable(cursor, key, false) ? 1.0 : 0.5;
     }
     if (score > best_score + 1e-9 ||
@@ -173,9 +177,11 @@ bool BumpMonitor::Update(const AgentPose& agent, int step, const geometry::MapCo
   before_.reset();
   if ((agent.p_world - before.p_world).norm() >= kBumpMoved_m) {
     bumps_ = 0;
+    bumped_yaws_.clear();
     return false;
   }
   ++bumps_;
+  bumped_yaws_.push_back(agent.yaw_rad);
   last_bump_step_ = step;
   if (bumps_ >= 2) {
     const Vector3d forward(std::cos(agent.yaw_rad), std::sin(agent.yaw_rad), 0),

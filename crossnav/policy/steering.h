@@ -32,9 +32,10 @@ double ClearanceAt(const geometry::VoxelMap& map, const Vector3d& p_world);
 std::optional<Action> PitchTowards(const AgentPose& agent, double wanted_rad,
                                    const ActionConfig& action);
 
-/// Turns and one step into the direction with the longest free way, to get out of a tight spot.
+/// Turns and one step into the direction with the longest free way that was not tried, to get out
+/// of a tight spot.
 std::vector<Action> EscapeActions(const geometry::VoxelMap& map, const AgentPose& agent,
-                                  const std::set<geometry::VoxelKey>& obstacles,
+                                  const std::vector<double>& tried_yaw_rad,
                                   const ActionConfig& action);
 
 /// Remembers forward steps that did not move the agent, and what stood in the way.
@@ -47,6 +48,8 @@ class BumpMonitor {
 
   /// Bumps at one place without any movement in between.
   int bumps_in_place() const { return bumps_; }
+  /// Headings of these bumps [rad].
+  const std::vector<double>& bumped_yaws() const { return bumped_yaws_; }
 
   /// Voxels not to be planned through for a while.
   const std::set<geometry::VoxelKey>& obstacles() const { return obstacles_; }
@@ -56,6 +59,7 @@ class BumpMonitor {
   std::set<geometry::VoxelKey> obstacles_;
   std::optional<AgentPose> before_;  // pose before the last forward
   int bumps_ = 0;
+  std::vector<double> bumped_yaws_;
   int last_bump_step_ = -1000;
 };
 

@@ -185,6 +185,8 @@ TEST(FindPath, TheLevelBandKeepsBasicExploreOffTheSteps) {
 
 TEST(FindPath, TheStairGraphBridgesGapsButNotWalls) {
   VoxelMap map;
+  // Treads seven voxels apart; between them air was seen, and nothing below it.
+  for (int x = 0; x <= 14; ++x) SetState(map, {x, 0, x / 2}, VoxelState::kTraversableFake);
   for (const int x : {0, 7, 14}) SetState(map, {x, 0, x / 2}, VoxelState::kTraversableStair);
   const std::vector<VoxelKey> top{{14, 0, 7}};
   EXPECT_FALSE(FindPath(map, {0, 0, 0}, top, {}, {}).found());
