@@ -37,7 +37,8 @@ void DepthView::Fill() {
   for (; levels_[count - 1].columns > 1 || levels_[count - 1].rows > 1; ++count) FillCoarser(count);
   levels_.resize(count);
   for (Level& level : levels_) FillWindows(level);
-  dilations_.resize(kRadii.size());
+  dilations_.resize(kRadii.size() + 1);
+  dilations_.back().is_filled = false;
   for (std::size_t i = 0; i < kRadii.size(); ++i) {
     dilations_[i].radius = kRadii[i];
     dilations_[i].is_filled = false;
@@ -94,12 +95,15 @@ void DepthView::FillWindows(Level& level) {
 
 const float* DepthView::Dilated(double radius_px) {
   const double tiles = radius_px / (1 << kTileShift);
-  for (std::size_t i = 0; i < dilations_.size(); ++i) {
+  for (std::size_t i = 0; i < kRadii.size(); ++i) {
     if (dilations_[i].radius < tiles) continue;
     if (!dilations_[i].is_filled) FillDilation(static_cast<int>(i));
     return dilations_[i].tile.data();
   }
-  return nullptr;
+  Dilation& everywhere = dilations_.back();
+  if (!everywhere.is_filled) everywhere.tile.assign(levels_[0].tile.size(), max_reach_m_);
+  everywhere.is_filled = true;
+  return everywhere.tile.data();
 }
 
 void DepthView::FillDilation(int index) {

@@ -42,7 +42,7 @@ class DepthView {
   float MaxReach() const { return max_reach_m_; }
 
   /// Per finest tile, row by row: at least the greatest reach within `radius_px` of each of its
-  /// pixels. Made when first asked for in a frame; null where the radius is larger than is kept.
+  /// pixels. Made when first asked for in a frame.
   const float* Dilated(double radius_px);
 
   int tile_columns() const { return levels_[0].columns; }
@@ -72,7 +72,7 @@ class DepthView {
   float max_reach_m_ = 0;
   std::vector<float> reach_m_;
   std::vector<Level> levels_;
-  std::vector<Dilation> dilations_;
+  std::vector<Dilation> dilations_;  ///< growing; the last one is of any radius
   std::vector<float> scratch_;
 };
 

@@ -93,24 +93,40 @@ void ComputeRowLanes(const float* depth_m, int width, const RowRays& rays, RowEn
     if (u + rest.special[i] < width) ends->special[ends->special_count++] = u + rest.special[i];
 }
 
-void FindRunsLanes(int width, RowEnds* ends) {
+// Voxels of a row, from some pixel on.
+struct RowPart {
+  const std::int32_t *x, *y, *z;
+};
+
+// Lists `first` + i for every i < count where the two differ.
+int FindDifferent(RowPart a, RowPart b, int count, int first, std::int32_t* out) {
   const hn::ScalableTag<std::int32_t> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const std::int32_t *x = ends->x.data(), *y = ends->y.data(), *z = ends->z.data();
-  std::int32_t* starts = ends->starts.data();
-  int count = 0, u = 1;
-  const auto differs = [&](const std::int32_t* key) {
-    return hn::Ne(hn::LoadU(d, key + u), hn::LoadU(d, key + u - 1));
+  const auto differ = [&](const std::int32_t* p, const std::int32_t* q, int i) {
+    return hn::Ne(hn::LoadU(d, p + i), hn::LoadU(d, q + i));
   };
-  starts[count++] = 0;
-  for (; u + lanes <= width; u += lanes) {
-    const auto is_start = hn::Or(hn::Or(differs(x), differs(y)), differs(z));
-    if (hn::AllFalse(d, is_start)) continue;
-    count += static_cast<int>(hn::CompressStore(hn::Iota(d, u), is_start, d, starts + count));
+  int found = 0, i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const auto is_other =
+        hn::Or(hn::Or(differ(a.x, b.x, i), differ(a.y, b.y, i)), differ(a.z, b.z, i));
+    if (hn::AllFalse(d, is_other)) continue;
+    found += static_cast<int>(hn::CompressStore(hn::Iota(d, first + i), is_other, d, out + found));
   }
-  for (; u < width; ++u)
-    if (x[u] != x[u - 1] || y[u] != y[u - 1] || z[u] != z[u - 1]) starts[count++] = u;
-  ends->start_count = count;
+  for (; i < count; ++i)
+    if (a.x[i] != b.x[i] || a.y[i] != b.y[i] || a.z[i] != b.z[i]) out[found++] = first + i;
+  return found;
+}
+
+void FindRunsLanes(int width, RowEnds* ends) {
+  const RowPart row{ends->x.data(), ends->y.data(), ends->z.data()};
+  ends->starts[0] = 0;
+  ends->start_count = 1 + FindDifferent({row.x + 1, row.y + 1, row.z + 1}, row, width - 1, 1,
+                                        ends->starts.data() + 1);
+}
+
+int FindChangesLanes(int width, const RowEnds& row, const RowEnds& next, std::int32_t* out) {
+  return FindDifferent({row.x.data(), row.y.data(), row.z.data()},
+                       {next.x.data(), next.y.data(), next.z.data()}, width, 0, out);
 }
 
 }  // namespace crossnav::geometry::HWY_NAMESPACE
@@ -121,6 +137,7 @@ namespace crossnav::geometry {
 
 HWY_EXPORT(ComputeRowLanes);
 HWY_EXPORT(FindRunsLanes);
+HWY_EXPORT(FindChangesLanes);
 
 namespace {
 constexpr int kPad = 64;  // chosen: more lanes than any instruction set has
@@ -141,6 +158,10 @@ void ComputeRow(const float* depth_m, int width, const RowRays& rays, RowEnds* e
 
 void FindRuns(int width, RowEnds* ends) {
   HWY_DYNAMIC_DISPATCH(FindRunsLanes)(width, ends);
+}
+
+int FindChanges(int width, const RowEnds& row, const RowEnds& next, std::int32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(FindChangesLanes)(width, row, next, out);
 }
 
 }  // namespace crossnav::geometry

@@ -6,6 +6,7 @@
 #include "crossnav/geometry/back_projection.h"
 #include "crossnav/geometry/end_rows.h"
 #include "crossnav/geometry/frame.h"
+#include "crossnav/geometry/grazing.h"
 #include "crossnav/geometry/integrate.h"
 #include "crossnav/geometry/ray_walk.h"
 
@@ -43,15 +44,20 @@ void SettleSpecial(const MapConfig& config, const DepthFrame& frame, int v, RowE
   }
 }
 
-/// Marks each run of equal voxels once, and lists it unless the map is clipped there.
-void MarkRuns(const RowEnds& ends, int row_start, int width, FrameMarker& marker,
-              std::vector<EndRun>* runs) {
+/// Marks each run of equal voxels once and lists it; where the map is clipped, adds to `bounds`
+/// only.
+void MarkRuns(MapData& map, const RowEnds& ends, int v, FrameMarker& marker, KeyBounds* bounds) {
+  const int width = map.view.width();
   for (int i = 0; i < ends.start_count; ++i) {
     const int u = ends.starts[i];
     const VoxelKey key{ends.x[u], ends.y[u], ends.z[u]};
-    if (key.x == kNoEnd || !marker.MarkHit(key)) continue;
+    if (key.x == kNoEnd) continue;
+    if (!marker.MarkHit(key)) {
+      bounds->Add(key);
+      continue;
+    }
     const int end = i + 1 < ends.start_count ? ends.starts[i + 1] : width;
-    runs->push_back({row_start + u, end - u, key});
+    map.ends.runs()->push_back({v * width + u, end - u, key});
   }
 }
 
@@ -64,13 +70,19 @@ KeyBounds CollectEnds(MapData& map, const DepthFrame& frame) {
   KeyBounds bounds{camera_key, camera_key};
   FrameMarker marker(map);
   map.row_ends.Resize(width);
+  map.row_above.Resize(width);
   map.ends.Clear();
+  map.gaps.clear();
+  const bool is_counted = map.config.clearing == "evidence";
   for (int v = 0; v < height; ++v) {
     const float* depth_m = &frame.depth_m.data[static_cast<std::size_t>(v) * width];
     ComputeRow(depth_m, width, RaysOfRow(frame, map.config, v), &map.row_ends, map.view.Row(v));
     SettleSpecial(map.config, frame, v, &map.row_ends, &bounds);
     FindRuns(width, &map.row_ends);
-    MarkRuns(map.row_ends, v * width, width, marker, map.ends.runs());
+    MarkRuns(map, map.row_ends, v, marker, &bounds);
+    if (!is_counted) continue;
+    FindGaps(map, v, width, map.row_ends, v > 0 ? &map.row_above : nullptr);
+    std::swap(map.row_ends, map.row_above);
   }
   for (const GridEntry* entry : map.frame) {
     bounds.Add(KeyInBlock(entry->key, 0));

@@ -55,6 +55,9 @@ class Projection {
       : map_(map), frame_(frame), view_(map.view), K_(frame.camera) {
     const double s = map.config.voxel_m;
     start_ = frame.T_world_camera.translation() / s;
+    start_key_ = KeyOfVoxelPoint(start_);
+    fraction_ = start_ - Vector3d(start_key_.x, start_key_.y, start_key_.z);
+    nearest_m_ = 0.5 * s;
     to_camera_ = frame.T_world_camera.linear().transpose() * s;
     const Matrix3d R = frame.T_world_camera.linear() / s;
     per_u_ = R.col(0) / K_.fx;
@@ -94,15 +97,8 @@ class Projection {
     lanes_.width = view_.width();
     lanes_.height = view_.height();
     lanes_.reach_m = view_.Row(0);
-    for (int i = 0; i < 16; ++i) {
-      const Vector3d offset = to_camera_ * Vector3d(i & 3, i >> 2, 0);
-      lanes_.dx[i] = static_cast<float>(offset.x());
-      lanes_.dy[i] = static_cast<float>(offset.y());
-      lanes_.dz[i] = static_cast<float>(offset.z());
-    }
-    lanes_.step_x = static_cast<float>(to_camera_(0, 2));
-    lanes_.step_y = static_cast<float>(to_camera_(1, 2));
-    lanes_.step_z = static_cast<float>(to_camera_(2, 2));
+    for (int a = 0; a < 9; ++a) lanes_.to_camera[a] = static_cast<float>(to_camera_(a / 3, a % 3));
+    for (int a = 0; a < 3; ++a) lanes_.fraction[a] = static_cast<float>(fraction_[a]);
     lanes_.half_x = static_cast<float>(cubes_[0].half.x());
     lanes_.half_y = static_cast<float>(cubes_[0].half.y());
     lanes_.half_z = static_cast<float>(cubes_[0].half.z());
@@ -152,7 +148,10 @@ class Projection {
   }
 
   Vector3d CameraPointOf(const VoxelKey& key, double center) const {
-    return to_camera_ * (Vector3d(key.x + center, key.y + center, key.z + center) - start_);
+    const VoxelKey offset = key - start_key_;
+    return to_camera_ * Vector3d(offset.x + (center - fraction_.x()),
+                                 offset.y + (center - fraction_.y()),
+                                 offset.z + (center - fraction_.z()));
   }
 
   /// Voxels of the block whose evidence a passing ray could change.
@@ -187,29 +186,32 @@ class Projection {
   std::uint64_t AskPart(const VoxelKey& first, const Vector3d& center, std::uint64_t asked) {
     const CubeView cube = ViewOf(center, cubes_[2]);
     if (!MayReach(cube)) return 0;
-    const float* dilated = nullptr;
-    if (cube.z_near > 0.25 * cubes_[2].half.z())
-      dilated = view_.Dilated(PictureRadius(cube, center));
-    return dilated != nullptr ? AskInLanes(first, center, dilated, asked)
-                              : AskOneByOne(first, asked);
+    std::uint64_t at_camera = 0;
+    if (cube.z_near < nearest_m_) at_camera = AtCamera(first, asked);
+    LaneCube lanes;
+    lanes.first = {static_cast<float>(first.x - start_key_.x),
+                   static_cast<float>(first.y - start_key_.y),
+                   static_cast<float>(first.z - start_key_.z)};
+    lanes.dilated_m = view_.Dilated(PictureRadius(cube, center));
+    lanes.columns = view_.tile_columns();
+    lanes.asked = asked & ~at_camera;
+    lanes.rows = is_exact_ ? 0 : kRows;
+    LaneAnswer answer;
+    if (lanes.asked != 0) answer = AskLaneCube(lanes_, lanes);
+    return answer.passed |
+           AskOneByOne(first, at_camera | (is_exact_ ? answer.possible : std::uint64_t{0}));
   }
 
-  /// `first`: the part's first voxel. Bits as PartBits.
-  std::uint64_t AskInLanes(const VoxelKey& first, const Vector3d& center, const float* dilated,
-                           std::uint64_t asked) const {
-    const Vector3d corner = center - to_camera_ * Vector3d::Constant(1.5);
-    LaneCube cube;
-    cube.x = static_cast<float>(corner.x());
-    cube.y = static_cast<float>(corner.y());
-    cube.z = static_cast<float>(corner.z());
-    cube.lo = {static_cast<float>(first.x - start_.x()), static_cast<float>(first.y - start_.y()),
-               static_cast<float>(first.z - start_.z())};
-    cube.dilated_m = dilated;
-    cube.columns = view_.tile_columns();
-    cube.asked = asked;
-    cube.rows = is_exact_ ? 0 : kRows;
-    const LaneAnswer answer = AskLaneCube(lanes_, cube);
-    return is_exact_ ? answer.passed | AskOneByOne(first, answer.possible) : answer.passed;
+  /// Voxels too near for the lanes.
+  std::uint64_t AtCamera(const VoxelKey& first, std::uint64_t asked) const {
+    std::uint64_t near = 0;
+    for (; asked != 0; asked &= asked - 1) {
+      const int i = std::countr_zero(asked);
+      const VoxelKey key = first + VoxelKey{i & 3, (i >> 2) & 3, i >> 4};
+      if (CameraPointOf(key, 0.5).z() - cubes_[0].half.z() < nearest_m_)
+        near |= std::uint64_t{1} << i;
+    }
+    return near;
   }
 
   /// The same in double: at the camera, and where float cannot decide.
@@ -228,15 +230,13 @@ class Projection {
 
   /// At least half the size, in pixels, of the picture of any voxel of the part.
   double PictureRadius(const CubeView& cube, const Vector3d& center) const {
-    const double inverse = 1 / cube.z_near, middle = 1 / center.z();
-    const double x = std::abs(center.x()) * middle, y = std::abs(center.y()) * middle;
     const Vector3d& part = cubes_[2].half;
     const Vector3d& half = cubes_[0].half;
-    const double far_x = x + (part.x() + x * part.z()) * inverse;
-    const double far_y = y + (part.y() + y * part.z()) * inverse;
+    const double inverse = 1 / std::max(cube.z_near, nearest_m_);
+    const double x = (std::abs(center.x()) + part.x()) * inverse;
+    const double y = (std::abs(center.y()) + part.y()) * inverse;
     return 3 +
-           std::max(K_.fx * (half.x() + far_x * half.z()), K_.fy * (half.y() + far_y * half.z())) *
-               inverse;
+           inverse * std::max(K_.fx * (half.x() + x * half.z()), K_.fy * (half.y() + y * half.z()));
   }
 
   /// Bit x + 4 y + 16 z of the part at `at`.
@@ -404,7 +404,10 @@ class Projection {
   DepthView& view_;
   LaneFrame lanes_;
   const CameraIntrinsics& K_;
-  Vector3d start_;                       ///< camera [voxels]
+  Vector3d start_;  ///< camera [voxels]
+  VoxelKey start_key_;
+  Vector3d fraction_;                    ///< of start_ in its voxel
+  double nearest_m_ = 0;                 ///< voxels that begin nearer are asked one by one
   Matrix3d to_camera_;                   ///< voxels from the camera -> camera frame [m]
   Vector3d per_u_, per_v_, forward_;     ///< ray of (u, v): voxels per metre of depth
   std::array<Vector3d, 4> inward_;       ///< normals of the image's side planes, camera frame

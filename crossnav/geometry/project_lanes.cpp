@@ -19,7 +19,8 @@ using Index = hn::RebindToSigned<Wide>;
 using V = hn::Vec<Wide>;
 using M = hn::Mask<Wide>;
 
-constexpr int kTileShift = 2;  // DepthView's
+constexpr int kTileShift = 2;    // DepthView's
+constexpr int kLargest_px = 48;  // chosen: larger pictures are better asked part by part
 
 HWY_INLINE std::uint64_t BitsOf(M mask) {
   std::array<std::uint8_t, 8> bytes{};
@@ -103,6 +104,12 @@ HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p
   return may;
 }
 
+// Offsets along x and y of a slice of 4 x 4 voxels.
+alignas(64) constexpr std::array<float, 16> kSliceX = {0, 1, 2, 3, 0, 1, 2, 3,
+                                                       0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) constexpr std::array<float, 16> kSliceY = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                       2, 2, 2, 2, 3, 3, 3, 3};
+
 // The voxels' pictures; returns those passed at the centre, and those that may be passed.
 HWY_INLINE LaneAnswer AskCenters(const LaneFrame& f, const LaneCube& cube, Pictures* out) {
   const Wide d;
@@ -111,20 +118,26 @@ HWY_INLINE LaneAnswer AskCenters(const LaneFrame& f, const LaneCube& cube, Pictu
   LaneAnswer answer;
   for (int z = 0; z < 4; ++z) {
     for (int i = 0; i < 16; i += kLanes) {
-      const auto along = [&](float first, float step, const std::array<float, 16>& offset) {
-        return hn::Add(hn::Set(d, first + step * static_cast<float>(z)),
-                       hn::LoadU(d, offset.data() + i));
+      // From the camera to the voxels' centres, in voxels.
+      const V nx = hn::Add(hn::Add(hn::Set(d, cube.first[0]), hn::LoadU(d, kSliceX.data() + i)),
+                           hn::Set(d, 0.5F - f.fraction[0]));
+      const V ny = hn::Add(hn::Add(hn::Set(d, cube.first[1]), hn::LoadU(d, kSliceY.data() + i)),
+                           hn::Set(d, 0.5F - f.fraction[1]));
+      const V nz = hn::Set(d, cube.first[2] + static_cast<float>(z) + (0.5F - f.fraction[2]));
+      const auto in_camera = [&](int axis) {
+        const float* row = f.to_camera.data() + 3 * axis;
+        return hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), nx), hn::Mul(hn::Set(d, row[1]), ny)),
+                       hn::Mul(hn::Set(d, row[2]), nz));
       };
-      const V x = along(cube.x, f.step_x, f.dx), y = along(cube.y, f.step_y, f.dy);
       Picture p;
-      p.z = along(cube.z, f.step_z, f.dz);
+      p.z = in_camera(2);
       const V inverse = hn::Div(hn::Set(d, 1.0F), p.z);
       const auto pixel = [&](V at, float focal, float center) {
         const V px = hn::Add(hn::Mul(hn::Mul(hn::Set(d, focal), at), inverse), hn::Set(d, center));
         return hn::Max(hn::Neg(far_px), hn::Min(px, far_px));
       };
-      p.u = pixel(x, f.fx, f.cx);
-      p.v = pixel(y, f.fy, f.cy);
+      p.u = pixel(in_camera(0), f.fx, f.cx);
+      p.v = pixel(in_camera(1), f.fy, f.cy);
       const int place = 16 * z + i;
       const M passed = PassedAtCenter(f, p);
       const M possible = hn::AndNot(passed, MayReach(f, cube, p, place, out));
@@ -191,17 +204,22 @@ LaneAnswer AskCube(const LaneFrame& f, const LaneCube& cube) {
   answer.possible = 0;
   for (; left != 0; left &= left - 1) {
     const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
+    const int width = pictures.u1[i] - pictures.u0[i] + 1;
     const int height = pictures.v1[i] - pictures.v0[i] + 1;
+    if (cube.rows == 0 && HWY_MAX(width, height) > kLargest_px) {
+      answer.possible |= std::uint64_t{1} << i;
+      continue;
+    }
     const int step = cube.rows == 0 ? 1 : HWY_MAX(1, height / cube.rows);
-    const LaneRows rows{
-        pictures.u0[i],
-        pictures.u1[i],
-        pictures.v0[i] + step / 2,
-        pictures.v1[i],
-        step,
-        pictures.z_near_m[i],
-        {cube.lo[0] + static_cast<float>(i & 3), cube.lo[1] + static_cast<float>((i >> 2) & 3),
-         cube.lo[2] + static_cast<float>(i >> 4)}};
+    const LaneRows rows{pictures.u0[i],
+                        pictures.u1[i],
+                        pictures.v0[i] + step / 2,
+                        pictures.v1[i],
+                        step,
+                        pictures.z_near_m[i],
+                        {cube.first[0] + static_cast<float>(i & 3) - f.fraction[0],
+                         cube.first[1] + static_cast<float>((i >> 2) & 3) - f.fraction[1],
+                         cube.first[2] + static_cast<float>(i >> 4) - f.fraction[2]}};
     const RowsAnswer found = AskRows(f, rows);
     if (found == RowsAnswer::kCertain) answer.passed |= std::uint64_t{1} << i;
     if (found == RowsAnswer::kPossible) answer.possible |= std::uint64_t{1} << i;

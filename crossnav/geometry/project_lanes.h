@@ -15,8 +15,8 @@ struct LaneFrame {
   float fx = 0, fy = 0, cx = 0, cy = 0;  // [px]
   int width = 0, height = 0;
   const float* reach_m = nullptr;            // DepthView
-  std::array<float, 16> dx{}, dy{}, dz{};    ///< camera offsets of a slice of 4 x 4 voxels [m]
-  float step_x = 0, step_y = 0, step_z = 0;  ///< camera offset from slice to slice
+  std::array<float, 9> to_camera{};          ///< voxels -> camera frame [m], row by row
+  std::array<float, 3> fraction{};           ///< of the camera's position in its voxel
   float half_x = 0, half_y = 0, half_z = 0;  ///< half extent of a voxel along the camera's axes
   float ball_m2 = 0;                         ///< square of the radius of a voxel's inner ball
   float margin_m = 0;
@@ -25,10 +25,10 @@ struct LaneFrame {
   float slack_m = 0;                      ///< of times of crossing
 };
 
-/// 4 x 4 x 4 voxels in front of the camera. Bit x + 4 y + 16 z.
+/// 4 x 4 x 4 voxels, those asked in front of the camera. Bit x + 4 y + 16 z. What is computed for a
+/// voxel depends on its offset from the camera's voxel only, not on the part it is in.
 struct LaneCube {
-  float x = 0, y = 0, z = 0;         ///< centre of its first voxel, camera frame [m]
-  std::array<float, 3> lo{};         ///< lower faces of its first voxel, from the camera [voxels]
+  std::array<float, 3> first{};      ///< its first voxel's offset from the camera's voxel
   const float* dilated_m = nullptr;  ///< DepthView::Dilated for the size of the voxels' pictures
   int columns = 0;                   ///< of `dilated_m`, in tiles
   std::uint64_t asked = 0;
@@ -37,7 +37,7 @@ struct LaneCube {
 
 struct LaneAnswer {
   std::uint64_t passed = 0;    ///< some ray certainly passes the voxel before it ends
-  std::uint64_t possible = 0;  ///< with rows = 0: float cannot decide. The others: none passes
+  std::uint64_t possible = 0;  ///< with rows = 0: not decided here. The others: none passes
 };
 
 LaneAnswer AskLaneCube(const LaneFrame& frame, const LaneCube& cube);

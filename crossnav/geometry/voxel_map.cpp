@@ -8,10 +8,15 @@
 #include "crossnav/core/check.h"
 #include "crossnav/geometry/classify.h"
 #include "crossnav/geometry/frame.h"
+#include "crossnav/geometry/grazing.h"
 #include "crossnav/geometry/integrate.h"
 #include "crossnav/geometry/map_data.h"
 
 namespace crossnav::geometry {
+
+namespace {
+constexpr double kFarthest_m = 1e6;  // chosen: far beyond any house, far within a voxel index
+}  // namespace
 
 MapCells CellsOf(const MapConfig& config) {
   MapCells cells;
@@ -51,7 +56,9 @@ std::uint64_t VoxelMap::Revision() const {
 
 const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntrinsics& camera,
                                      const Pose& T_world_camera) {
-  CROSSNAV_CHECK(T_world_camera.matrix().allFinite(), "the pose must be finite");
+  CROSSNAV_CHECK(T_world_camera.matrix().allFinite() &&
+                     T_world_camera.translation().cwiseAbs().maxCoeff() < kFarthest_m,
+                 "the pose must be finite and within voxel indices");
   CROSSNAV_CHECK(depth_m.width == camera.width_px && depth_m.height == camera.height_px,
                  "depth image and camera differ in size");
   const DepthFrame frame{depth_m, camera, T_world_camera};
@@ -61,6 +68,7 @@ const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntr
     CollectFreeByProjection(*data_, frame, bounds);
   else
     CollectFreeByWalking(*data_, frame);
+  SpareSurfacesInGaps(*data_, frame);
   MergeFrame(*data_);
   return data_->ends;
 }

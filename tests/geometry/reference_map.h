@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <string>
+#include <unordered_set>
 
 #include "crossnav/core/camera.h"
 #include "crossnav/core/image.h"
@@ -16,7 +16,7 @@
 
 namespace crossnav::geometry::testing {
 
-using KeySet = std::set<VoxelKey>;
+using KeySet = std::unordered_set<VoxelKey, VoxelKeyHash>;
 
 struct FrameSets {
   KeySet hit;
