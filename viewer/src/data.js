@@ -98,6 +98,11 @@ export function logLines(replay) {
   return lines;
 }
 
+/// A figure with so many decimals; a dash for what was not finite when it was written.
+export function figure(value, decimals) {
+  return value === null ? "–" : value.toFixed(decimals);
+}
+
 export function words(name) {
   return name.replace(/_/g, " ");
 }

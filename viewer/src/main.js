@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together: reads the embedded data, draws on demand, listens to keys and pointer.
 import { OrbitCamera } from "./camera.js";
-import { bytesOfBase64, floorLevels, floorOf, inflate, words } from "./data.js";
+import { bytesOfBase64, figure, floorLevels, floorOf, inflate, words } from "./data.js";
 import { Overlay } from "./overlay.js";
 import {
   CameraPanel, CandidatesPanel, GoalsHead, LogPanel, StatusPanel, VerificationPanel, byId, make,
@@ -88,6 +88,7 @@ class ReplayApp {
     this.overlay.highlight = -1;
     for (const panel of this.panels) panel.show(this.index);
     const last = this.replay.steps[this.replay.steps.length - 1].step;
+    byId("timeline").setAttribute("aria-valuenow", String(this.index));
     byId("counter").textContent = `step ${this.replay.steps[this.index].step} of ${last}`;
     this.redraw();
   }
@@ -343,8 +344,8 @@ function connectPointer(app) {
     tooltip.hidden = !spot;
     if (!spot) return;
     const c = spot.candidate;
-    tooltip.textContent = `${kindOf(c.kind).label}: score ${c.score.toFixed(2)}, ` +
-      `path cost ${c.path_cost < 0 ? "not planned" : c.path_cost.toFixed(1)}, ${c.size} voxels`;
+    tooltip.textContent = `${kindOf(c.kind).label}: score ${figure(c.score, 2)}, ` +
+      `path cost ${c.path_cost < 0 ? "not planned" : figure(c.path_cost, 1)}, ${c.size} voxels`;
     tooltip.style.left = `${Math.min(spot.x + 14, box.width - 260)}px`;
     tooltip.style.top = `${spot.y + 12}px`;
   });

@@ -56,7 +56,7 @@ export class Overlay {
   }
 
   drawCandidate(candidate, index) {
-    if (!this.builder.isShown(candidate.p_nav_world)) return;
+    if (!candidate.is_target && !this.builder.isShown(candidate.p_nav_world)) return;
     const at = this.project(candidate.p_nav_world);
     if (!at) return;
     const c = this.context, kind = kindOf(candidate.kind);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The panels beside the 3D view: what the camera saw, what the agent decided and why.
-import { floorOf, logLines, words } from "./data.js";
+import { figure, floorOf, logLines, words } from "./data.js";
 import { GOAL_COLOURS, MODE_COLOURS, kindOf } from "./scene.js";
 
 export function byId(id) {
@@ -117,8 +117,8 @@ export class StatusPanel {
     const facts = [
       ["Goal", words(step.goal)],
       ["Action", words(step.action)],
-      ["Floor", `${floor} (${step.level_m.toFixed(2)} m)`],
-      ["Position", step.agent.p_world.map((v) => v.toFixed(2)).join(", ")],
+      ["Floor", `${floor} (${figure(step.level_m, 2)} m)`],
+      ["Position", step.agent.p_world.map((v) => figure(v, 2)).join(", ")],
       ["Heading", `${degrees(step.agent.yaw_rad)}, pitch ${degrees(step.agent.pitch_rad)}`],
       ["Detections", `${step.detections}${step.all_explored ? ", all explored" : ""}`],
     ];
@@ -145,10 +145,10 @@ export class CandidatesPanel {
     const kind = kindOf(candidate.kind);
     const mark = badge(kind.mark, kind.colour);
     const name = make("td", "kind", [mark, make("span", "", kind.label)]);
-    const cost = candidate.path_cost < 0 ? "–" : candidate.path_cost.toFixed(1);
+    const cost = candidate.path_cost < 0 ? "–" : figure(candidate.path_cost, 1);
     const row = make("tr", candidate.is_target ? "target" : candidate.is_reachable ? "" : "unreachable", [
       name,
-      make("td", "number", candidate.score.toFixed(2)),
+      make("td", "number", figure(candidate.score, 2)),
       make("td", "number", cost),
       make("td", "number", String(candidate.size)),
       make("td", "", candidate.is_target ? "target" : candidate.is_reachable ? "" : "no path"),
@@ -164,11 +164,11 @@ export class CandidatesPanel {
 }
 
 const CHECKS = [
-  ["confidence", "Confidence", (v) => v.toFixed(2)],
-  ["mask_quality", "Mask quality", (v) => v.toFixed(2)],
-  ["visibility", "Visibility", (v) => v.toFixed(2)],
-  ["view_angle_deg", "View angle", (v) => `${v.toFixed(0)}°`],
-  ["distance_m", "Distance", (v) => `${v.toFixed(2)} m`],
+  ["confidence", "Confidence", (v) => figure(v, 2)],
+  ["mask_quality", "Mask quality", (v) => figure(v, 2)],
+  ["visibility", "Visibility", (v) => figure(v, 2)],
+  ["view_angle_deg", "View angle", (v) => `${figure(v, 0)}°`],
+  ["distance_m", "Distance", (v) => `${figure(v, 2)} m`],
 ];
 
 export class VerificationPanel {
@@ -260,8 +260,8 @@ export class GoalsHead {
       if (isOver) {
         chip.append(make("span", stage.success ? "good" : "bad",
           stage.success ? "✓ found" : "✗ " + words(stage.outcome)));
-        chip.title = `${stage.outcome}: walked ${stage.length_m.toFixed(1)} m, ` +
-          `shortest ${stage.shortest_m.toFixed(1)} m`;
+        chip.title = `${stage.outcome}: walked ${figure(stage.length_m, 1)} m, ` +
+          `shortest ${figure(stage.shortest_m, 1)} m`;
       }
       chip.classList.toggle("current", i === now.goal_index);
       const first = this.replay.steps.findIndex((s) => s.goal_index === i);

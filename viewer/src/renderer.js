@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws with WebGL 2: voxel faces (one instance a face), wide lines, shaded triangles.
 import { FLOOR_MARGIN_M } from "./data.js";
-import { FACE_BYTES } from "./voxels.js";
+import { COVERED, FACE_BYTES } from "./voxels.js";
 
 // Floors are cut at a height above their level and can be moved apart; the same rule as in scene.js.
 const FLOOR_RULE = `
@@ -29,6 +29,8 @@ out vec2 v_uv;
 const vec3 NORMAL[5] = vec3[5](vec3(1,0,0), vec3(-1,0,0), vec3(0,1,0), vec3(0,-1,0), vec3(0,0,1));
 void main() {
   int direction = int(a_face.x), packed = int(a_face.y);
+  bool isCovered = direction >= ${COVERED};
+  if (isCovered) direction -= ${COVERED};
   int state = packed & 7, above = packed >> 4;
   v_uv = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   vec3 n = NORMAL[direction];
@@ -39,7 +41,9 @@ void main() {
   int f = floorOf(z);
   bool isStair = state >= 5;
   float height = z - u_levels[f];
-  if (f < u_lowFloor || f > u_highFloor || (!isStair && height > u_cut)) {
+  bool isCut = !isStair && height > u_cut;
+  bool isLid = !isStair && height + u_voxel > u_cut;
+  if (f < u_lowFloor || f > u_highFloor || isCut || (isCovered && !isLid)) {
     gl_Position = vec4(2, 2, 2, 1);
     return;
   }
@@ -49,7 +53,7 @@ void main() {
   vec3 colour = u_colours[state];
   int airState = above & 7;
   bool inflated = above >= 8;
-  if (direction == 4 && state == 1 && airState == 2) colour = inflated ? u_inflated : u_walkable;
+  if (direction == 4 && state == 1 && !isCovered && airState == 2) colour = inflated ? u_inflated : u_walkable;
   if (direction == 4 && isStair && airState == 3 && inflated) colour = mix(colour, u_inflated, 0.4);
   float light = direction == 4 ? 1.0 : direction < 2 ? 0.80 : 0.68;
   light *= 0.93 + 0.07 * clamp(height / 1.6, 0.0, 1.0);

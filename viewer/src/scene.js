@@ -81,7 +81,7 @@ export class SceneBuilder {
   addPath(out, step) {
     const path = step.path_world;
     for (let i = 1; i < path.length; ++i) {
-      this.addLine(out, above(path[i - 1], 0.02), above(path[i], 0.02), rgbOf(PATH_COLOUR), 1, 4);
+      this.addAnyLine(out, above(path[i - 1], 0.02), above(path[i], 0.02), rgbOf(PATH_COLOUR), 1, 4);
     }
   }
 

@@ -12,8 +12,8 @@ export class Timeline {
     this.goals = segments(replay.steps, (s) => s.goal_index);
     this.modes = segments(replay.steps, (s) => s.mode);
     this.marks = logLines(replay).filter((line) => line.kind !== "mode");
-    this.isPlaying = false;
-    this.index = 0;
+    canvas.setAttribute("aria-valuemin", "0");
+    canvas.setAttribute("aria-valuemax", String(this.count - 1));
     canvas.addEventListener("pointerdown", (e) => {
       canvas.setPointerCapture(e.pointerId);
       this.seekTo(e);
@@ -51,7 +51,6 @@ export class Timeline {
   }
 
   show(index, colours) {
-    this.index = index;
     const box = this.canvas.getBoundingClientRect(), ratio = window.devicePixelRatio || 1;
     const width = box.width, height = box.height;
     this.canvas.width = Math.round(width * ratio);

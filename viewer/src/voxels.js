@@ -8,6 +8,8 @@ export const FACE_BYTES = 8;
 // Faces looked at from below are never drawn: the camera stays above the horizon.
 const FACE_DIRECTIONS = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]];
 const UP = 4;
+/// Added to the direction of an upper face with a shown voxel on it: drawn only where walls are cut.
+export const COVERED = 8;
 
 function blockName(bx, by, bz) {
   return (bx + 32768) * 4294967296 + (by + 32768) * 65536 + (bz + 32768);
@@ -119,8 +121,9 @@ export function blockFaces(history, block, isShown) {
     for (let d = 0; d < FACE_DIRECTIONS.length; ++d) {
       const [dx, dy, dz] = FACE_DIRECTIONS[d];
       const next = history.get(x + dx, y + dy, z + dz);
-      if (isShown[next & 7]) continue;
-      out.push(x, y, z, d, state | (d === UP ? next << 4 : 0));
+      const isCovered = isShown[next & 7];
+      if (isCovered && d !== UP) continue;
+      out.push(x, y, z, isCovered ? d + COVERED : d, state | (d === UP ? next << 4 : 0));
     }
   }
   const faces = new DataView(new ArrayBuffer((out.length / 5) * FACE_BYTES));
