@@ -11,8 +11,9 @@
 namespace crossnav::geometry {
 namespace {
 
-// chosen: on a plane the inverse depth is linear over the image; its second difference may be this
-// share of the first. At an edge in depth one of two neighbouring first differences is near zero.
+// chosen: on a plane the inverse depth is linear over the image; steps from pixel to pixel may
+// differ by this share. At an edge in depth the steps on both sides are near zero against that of
+// the edge.
 constexpr double kBend = 0.5;
 constexpr double kFarthest_m = 1000;  // chosen: what is farther is no surface of a house
 
@@ -48,15 +49,61 @@ double InverseDepth(const DepthFrame& frame, int u, int v) {
   return z > 0 && z < kFarthest_m ? 1.0 / z : std::nan("");
 }
 
-/// True if the surface goes on from pixel to pixel as a plane does, as far as can be seen.
-bool IsOnPlane(const DepthFrame& frame, const PixelGap& gap) {
-  const int du = gap.is_column ? 0 : 1, dv = gap.is_column ? 1 : 0;
-  const auto at = [&](int i) { return InverseDepth(frame, gap.u + i * du, gap.v + i * dv); };
-  const double here = at(1) - at(0);
-  const auto bends = [&](double step) { return std::abs(step - here) > kBend * std::abs(here); };
-  const double before = at(0) - at(-1), after = at(2) - at(1);
-  if (std::isnan(here) || (std::isnan(before) && std::isnan(after))) return false;
-  return !bends(before) && !bends(after);  // a comparison with NaN is false
+/// Of a gap's line of pixels, from two before it to two after it: 0 and 1 are its own.
+class PixelLine {
+ public:
+  PixelLine(const DepthFrame& frame, const PixelGap& gap, double voxel_m)
+      : frame_(frame), gap_(gap), voxel_m_(voxel_m) {}
+
+  double InverseAt(int i) const {
+    return InverseDepth(frame_, gap_.u + (gap_.is_column ? 0 : i),
+                        gap_.v + (gap_.is_column ? i : 0));
+  }
+  /// The point seen `t` pixels after the gap's first, at that inverse depth [voxels].
+  Vector3d PointAt(double t, double inverse_depth) const {
+    return BackProjectToVoxels(frame_.camera, frame_.T_world_camera,
+                               gap_.u + (gap_.is_column ? 0 : t), gap_.v + (gap_.is_column ? t : 0),
+                               1 / inverse_depth, voxel_m_);
+  }
+
+ private:
+  const DepthFrame& frame_;
+  const PixelGap& gap_;
+  double voxel_m_;
+};
+
+bool IsSameSlope(double step, double other) {
+  return std::abs(step - other) <= kBend * std::abs(step);
+}
+
+/// The surface seen at pixel `from` and, going away from the gap, before it, goes on into the gap
+/// as a plane: on to the next ray, which ends in front of it, or to `depth_max_m`. Visits the
+/// segment.
+template <class F>
+void ContinuePlane(const PixelLine& line, int from, double depth_max_m, F&& visit) {
+  const int away = from == 0 ? -1 : 1;
+  const double here = line.InverseAt(from), next = line.InverseAt(from - away);
+  const double step = here - line.InverseAt(from + away);
+  const double step_before = line.InverseAt(from + away) - line.InverseAt(from + 2 * away);
+  if (!IsSameSlope(step, step_before) || !(step < 0)) return;  // false with NaN
+  if (next < here + step) return;                              // sees beyond the plane
+  const double t = std::min(1.0, (1 / depth_max_m - here) / step);
+  if (t > 0) visit(line.PointAt(from, here), line.PointAt(from - away * t, here + step * t));
+}
+
+/// Calls visit(a, b) for the segments of surface in the gap [voxels].
+template <class F>
+void ForEachSegment(const PixelLine& line, bool is_wide, double depth_max_m, F&& visit) {
+  const double first = line.InverseAt(0), second = line.InverseAt(1);
+  const double here = second - first;
+  const bool is_plane = !is_wide || IsSameSlope(here, first - line.InverseAt(-1)) ||
+                        IsSameSlope(here, line.InverseAt(2) - second);
+  if (is_plane && !std::isnan(here)) {
+    visit(line.PointAt(0, first), line.PointAt(1, second));
+    return;
+  }
+  ContinuePlane(line, 0, depth_max_m, visit);
+  ContinuePlane(line, 1, depth_max_m, visit);
 }
 
 }  // namespace
@@ -77,20 +124,17 @@ void FindGaps(MapData& map, int v, int width, const RowEnds& row, const RowEnds*
 
 void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame) {
   GridCursor<VoxelBlock> cursor(map.grid);
-  const auto end_of = [&](int u, int v) {
-    return BackProjectToVoxels(frame.camera, frame.T_world_camera, u, v, frame.depth_m.At(u, v),
-                               map.config.voxel_m);
-  };
-  for (const PixelGap& gap : map.gaps) {
-    if (gap.is_wide && !IsOnPlane(frame, gap)) continue;
-    const int u = gap.u + (gap.is_column ? 0 : 1), v = gap.v + (gap.is_column ? 1 : 0);
-    WalkRay(end_of(gap.u, gap.v), end_of(u, v), [&](const VoxelKey& key) {
+  const auto spare = [&](const Vector3d& a_vox, const Vector3d& b_vox) {
+    WalkRay(a_vox, b_vox, [&](const VoxelKey& key) {
       VoxelBlock* block = cursor.Find(key);
       if (block != nullptr && block->hit.Test(CellIndexOf(key)))
         block->frame_free.Reset(CellIndexOf(key));
       return true;
     });
-  }
+  };
+  for (const PixelGap& gap : map.gaps)
+    ForEachSegment(PixelLine(frame, gap, map.config.voxel_m), gap.is_wide, map.config.depth_max_m,
+                   spare);
 }
 
 }  // namespace crossnav::geometry
