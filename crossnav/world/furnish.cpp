@@ -28,9 +28,16 @@ Box3 Solid(const Rect& r, double z0, double z1) {
   return b;
 }
 
+/// More than the tolerance, which is smaller for thin things: a picture would fit anywhere.
 bool Overlap(const Box3& a, const Box3& b) {
   const Vector3d shared = a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min);
-  return shared.minCoeff() > kOverlapTolerance_m;
+  const double thinnest = std::min((a.max - a.min).minCoeff(), (b.max - b.min).minCoeff());
+  return shared.minCoeff() > std::min(kOverlapTolerance_m, 0.3 * thinnest);
+}
+
+/// Rugs lie under everything.
+bool IsFlat(const Box3& b) {
+  return b.max.z() - b.min.z() < 0.02;
 }
 
 bool Inside(const Rect& in, const Rect& out) {
@@ -160,6 +167,7 @@ class RoomFiller {
     for (const auto& item : group.items) {
       const Box3 box = BoxAt(item.model, T * item.T_group_object);
       if (box.max.z() > ceiling_m_ + 1e-6) return false;
+      if (IsFlat(box)) continue;
       const auto hits = [&](const Box3& b) { return Overlap(box, b); };
       if (std::any_of(keep_out_.begin(), keep_out_.end(), hits) ||
           std::any_of(bodies_.begin(), bodies_.end(), hits) ||
@@ -173,7 +181,8 @@ class RoomFiller {
   void Put(Group group, const Pose& T, const Rect& front) {
     for (auto& item : group.items) {
       const Pose T_world = T * item.T_group_object;
-      bodies_.push_back(BoxAt(item.model, T_world));
+      const Box3 box = BoxAt(item.model, T_world);
+      if (!IsFlat(box)) bodies_.push_back(box);
       plan_.furniture.push_back({std::move(item.model), T_world, index_});
     }
     if (front.Area() > 1e-6) fronts_.push_back(Solid(front, floor_m_ + 0.05, floor_m_ + 1.2));

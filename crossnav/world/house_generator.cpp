@@ -88,7 +88,6 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
     }
     if (auto ok = CheckHouse(*plan, scene, *navmesh); !ok) {
       ++report.refusals[ok.error().what];
-      if (getenv("DBG")) { fmt::print("  {}\n", ok.error().Message()); (void)WriteScene(scene, out_dir / "bad" / std::to_string(attempt)); }
       continue;
     }
     report.area_m2 = navmesh->AreaM2();

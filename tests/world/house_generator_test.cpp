@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/house_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "crossnav/sim/navmesh.h"
+#include "crossnav/world/architecture.h"
+#include "crossnav/world/glb_writer.h"
+#include "crossnav/world/groups.h"
+#include "crossnav/world/house_gate.h"
+#include "temp_dir.h"
+
+namespace crossnav::world {
+namespace {
+
+std::string ReadAll(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+
+TEST(HouseGenerator, WritesAHouseThatTheReaderAccepts) {
+  const TempDir dir;
+  HouseParams params;
+  params.seed = 5;
+  params.floors = 2;
+  params.area_m2 = 90;
+  const auto report = GenerateHouse(params, dir.path());
+  ASSERT_TRUE(report.has_value()) << report.error().Message();
+  EXPECT_EQ(report->floors, 2);
+  EXPECT_GE(report->instances.size(), 5U);
+  EXPECT_LT(report->bytes, kMaxSceneBytes);
+  const auto scene = sim::LoadScene(report->folder);
+  ASSERT_TRUE(scene.has_value()) << scene.error().Message();
+  const auto navmesh = sim::NavMesh::Build(*scene, {});
+  ASSERT_TRUE(navmesh.has_value());
+  EXPECT_GE(navmesh->Floors().size(), 2U);
+  EXPECT_GE(navmesh->Connections().size(), 1U);
+}
+
+TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
+  const TempDir dir;
+  HouseParams params;
+  params.seed = 9;
+  params.floors = 1;
+  params.area_m2 = 70;
+  const auto a = GenerateHouse(params, dir.path() / "a"),
+             b = GenerateHouse(params, dir.path() / "b");
+  ASSERT_TRUE(a && b);
+  const std::string file = "House9.glb";
+  EXPECT_EQ(ReadAll(a->folder / file), ReadAll(b->folder / file));
+  params.seed = 10;
+  const auto c = GenerateHouse(params, dir.path() / "c");
+  ASSERT_TRUE(c.has_value());
+  EXPECT_NE(ReadAll(a->folder / file), ReadAll(c->folder / "House10.glb"));
+}
+
+TEST(HouseGenerator, RefusesImpossibleWishes) {
+  const TempDir dir;
+  HouseParams params;
+  params.floors = 5;
+  EXPECT_EQ(GenerateHouse(params, dir.path()).error().where, "world.floors");
+  params.floors = 2;
+  params.area_m2 = 30;
+  EXPECT_EQ(GenerateHouse(params, dir.path()).error().where, "world.area_m2");
+}
+
+TEST(HouseGenerator, FurnitureKeepsDoorsFree) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    HouseParams params;
+    params.seed = seed;
+    params.floors = 1;
+    params.area_m2 = 100;
+    const auto plan = DrawFurnishedPlan(params, 0);
+    if (!plan) continue;  // this draw did not work out; the generator would take the next
+    for (const Wall& wall : plan->walls) {
+      for (const Opening& o : wall.openings) {
+        if (o.kind == OpeningKind::kWindow) continue;
+        const Vector2d c = wall.a + (wall.b - wall.a).normalized() * o.center_m;
+        for (const Placement& p : plan->furniture) {
+          const Box3 box = BoxAt(p.model, p.T_world_object);
+          if (box.max.z() < 0.03 || box.min.z() > 2.05) continue;
+          EXPECT_GT(box.HorizontalDistance({c.x(), c.y(), 0}), 0.3) << p.model.name;
+        }
+      }
+    }
+  }
+}
+
+/// A house of one room with a chair, a wall across it, or a second storey without a stair.
+TEST(HouseGate, RefusesWhatCannotBeReached) {
+  HouseParams params;
+  params.seed = 5;
+  params.floors = 2;
+  params.area_m2 = 90;
+  Result<HousePlan> plan = DrawFurnishedPlan(params, 0);
+  for (int attempt = 1; !plan && attempt < 8; ++attempt) plan = DrawFurnishedPlan(params, attempt);
+  ASSERT_TRUE(plan.has_value());
+  const auto check = [](const HousePlan& p) {
+    const sim::Scene scene = BuildHouse(p);
+    const auto navmesh = sim::NavMesh::Build(scene, {});
+    return CheckHouse(p, scene, *navmesh);
+  };
+  HousePlan no_stairs = *plan;
+  no_stairs.stairs.clear();
+  EXPECT_FALSE(check(no_stairs).has_value());
+
+  HousePlan walled_up = *plan;
+  for (Wall& wall : walled_up.walls) wall.openings.clear();
+  EXPECT_FALSE(check(walled_up).has_value());
+
+  HousePlan empty = *plan;
+  empty.furniture.clear();
+  EXPECT_EQ(check(empty).error().what, "fewer than five categories");
+
+  HousePlan doubled = *plan;
+  doubled.furniture.push_back(doubled.furniture.front());
+  EXPECT_EQ(check(doubled).error().what, "furniture intersects");
+}
+
+}  // namespace
+}  // namespace crossnav::world
