@@ -265,10 +265,11 @@ std::optional<Target> ChooseStairFrontier(const Situation& now) {
   const auto frontiers = StairFrontiers(*now.goal.session, now.world.map, now.agent.p_world);
   const double here_m =
       now.goal.session->direction * (now.agent.p_world.z() - now.goal.session->entrance_level_m);
-  planner::PlannerConfig local = now.config.planner;
-  local.max_expansions = 8000;  // chosen: a flight and its landings
   // Steps that were seen one by one first; the sphere bridges treads that hide behind their risers.
   for (const GraphKind kind : {GraphKind::kNormal, GraphKind::kStair}) {
+    planner::PlannerConfig local = now.config.planner;
+    // chosen: a flight and its landings; an expansion of the sphere looks at 4,188 neighbours.
+    local.max_expansions = kind == GraphKind::kNormal ? 8000 : 400;
     for (const Candidate& candidate : frontiers) {
       const bool is_behind = candidate.score < here_m + 0.1;
       if (is_behind && kind == GraphKind::kNormal) break;

@@ -18,11 +18,12 @@ using Cursor = VoxelMap::Cursor;
 constexpr std::array<VoxelKey, 4> kSides = {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
 
 /// A surface seen from below only: the ceiling of the storey underneath, 0.2 to 0.3 m below a
-/// floor.
+/// floor. It may lie on a voxel border and fill two layers.
 bool IsCeilingBelow(Cursor& map, const VoxelKey& key) {
-  if (!IsSurface(map.At(key).state)) return false;
-  const VoxelState below = map.At({key.x, key.y, key.z - 1}).state;
-  return below != VoxelState::kUnknown && !IsSurface(below);
+  VoxelKey below = key;
+  while (key.z - below.z < 3 && IsSurface(map.At(below).state)) --below.z;
+  const VoxelState state = map.At(below).state;
+  return below != key && state != VoxelState::kUnknown && !IsSurface(state);
 }
 
 /// Nothing observed at `key` nor within +-`reach_vox` in its column. What was seen of the storey
