@@ -80,7 +80,8 @@ Result<std::vector<StateChange>> DecodeVoxelRuns(std::string_view runs, std::siz
     if (!run) return Fail(ErrorCode::kMalformed, "the last run is cut short", where);
     bool is_valid = run->value < 16 && run->length > 0 && run->length <= max_count - changes.size();
     for (std::size_t axis = 0; axis < 3 && is_valid; ++axis) {
-      is_valid = std::abs(run->step[axis]) < kReach && FitsKey(key[axis] + run->step[axis]);
+      is_valid = run->step[axis] > -kReach && run->step[axis] < kReach &&
+                 FitsKey(key[axis] + run->step[axis]);
       key[axis] += is_valid ? run->step[axis] : 0;
     }
     if (!is_valid || !FitsKey(key[2] + static_cast<std::int64_t>(run->length))) {
