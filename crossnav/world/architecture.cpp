@@ -28,7 +28,7 @@ void BuildCeiling(const HousePlan& plan, std::size_t index, SceneBuilder& scene)
   const auto level = static_cast<std::size_t>(room.level);
   const double ceiling = plan.levels[level].ceiling_m;
   scene.BeginInstance("ceiling", static_cast<int>(index));
-  scene.mesh.material = scene.Surface(room.ceiling);
+  scene.Use(room.ceiling);
   const auto holes_above = plan.VoidsOf(room.level + 1);
   const double above = SlabHalf(plan, level);
   for (const Rect& r : room.rects) AddSlabs(r, holes_above, ceiling, ceiling + above, scene.mesh);
@@ -48,7 +48,7 @@ void BuildFloorsAndCeilings(const HousePlan& plan, SceneBuilder& scene) {
       continue;
     }
     scene.BeginInstance(room.type == RoomType::kBalcony ? "balcony" : "floor", static_cast<int>(i));
-    scene.mesh.material = scene.Surface(room.floor);
+    scene.Use(room.floor);
     const auto holes = plan.VoidsOf(room.level);
     for (const Rect& r : room.rects) AddSlabs(r, holes, floor - below, floor, scene.mesh);
     BuildCeiling(plan, i, scene);
@@ -97,7 +97,7 @@ void BuildRailing(const Railing& railing, SceneBuilder& scene) {
 void BuildStairs(const HousePlan& plan, SceneBuilder& scene) {
   for (const Stair& stair : plan.stairs) {
     scene.BeginInstance("stairs", std::max(0, stair.room));
-    scene.mesh.material = scene.Surface(stair.finish);
+    scene.Use(stair.finish);
     const double ground = stair.ground_m;
     for (const Tread& tread : stair.treads) {
       double bottom = tread.top_m - stair.thickness_m;
@@ -115,8 +115,10 @@ void BuildStairs(const HousePlan& plan, SceneBuilder& scene) {
   for (const Railing& railing : plan.railings) BuildRailing(railing, scene);
 }
 
-sim::Scene BuildHouse(const HousePlan& plan) {
+sim::Scene BuildHouse(const HousePlan& plan, const BuildOptions& options) {
   SceneBuilder scene;
+  scene.has_textures = options.has_textures;
+  scene.texture_seed = options.texture_seed;
   BuildFloorsAndCeilings(plan, scene);
   BuildWalls(plan, scene);
   BuildStairs(plan, scene);

@@ -13,7 +13,12 @@ void BuildWalls(const HousePlan& plan, SceneBuilder& scene);
 void BuildStairs(const HousePlan& plan, SceneBuilder& scene);
 void BuildRailing(const Railing& railing, SceneBuilder& scene);
 
+struct BuildOptions {
+  bool has_textures = false;
+  std::uint64_t texture_seed = 1;
+};
+
 /// The whole house, furniture included.
-sim::Scene BuildHouse(const HousePlan& plan);
+sim::Scene BuildHouse(const HousePlan& plan, const BuildOptions& options = {});
 
 }  // namespace crossnav::world

@@ -80,7 +80,7 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
       ++report.refusals[plan.error().what];
       continue;
     }
-    const sim::Scene scene = BuildHouse(*plan);
+    const sim::Scene scene = BuildHouse(*plan, {params.has_textures, params.seed});
     auto navmesh = sim::NavMesh::Build(scene, {});
     if (!navmesh) {
       ++report.refusals[navmesh.error().what];

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "crossnav/core/check.h"
+#include "crossnav/world/textures.h"
 
 namespace crossnav::world {
 
@@ -15,8 +16,15 @@ int SceneBuilder::Material(Rgb8 colour, int texture) {
   return it->second;
 }
 
-int SceneBuilder::Surface(const SurfaceFinish& finish) {
-  return Material(finish.colour);
+void SceneBuilder::Use(const SurfaceFinish& finish) {
+  int texture = -1;
+  if (has_textures && finish.pattern != Pattern::kPlain) {
+    const auto [it, is_new] = pattern_texture_.try_emplace(finish.pattern, -1);
+    if (is_new) it->second = AddTexture(MakePattern(finish.pattern, texture_seed));
+    texture = it->second;
+    mesh.texture_m = PatternSize(finish.pattern);
+  }
+  mesh.material = Material(finish.colour, texture);
 }
 
 int SceneBuilder::AddTexture(sim::Texture texture) {

@@ -18,11 +18,13 @@ namespace crossnav::world {
 class SceneBuilder {
  public:
   MeshBuilder mesh;
+  bool has_textures = false;
+  std::uint64_t texture_seed = 1;
 
   /// Index of the material; the same colour and texture give the same index.
   int Material(Rgb8 colour, int texture = -1);
-  /// Material of a surface's finish; also sets the mesh's texture scale.
-  int Surface(const SurfaceFinish& finish);
+  /// Makes the finish the current material, with its pattern where textures are on.
+  void Use(const SurfaceFinish& finish);
   int AddTexture(sim::Texture texture);
 
   /// Makes a new instance the current one and returns its id (1, 2, ...).
@@ -37,6 +39,7 @@ class SceneBuilder {
  private:
   sim::Scene scene_;
   std::map<std::tuple<int, int, int, int>, int> material_index_;
+  std::map<Pattern, int> pattern_texture_;
 };
 
 }  // namespace crossnav::world

@@ -39,13 +39,12 @@ void AddPiece(const Wall& wall, const WallFrame& f, const Rect& piece_xz, SceneB
   const double x0 = piece_xz.x0, x1 = piece_xz.x1, z0 = piece_xz.y0, z1 = piece_xz.y1;
   MeshBuilder& mesh = scene.mesh;
   if (x1 - x0 < 1e-4 || z1 - z0 < 1e-4) return;
-  const int left = scene.Surface(wall.left), right = scene.Surface(wall.right);
   const double h = f.half_m;
-  mesh.material = left;
+  scene.Use(wall.left);
   mesh.AddQuad({x1, h, z0}, {x0, h, z0}, {x0, h, z1}, {x1, h, z1});
-  mesh.material = right;
+  scene.Use(wall.right);
   mesh.AddQuad({x0, -h, z0}, {x1, -h, z0}, {x1, -h, z1}, {x0, -h, z1});
-  mesh.material = left;  // reveals
+  scene.Use(wall.left);  // reveals
   mesh.AddQuad({x0, h, z0}, {x0, -h, z0}, {x0, -h, z1}, {x0, h, z1});
   mesh.AddQuad({x1, -h, z0}, {x1, h, z0}, {x1, h, z1}, {x1, -h, z1});
   mesh.AddQuad({x0, -h, z1}, {x1, -h, z1}, {x1, h, z1}, {x0, h, z1});
