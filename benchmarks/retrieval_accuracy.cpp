@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -32,6 +33,12 @@ struct Totals {
   int queries = 0, hits_at_1 = 0, hits_at_4 = 0;
   int instances = 0, found_instances = 0;  // of each query at most four
 };
+
+double CpuMs() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return t.tv_sec * 1e3 + t.tv_nsec * 1e-6;
+}
 
 // Points that cover the navmesh, no two nearer than the spacing.
 std::vector<Vector3d> Viewpoints(const sim::NavMesh& navmesh) {
@@ -122,19 +129,28 @@ bool RunScene(const std::filesystem::path& folder, const sim::GroundTruthConfig&
   geometry::VoxelMap map;
   memory::SemanticMemory memory;
   int frames = 0;
+  double encode_ms = 0, fuse_ms = 0;
   for (const Vector3d& p : Viewpoints(*navmesh))
     for (int yaw = 0; yaw < kYaws; ++yaw) {
       if (!simulator.Reset({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)})) continue;
       const Observation obs = simulator.Observe();
+      const auto& pixels = map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
+      const double start = CpuMs();
       const auto grid = encoder->EncodeImage(obs);
       if (!grid) return false;
-      memory.Fuse(map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera), obs.depth_m,
-                  obs.camera, obs.T_world_camera, {grid->rows, grid->cols, grid->dim, grid->data});
+      const double encoded = CpuMs();
+      memory.Fuse(pixels, obs.depth_m, obs.camera, obs.T_world_camera,
+                  {grid->rows, grid->cols, grid->dim, grid->data});
+      encode_ms += encoded - start;
+      fuse_ms += CpuMs() - encoded;
       ++frames;
     }
-  std::printf("%s, seed %llu: %d frames, %lld feature voxels, %.0f MB\n", scene->id.c_str(),
-              static_cast<unsigned long long>(config.seed), frames,
-              static_cast<long long>(memory.Size()), static_cast<double>(memory.Bytes()) / 1e6);
+  std::printf(
+      "%s, seed %llu: %d frames, %lld feature voxels, %.0f MB; encoder %.2f ms, lifting %.2f ms a "
+      "frame\n",
+      scene->id.c_str(), static_cast<unsigned long long>(config.seed), frames,
+      static_cast<long long>(memory.Size()), static_cast<double>(memory.Bytes()) / 1e6,
+      encode_ms / frames, fuse_ms / frames);
   for (std::string_view category : kCategories)
     RunQuery(*scene, memory, *encoder, category, totals);
   return true;

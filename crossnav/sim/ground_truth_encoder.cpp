@@ -21,7 +21,6 @@ namespace crossnav::sim {
 namespace {
 
 using perception::FeatureGrid;
-
 constexpr double kCommonShare = 0.5;  // chosen: cosine of unrelated names, below CLIP's 0.7
 constexpr double kBiasShare = 0.5;    // chosen: of feature_noise, fixed per instance
 constexpr double kPatchShare = 0.8;   // chosen: of the frame's noise, alike in a patch of cells
@@ -30,18 +29,16 @@ constexpr int kNoiseVectors = 64;     // chosen: enough that repeats do not add 
 constexpr int kPixelStride = 2;       // chosen: a quarter of the pixels tells a cell's content
 
 struct LookAlike {
-  std::string_view category;
-  std::string_view word;  ///< another category, or a word in a raw name
+  std::string_view category, word;  ///< the word: another category, or in a raw name
 };
-constexpr std::array<LookAlike, 24> kLookAlikes = {{
+constexpr std::array<LookAlike, 21> kLookAlikes = {{
     {"bed", "sofa"},          {"sofa", "bed"},           {"sofa", "chair"},
     {"chair", "sofa"},        {"chair", "stool"},        {"chair", "bench"},
     {"sofa", "ottoman"},      {"sofa", "cushion"},       {"bed", "mattress"},
     {"bed", "blanket"},       {"tv monitor", "picture"}, {"tv monitor", "painting"},
     {"tv monitor", "mirror"}, {"tv monitor", "laptop"},  {"tv monitor", "screen"},
     {"plant", "vase"},        {"plant", "flower"},       {"plant", "tree"},
-    {"plant", "basket"},      {"toilet", "bidet"},       {"toilet", "sink"},
-    {"toilet", "washbasin"},  {"toilet", "bathtub"},     {"toilet", "bath"},
+    {"toilet", "bidet"},      {"toilet", "sink"},        {"toilet", "washbasin"},
 }};
 
 using Feature = std::vector<float>;
@@ -85,24 +82,19 @@ std::string CanonicalName(std::string_view text) {
 
 bool IsCategory(std::string_view name) {
   return std::any_of(kCategories.begin(), kCategories.end(),
-                     [&](std::string_view category) { return SpacedName(category) == name; });
+                     [&](std::string_view c) { return SpacedName(c) == name; });
 }
 
-bool HasWord(std::string_view name, std::string_view word) {
-  for (std::size_t at = name.find(word); at != std::string_view::npos;
-       at = name.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at == 0 || name[at - 1] == ' ') && (end == name.size() || name[end] == ' ')) return true;
-  }
-  return false;
+bool HasWord(const std::string& name, std::string_view word) {
+  return (" " + name + " ").find(" " + std::string(word) + " ") != std::string::npos;
 }
 
 // The names that `name` is easily taken for.
 std::vector<std::string> LookAlikesOf(const std::string& name) {
   std::vector<std::string> out;
-  for (const LookAlike& pair : kLookAlikes) {
-    if (pair.category == name && IsCategory(pair.word)) out.emplace_back(pair.word);
-    if (!IsCategory(name) && HasWord(name, pair.word)) out.emplace_back(pair.category);
+  for (const auto& [category, word] : kLookAlikes) {
+    if (category == name && IsCategory(word)) out.emplace_back(word);
+    if (!IsCategory(name) && HasWord(name, word)) out.emplace_back(category);
   }
   return out;
 }
@@ -143,6 +135,13 @@ class TextSpace {
     for (const auto& [from, to] : kClipNames)
       if (from == category && vectors_.count(std::string(to)) > 0) return std::string(to);
     return category;
+  }
+
+  /// What an object is called: its raw name where that has a vector, else its category.
+  std::string NameOf(const SceneInstance& instance) const {
+    const std::string raw = SpacedName(instance.name);
+    if (has_known_ && vectors_.count(raw) > 0) return raw;
+    return Resolve(instance.category.empty() ? instance.name : instance.category);
   }
 
   /// Of a resolved name.
@@ -192,9 +191,7 @@ float FloatOfHalf(std::uint16_t bits) {
 
 // A two-dimensional little-endian float16 or float32 array of `rows` rows in NumPy's format 1.
 Result<std::vector<Feature>> ReadNpy(const std::filesystem::path& path, std::size_t rows) {
-  const auto bad = [&](const char* what) {
-    return Fail(ErrorCode::kMalformed, what, path.string());
-  };
+  const auto bad = [&](auto what) { return Fail(ErrorCode::kMalformed, what, path.string()); };
   std::ifstream in(path, std::ios::binary);
   if (!in) return Fail(ErrorCode::kNotFound, "no such file", path.string());
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -345,17 +342,17 @@ class GroundTruthEncoder : public perception::DenseEncoder {
     const auto found = looks_.find(id);
     if (found != looks_.end()) return found->second;
     const SceneInstance* instance = simulator_.scene().FindInstance(id);
-    // By the raw name where it says more than the category.
-    const std::string name = texts_.Resolve(instance != nullptr ? instance->name : "unknown");
+    std::string name = "unknown";
+    if (instance != nullptr) name = texts_.NameOf(*instance);
     Rng rng(MixSeed(config_.seed, static_cast<std::uint64_t>(id)), 17);
     Feature look = texts_.Of(name);
-    const std::vector<std::string> others = LookAlikesOf(name);
+    const std::vector<std::string> others = LookAlikesOf(CanonicalName(name));
     if (!others.empty()) {
       const double lean = rng.Uniform(0, config_.confusion);
-      const Feature& other =
-          texts_.Of(others[rng.Below(static_cast<std::uint32_t>(others.size()))]);
-      for (std::size_t i = 0; i < look.size(); ++i)
-        look[i] += static_cast<float>(lean) * (other[i] - look[i]);
+      const auto which = rng.Below(static_cast<std::uint32_t>(others.size()));
+      const Feature& other = texts_.Of(texts_.Resolve(others[which]));
+      for (std::size_t k = 0; k < look.size(); ++k)
+        look[k] += static_cast<float>(lean) * (other[k] - look[k]);
     }
     AddScaled(kBiasShare * config_.feature_noise, RandomUnit(rng.Next(), config_.feature_dim),
               look);
