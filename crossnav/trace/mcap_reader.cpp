@@ -210,6 +210,11 @@ class Scanner {
 
 }  // namespace
 
+Result<McapContents> ScanMcap(const std::string& name, std::string_view bytes,
+                              const McapVisitor& visit) {
+  return Scanner(name, bytes, visit).Run();
+}
+
 Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisitor& visit) {
   std::error_code code;
   const std::uint64_t size = std::filesystem::file_size(path, code);
@@ -219,7 +224,7 @@ Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisit
   if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) {
     return Fail(ErrorCode::kIo, "cannot read the file", path.string());
   }
-  return Scanner(path.string(), bytes, visit).Run();
+  return ScanMcap(path.string(), bytes, visit);
 }
 
 }  // namespace crossnav::trace

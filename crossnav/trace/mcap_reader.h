@@ -29,4 +29,8 @@ using McapVisitor = std::function<Result<void>(
 /// compression that is not supported; `where` gives file and byte.
 Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisitor& visit);
 
+/// The same for a file's bytes; `name` stands for it in errors.
+Result<McapContents> ScanMcap(const std::string& name, std::string_view bytes,
+                              const McapVisitor& visit);
+
 }  // namespace crossnav::trace

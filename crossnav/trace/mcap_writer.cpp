@@ -287,8 +287,7 @@ void McapWriter::AddMetadata(const std::string& name, const McapStrings& values)
   impl_->metadata.push_back(std::move(entry));
 }
 
-Result<void> McapWriter::Write(std::uint16_t channel_id, std::uint64_t time_ns,
-                               std::string_view data) {
+void McapWriter::Write(std::uint16_t channel_id, std::uint64_t time_ns, std::string_view data) {
   CROSSNAV_CHECK(channel_id < impl_->channels.size(), "no such channel");
   Impl& w = *impl_;
   const bool is_first = w.chunks.empty() && w.chunk.empty();
@@ -305,11 +304,10 @@ Result<void> McapWriter::Write(std::uint16_t channel_id, std::uint64_t time_ns,
       .Number(time_ns)
       .Raw(data)
       .AppendTo(w.chunk, McapOp::kMessage);
-  return w.chunk.size() >= w.options.chunk_bytes ? Flush() : Result<void>{};
 }
 
-Result<void> McapWriter::Flush() {
-  impl_->EndChunk();
+Result<void> McapWriter::EndGroup() {
+  if (impl_->chunk.size() >= impl_->options.chunk_bytes) impl_->EndChunk();
   return impl_->CheckFile();
 }
 

@@ -38,10 +38,11 @@ class McapWriter {
 
   /// `time_ns` must not decrease within a chunk's worth of messages for indexed reading to be
   /// quick.
-  Result<void> Write(std::uint16_t channel_id, std::uint64_t time_ns, std::string_view data);
+  void Write(std::uint16_t channel_id, std::uint64_t time_ns, std::string_view data);
 
-  /// Ends the current chunk early, so that all written so far can be read.
-  Result<void> Flush();
+  /// What was written since the last call belongs together and is never split by a tear: a chunk
+  /// that is full ends here, and only here.
+  Result<void> EndGroup();
 
   /// Writes the summary and gives the file its name. Nothing may be written after it.
   Result<void> Close();

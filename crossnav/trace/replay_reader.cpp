@@ -12,10 +12,15 @@
 namespace crossnav::trace {
 namespace {
 
+constexpr int kNoRecord = -1;  ///< goal_index of a step whose record has not been read
+
 /// The step at `time_ns`, added where there is none yet.
 ReplayStep& StepAt(std::vector<ReplayStep>& steps, std::uint64_t time_ns) {
   const int step = static_cast<int>(time_ns / kStepNs);
-  if (steps.empty() || steps.back().trace.step != step) steps.emplace_back().trace.step = step;
+  if (steps.empty() || steps.back().trace.step != step) {
+    steps.emplace_back().trace.step = step;
+    steps.back().trace.goal_index = kNoRecord;
+  }
   return steps.back();
 }
 
@@ -65,6 +70,7 @@ Result<void> ReadStep(std::string_view data, ReplayStep& step) {
   auto trace = StepTraceFromJson(data);
   if (!trace) return tl::unexpected(trace.error());
   if (trace->step != step.trace.step) return Malformed("the step's number and time disagree");
+  if (trace->goal_index < 0) return Malformed("goal_index is negative");
   std::swap(trace->voxel_changes, step.trace.voxel_changes);
   step.trace = std::move(*trace);
   return {};
@@ -84,6 +90,19 @@ Result<void> Take(Replay& replay, const std::string& topic, const McapMessage& m
                                                     : nullptr;
   if (read == nullptr) return {};
   return read(message.data, StepAt(replay.steps, message.log_time_ns));
+}
+
+/// A tear may leave the last step without its record; any other such step is an error.
+Result<void> CheckSteps(Replay& replay) {
+  const auto is_bare = [](const ReplayStep& step) { return step.trace.goal_index == kNoRecord; };
+  auto& steps = replay.steps;
+  if (!replay.is_complete && !steps.empty() && is_bare(steps.back())) steps.pop_back();
+  for (const ReplayStep& step : steps) {
+    if (!is_bare(step)) continue;
+    return Fail(ErrorCode::kMalformed, "/agent/step has no record of this step",
+                "step " + std::to_string(step.trace.step));
+  }
+  return {};
 }
 
 }  // namespace
@@ -114,6 +133,9 @@ Result<Replay> ReadReplay(const std::filesystem::path& path) {
   }
   replay.info = std::move(*info);
   replay.is_complete = contents->is_complete;
+  if (auto good = CheckSteps(replay); !good) {
+    return Fail(good.error().code, good.error().what, path.string() + ", " + good.error().where);
+  }
   return replay;
 }
 

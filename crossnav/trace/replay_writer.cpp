@@ -68,10 +68,8 @@ struct ReplayWriter::Impl {
   std::unordered_map<VoxelKey, VoxelState, geometry::VoxelKeyHash> surface;
   bool is_cloud_stale = false;
 
-  // The first error of a step is kept, so that its messages can be written one after the other.
-  Result<void> status;
   void Put(std::uint16_t channel, std::uint64_t time_ns, const std::string& data) {
-    if (status) status = mcap.Write(channel, time_ns, data);
+    mcap.Write(channel, time_ns, data);
   }
 
   void PutImages(std::uint64_t t, const Observation& obs) {
@@ -140,11 +138,10 @@ Result<ReplayWriter> ReplayWriter::Open(const std::filesystem::path& path, const
   mcap->AddMetadata("crossnav.replay", {{"info", ToJson(info)}});
   const Channels channels = AddChannels(*mcap);
   auto impl = std::make_unique<Impl>(
-      Impl{std::move(*mcap), info, options, channels, -1, {}, {}, {}, false, {}});
+      Impl{std::move(*mcap), info, options, channels, -1, {}, {}, {}, false});
   if (!info.goal_instances.empty()) {
     impl->Put(channels.goals, 0, EncodeGoals(0, info.goal_instances));
   }
-  if (!impl->status) return tl::unexpected(impl->status.error());
   return ReplayWriter(std::move(impl));
 }
 
@@ -165,7 +162,7 @@ Result<void> ReplayWriter::Write(const ReplayFrame& frame) {
   w.PutMap(t, trace);
   w.Put(w.channels.plan, t, EncodePlan(t, trace));
   w.PutLog(t, trace);
-  return w.status;
+  return w.mcap.EndGroup();
 }
 
 Result<void> ReplayWriter::WriteStage(const StageResult& stage) {
@@ -173,7 +170,7 @@ Result<void> ReplayWriter::WriteStage(const StageResult& stage) {
   const std::uint64_t t = static_cast<std::uint64_t>(std::max(0, w.last_step)) * kStepNs;
   w.Put(w.channels.stage, t, ToJson(stage));
   w.Put(w.channels.log, t, EncodeLog(t, "stage", stage.goal + ": " + stage.outcome));
-  return w.status;
+  return w.mcap.EndGroup();
 }
 
 Result<void> ReplayWriter::Close() {
@@ -181,7 +178,6 @@ Result<void> ReplayWriter::Close() {
   if (w.last_step >= 0 && w.options.cloud_every_steps > 0) {
     w.PutCloud(static_cast<std::uint64_t>(w.last_step) * kStepNs);
   }
-  if (!w.status) return w.status;
   return w.mcap.Close();
 }
 

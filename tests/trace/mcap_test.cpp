@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The container alone: round trip, tears at every byte, damage at every byte.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "crossnav/core/rng.h"
 #include "crossnav/trace/mcap_reader.h"
 #include "crossnav/trace/mcap_writer.h"
 #include "support/temp_folder.h"
@@ -36,22 +39,28 @@ void WriteSmall(const std::filesystem::path& path) {
   const auto second = writer->AddChannel("/two", 0, "json");
   for (int i = 0; i < 12; ++i) {
     const std::string text = "{\"i\":" + std::to_string(i) + ",\"same\":\"same same same\"}";
-    ASSERT_TRUE(
-        writer->Write(i % 3 == 0 ? second : first, static_cast<std::uint64_t>(i) * 10, text));
+    writer->Write(i % 3 == 0 ? second : first, static_cast<std::uint64_t>(i) * 10, text);
+    ASSERT_TRUE(writer->EndGroup());
   }
   ASSERT_TRUE(writer->Close());
 }
 
-Result<McapContents> Read(const std::filesystem::path& path, Taken& taken) {
+McapVisitor Collect(Taken& taken) {
   taken.clear();
-  return ReadMcap(path,
-                  [&](const McapContents&, const McapChannel& channel,
-                      const McapMessage& message) -> Result<void> {
-                    taken.push_back(channel.topic + "@" + std::to_string(message.log_time_ns) +
-                                    "#" + std::to_string(message.sequence) + " " +
-                                    std::string(message.data));
-                    return {};
-                  });
+  return [&taken](const McapContents&, const McapChannel& channel,
+                  const McapMessage& message) -> Result<void> {
+    taken.push_back(channel.topic + "@" + std::to_string(message.log_time_ns) + "#" +
+                    std::to_string(message.sequence) + " " + std::string(message.data));
+    return {};
+  };
+}
+
+Result<McapContents> Read(const std::filesystem::path& path, Taken& taken) {
+  return ReadMcap(path, Collect(taken));
+}
+
+Result<McapContents> Scan(std::string_view bytes, Taken& taken) {
+  return ScanMcap("bad.mcap", bytes, Collect(taken));
 }
 
 bool IsPrefix(const Taken& part, const Taken& whole) {
@@ -89,15 +98,14 @@ TEST(Mcap, HasItsNameOnlyWhenClosed) {
 
 TEST(Mcap, IsReadUpToTheTearWhereverItIsTorn) {
   const test::TempFolder folder;
-  const auto path = folder.path() / "a.mcap", torn = folder.path() / "torn.mcap";
+  const auto path = folder.path() / "a.mcap";
   WriteSmall(path);
   Taken whole, part;
   ASSERT_TRUE(Read(path, whole));
   const std::string bytes = BytesOf(path);
   std::size_t most = 0;
   for (std::size_t n = 8; n < bytes.size(); ++n) {
-    Put(torn, std::string_view(bytes).substr(0, n));
-    const auto contents = Read(torn, part);
+    const auto contents = Scan(std::string_view(bytes).substr(0, n), part);
     ASSERT_TRUE(contents) << n << ": " << contents.error().Message();
     EXPECT_FALSE(contents->is_complete) << n;
     EXPECT_LE(contents->good_bytes, n);
@@ -110,7 +118,7 @@ TEST(Mcap, IsReadUpToTheTearWhereverItIsTorn) {
 
 TEST(Mcap, NeverPassesDamageOffAsData) {
   const test::TempFolder folder;
-  const auto path = folder.path() / "a.mcap", bad = folder.path() / "bad.mcap";
+  const auto path = folder.path() / "a.mcap";
   WriteSmall(path);
   Taken whole, got;
   ASSERT_TRUE(Read(path, whole));
@@ -120,8 +128,7 @@ TEST(Mcap, NeverPassesDamageOffAsData) {
     for (const int mask : {0x01, 0x80}) {
       std::string damaged = bytes;
       damaged[i] = static_cast<char>(damaged[i] ^ mask);
-      Put(bad, damaged);
-      const auto contents = Read(bad, got);
+      const auto contents = Scan(damaged, got);
       if (!contents) {
         ++errors;
         EXPECT_NE(contents.error().where.find("bad.mcap"), std::string::npos);
@@ -132,6 +139,76 @@ TEST(Mcap, NeverPassesDamageOffAsData) {
     }
   }
   EXPECT_GT(errors, static_cast<int>(bytes.size()) / 2);
+}
+
+TEST(Mcap, NeverSplitsAGroup) {
+  const test::TempFolder folder;
+  const auto path = folder.path() / "a.mcap";
+  McapOptions options;
+  options.chunk_bytes = 10;
+  auto writer = McapWriter::Open(path, options);
+  ASSERT_TRUE(writer);
+  const auto channel = writer->AddChannel("/one", 0, "json");
+  for (std::uint64_t group = 0; group < 4; ++group) {
+    for (int i = 0; i < 3; ++i) writer->Write(channel, group, "a message of some length");
+    ASSERT_TRUE(writer->EndGroup());
+  }
+  ASSERT_TRUE(writer->Close());
+  const std::string bytes = BytesOf(path);
+  Taken part;
+  for (std::size_t n = 8; n < bytes.size(); ++n) {
+    ASSERT_TRUE(Scan(std::string_view(bytes).substr(0, n), part));
+    EXPECT_EQ(part.size() % 3, 0U) << n;
+  }
+}
+
+/// While it lives, no file of this program grows over `bytes`.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST(Mcap, ReportsAFullDiskAndKeepsWhatFits) {
+  const test::TempFolder folder;
+  const auto path = folder.path() / "a.mcap";
+  McapOptions options;
+  options.chunk_bytes = 1000;
+  auto writer = McapWriter::Open(path, options);
+  ASSERT_TRUE(writer);
+  const auto channel = writer->AddChannel("/one", 0, "json");
+  Result<void> done;
+  {
+    const SmallDisk disk(4000);
+    Rng rng(1);
+    for (std::uint64_t i = 0; i < 200 && done; ++i) {
+      std::string noise;
+      for (int k = 0; k < 100; ++k) noise += static_cast<char>(rng.Below(256));
+      writer->Write(channel, i, noise);
+      done = writer->EndGroup();
+    }
+    EXPECT_FALSE(writer->Close());
+  }
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::kIo);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  Taken taken;
+  ASSERT_TRUE(Read(path.string() + ".part", taken));
+  EXPECT_GT(taken.size(), 10U);
 }
 
 TEST(Mcap, RefusesOtherFilesAndFolders) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "crossnav/trace/mcap_writer.h"
 #include "crossnav/trace/replay_json.h"
 #include "crossnav/trace/replay_page.h"
 #include "crossnav/trace/replay_reader.h"
@@ -128,6 +129,28 @@ TEST(Replay, OfAKilledRunIsReadUpToTheTear) {
     }
   }
   EXPECT_GT(most, 10U);
+}
+
+TEST(Replay, WithoutAStepsRecordIsRefusedUnlessItIsTornThere) {
+  const test::TempFolder folder;
+  const fs::path path = folder.path() / "a.mcap";
+  auto mcap = McapWriter::Open(path, {});
+  ASSERT_TRUE(mcap);
+  mcap->AddMetadata("crossnav.replay", {{"info", ToJson(Sample().info)}});
+  const auto step = mcap->AddChannel("/agent/step", 0, "json");
+  const auto image = mcap->AddChannel("/camera/image", 0, "protobuf");
+  mcap->Write(step, 0, ToJson(Sample().frames[0].trace, VoxelText::kOmit));
+  mcap->Write(image, kStepNs, "");
+  ASSERT_TRUE(mcap->Close());
+  const auto whole = ReadReplay(path);
+  ASSERT_FALSE(whole);
+  EXPECT_NE(whole.error().where.find("a.mcap, step 1"), std::string::npos) << whole.error().where;
+
+  const std::string bytes = BytesOf(path);
+  Put(path, bytes.substr(0, bytes.size() - 30));
+  const auto torn = ReadReplay(path);
+  ASSERT_TRUE(torn) << torn.error().Message();
+  EXPECT_EQ(torn->steps.size(), 1U);
 }
 
 TEST(Replay, RefusesDamage) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws with WebGL 2: voxel faces (one instance a face), wide lines, shaded triangles.
+// Draws with WebGL 2: voxel faces (four vertices each), wide lines, shaded triangles.
 import { FLOOR_MARGIN_M } from "./data.js";
 import { COVERED, FACE_BYTES } from "./voxels.js";
 
@@ -32,7 +32,7 @@ void main() {
   bool isCovered = direction >= ${COVERED};
   if (isCovered) direction -= ${COVERED};
   int state = packed & 7, above = packed >> 4;
-  v_uv = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  v_uv = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
   vec3 n = NORMAL[direction];
   vec3 s = direction < 2 ? vec3(0,1,0) : vec3(1,0,0);
   vec3 t = direction < 4 ? vec3(0,0,1) : vec3(0,1,0);
@@ -158,6 +158,13 @@ function floatArray(gl, sizes, divisor) {
   return { vao, buffer };
 }
 
+/// Every face's bytes four times: one instance a face would be slow, four vertices are too few.
+function fourfold(bytes) {
+  const faces = new BigUint64Array(bytes.buffer), out = new BigUint64Array(4 * faces.length);
+  for (let i = 0; i < faces.length; ++i) out.fill(faces[i], 4 * i, 4 * i + 4);
+  return out;
+}
+
 export class Renderer {
   /// Throws where WebGL 2 is not to be had.
   constructor(canvas) {
@@ -171,6 +178,7 @@ export class Renderer {
     this.lineArray = floatArray(gl, [3, 3, 4, 1], 1);
     this.solidArray = floatArray(gl, [3, 3, 3], 0);
     this.blocks = new Map();
+    this.corners = { buffer: gl.createBuffer(), faces: 0 };
   }
 
   setBlock(block, bytes) {
@@ -182,15 +190,27 @@ export class Renderer {
       gl.bindBuffer(gl.ARRAY_BUFFER, entry.buffer);
       gl.enableVertexAttribArray(0);
       gl.vertexAttribPointer(0, 3, gl.SHORT, false, FACE_BYTES, 0);
-      gl.vertexAttribDivisor(0, 1);
       gl.enableVertexAttribArray(1);
       gl.vertexAttribPointer(1, 2, gl.UNSIGNED_BYTE, false, FACE_BYTES, 6);
-      gl.vertexAttribDivisor(1, 1);
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.corners.buffer);
       this.blocks.set(block, entry);
     }
+    gl.bindVertexArray(null);
     gl.bindBuffer(gl.ARRAY_BUFFER, entry.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, bytes, gl.DYNAMIC_DRAW);
+    gl.bufferData(gl.ARRAY_BUFFER, fourfold(bytes), gl.DYNAMIC_DRAW);
     entry.count = bytes.length / FACE_BYTES;
+    this.ensureCorners(entry.count);
+  }
+
+  /// Grows the indices that all blocks share: two triangles a face.
+  ensureCorners(faces) {
+    if (faces <= this.corners.faces) return;
+    const count = Math.max(1024, 2 * faces), indices = new Uint32Array(6 * count);
+    for (let i = 0; i < count; ++i) indices.set([0, 1, 2, 2, 1, 3].map((k) => 4 * i + k), 6 * i);
+    const gl = this.gl;
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.corners.buffer);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
+    this.corners.faces = count;
   }
 
   resize(width, height, ratio) {
@@ -233,7 +253,7 @@ export class Renderer {
     for (const entry of this.blocks.values()) {
       if (entry.count === 0) continue;
       gl.bindVertexArray(entry.vao);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, entry.count);
+      gl.drawElements(gl.TRIANGLES, 6 * entry.count, gl.UNSIGNED_INT, 0);
     }
   }
 
