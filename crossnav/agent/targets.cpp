@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kLinkReach_m =
     1.6;  // chosen: an entrance this near a walked flight's end is that flight
+constexpr int kBlindRing_vox = 4;      // chosen: what lies under a camera one pitch step down
 constexpr double kSameFocus_m = 0.75;  // chosen: a frontier that shrank is still the same frontier
 
 planner::LevelBand LevelOf(const Situation& now, double level_m) {
@@ -117,6 +118,7 @@ std::vector<Candidate> WayBackEntrances(const Situation& now) {
 
 GraphRules LevelRules(const Situation& now) {
   GraphRules rules;
+  rules.start_reach_vox = kBlindRing_vox;
   rules.obstacles = now.obstacles;
   const auto band = LevelOf(now, now.world.level_m);
   const auto support = now.start ? planner::SupportZ(now.world.map, *now.start) : std::nullopt;
@@ -126,6 +128,7 @@ GraphRules LevelRules(const Situation& now) {
 
 GraphRules WholeMapRules(const Situation& now) {
   GraphRules rules;
+  rules.start_reach_vox = kBlindRing_vox;
   rules.obstacles = now.obstacles;
   if (now.config.policy.planar) rules.level = LevelOf(now, now.world.level_m);
   return rules;

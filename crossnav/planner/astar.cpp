@@ -91,6 +91,7 @@ class Search {
     Plan plan;
     if (goals_.empty()) return plan;
     Relax(start, start, 0);
+    LeaveBlindRing(start);
     while (!queue_.empty()) {
       const Open next = queue_.top();
       queue_.pop();
@@ -128,6 +129,21 @@ class Search {
     double nearest = kInfinity;
     for (const Goal& goal : goals_) nearest = std::min(nearest, VoxelDistance(key, goal.key));
     return nearest;
+  }
+
+  void LeaveBlindRing(const VoxelKey& start) {
+    if (rules_.start_reach_vox <= 1) return;
+    const bool is_inside = cursor_.At(start).is_inflated;
+    for (const Offset& offset : OffsetsWithin(rules_.start_reach_vox)) {
+      const VoxelKey to = start + offset.d;
+      const Voxel voxel = cursor_.At(to);
+      if (!IsPathable(voxel.state) || IsSurface(voxel.state) || std::abs(offset.d.z) > 2) continue;
+      const double edge = EdgeCost(voxel, offset.length, rules_.allow_inflated || is_inside);
+      const double voxel_m = map_.config().voxel_m;
+      if (edge == kInfinity || !IsBetter(to, edge) || !IsAllowed(start, to, 1)) continue;
+      if (map_.HasLineOfSight(CenterOf(start, voxel_m), CenterOf(to, voxel_m)))
+        Relax(start, to, edge);
+    }
   }
 
   void Expand(const VoxelKey& from, double cost) {

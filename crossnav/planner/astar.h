@@ -33,8 +33,10 @@ struct LevelBand {
 /// What a mode may walk on.
 struct GraphRules {
   GraphKind kind = GraphKind::kNormal;
-  bool allow_inflated = false;                    ///< at `inflated_cost_factor` times the cost
-  std::optional<LevelBand> level;                 ///< Basic Explore stays on its level
+  bool allow_inflated = false;     ///< at `inflated_cost_factor` times the cost
+  std::optional<LevelBand> level;  ///< Basic Explore stays on its level
+  int start_reach_vox = 0;  ///< the start also reaches voxels this near in a clear line: over
+                            ///< the ring around the feet that the camera cannot see
   const std::set<VoxelKey>* obstacles = nullptr;  ///< temporary, from bumps; may be null
 };
 

@@ -198,6 +198,19 @@ TEST(FindPath, TheStairGraphBridgesGapsButNotWalls) {
   EXPECT_FALSE(FindPath(map, {0, 0, 0}, top, rules, {}).found());
 }
 
+TEST(FindPath, TheStartReachesOverTheBlindRingAroundTheFeetButNotThroughAWall) {
+  VoxelMap map;
+  SetState(map, {0, 0, 0}, VoxelState::kTraversable);
+  for (int x = 3; x < 9; ++x) SetState(map, {x, 0, 0}, VoxelState::kTraversable);
+  const std::vector<VoxelKey> goal{{8, 0, 0}};
+  GraphRules rules;
+  EXPECT_FALSE(FindPath(map, {0, 0, 0}, goal, rules, {}).found());
+  rules.start_reach_vox = 4;
+  EXPECT_NEAR(FindPath(map, {0, 0, 0}, goal, rules, {}).cost, 8, 1e-9);
+  SetState(map, {2, 0, 0}, VoxelState::kOccupied);
+  EXPECT_FALSE(FindPath(map, {0, 0, 0}, goal, rules, {}).found());
+}
+
 TEST(FindPath, SaysWhenItGaveUp) {
   VoxelMap map;
   AddGround(map, 0, 0, 40, 40, 0);
