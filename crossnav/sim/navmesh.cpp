@@ -22,6 +22,7 @@ namespace {
 
 constexpr int kMaxNodes = 65535;       // Detour's own limit
 constexpr double kStopShort_m = 0.01;  // chosen: stay off the border, where Detour's ray gets stuck
+constexpr double kMaxShort_m = 0.05;   // ... but not far short of it on a grazing way
 constexpr float kOffBorder_m = 0.01F;
 constexpr double kSnapXy_m = 0.5, kSnapZ_m = 0.5;
 
@@ -236,7 +237,14 @@ Vector3d NavMesh::WalkStraight(const Vector3d& start_world, const Vector3d& end_
       impl_->query->raycast(start->ref, start->p.data(), end.data(), &impl_->filter, 0, &hit);
   if (dtStatusFailed(status) || hit.pathCount == 0) return WorldFromRecast(start->p.data());
   double share = 1;
-  if (hit.t < 1) share = std::max(0.0, hit.t - kStopShort_m / wanted);
+  if (hit.t < 1) {
+    // Short by the clearance to the wall, which is longer along an oblique way.
+    const double towards_wall = std::abs(hit.hitNormal[0] * (end[0] - start->p[0]) +
+                                         hit.hitNormal[2] * (end[2] - start->p[2])) /
+                                wanted;
+    const double short_m = kStopShort_m / std::max(towards_wall, kStopShort_m / kMaxShort_m);
+    share = std::max(0.0, hit.t - short_m / wanted);
+  }
   RecastPoint reached{};
   dtVlerp(reached.data(), start->p.data(), end.data(), static_cast<float>(share));
   // The height comes from the polygons that the ray went through, last first: never from a surface

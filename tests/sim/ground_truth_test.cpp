@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/sim/ground_truth.h"
+
+#include <gtest/gtest.h>
+
+#include "micro_scene.h"
+
+namespace crossnav::sim::test {
+namespace {
+
+struct World {
+  Scene scene;
+  RayCaster caster{scene};
+  NavMesh navmesh;
+  Simulator simulator;
+  int near_chair = 0, far_chair = 0;
+
+  static Scene Make() {
+    MicroScene m;
+    m.Room(0, 0, 14, 6);
+    m.Begin("armchair", "chair");
+    m.Box({4, 2, 0}, {4.7, 2.7, 0.9});
+    m.Begin("chair", "chair");
+    m.Box({12, 4, 0}, {12.5, 4.5, 0.9});
+    m.Begin("stool");
+    m.Box({4, 4, 0}, {4.5, 4.5, 0.6});
+    m.Begin("stairs");
+    m.Box({8, 0, 0}, {9, 1, 0.2});
+    return m.Finish();
+  }
+
+  World()
+      : scene(Make()),
+        navmesh(std::move(*NavMesh::Build(scene, {}))),
+        simulator(scene, navmesh, caster, Sensor(), {}) {
+    for (const SceneInstance& i : scene.instances) {
+      if (i.name == "armchair") near_chair = i.id;
+      if (i.name == "chair") far_chair = i.id;
+    }
+    EXPECT_TRUE(simulator.Reset({{1, 3, 0}, 0, 0}).has_value());
+  }
+  static SensorConfig Sensor() {
+    SensorConfig sensor;
+    sensor.width_px = sensor.height_px = 320;
+    return sensor;
+  }
+};
+
+TEST(GroundTruth, DetectsTrueInstancesWithTheirTightBoxes) {
+  World w;
+  GroundTruthConfig config;
+  config.max_distance_m = 20;
+  config.min_visible_px = 20;
+  const Observation obs = w.simulator.Observe();
+  auto suite = GroundTruthPerception(w.simulator, config);
+  const auto found = suite.detector->Detect(obs, "chair");
+  ASSERT_TRUE(found.has_value());
+  ASSERT_EQ(found->size(), 2U);
+  EXPECT_GE((*found)[0].confidence, (*found)[1].confidence);
+  EXPECT_GT((*found)[0].box.Area(), (*found)[1].box.Area());
+  for (perception::Detection d : *found) {
+    ASSERT_TRUE(suite.segmenter->Segment(obs, d).has_value());
+    int u0 = 1 << 30, v0 = 1 << 30, u1 = 0, v1 = 0;
+    std::int32_t id = 0;
+    for (int v = 0; v < d.mask.height; ++v) {
+      for (int u = 0; u < d.mask.width; ++u) {
+        if (d.mask.At(u, v) == 0) continue;
+        u0 = std::min(u0, u), v0 = std::min(v0, v), u1 = std::max(u1, u + 1),
+        v1 = std::max(v1, v + 1);
+        const std::int32_t here = w.simulator.last_frame().instance.At(u, v);
+        ASSERT_TRUE(id == 0 || id == here);
+        id = here;
+      }
+    }
+    EXPECT_EQ(u0, d.box.u0);
+    EXPECT_EQ(v0, d.box.v0);
+    EXPECT_EQ(u1, d.box.u1);
+    EXPECT_EQ(v1, d.box.v1);
+    EXPECT_EQ(w.scene.FindInstance(id)->category, "chair");
+    EXPECT_EQ(d.mask_quality, 1);
+  }
+}
+
+TEST(GroundTruth, MissesWhatIsFarOrTiny) {
+  World w;
+  const Observation obs = w.simulator.Observe();
+  GroundTruthConfig near;
+  near.max_distance_m = 8;
+  near.min_visible_px = 1;
+  EXPECT_EQ(GroundTruthPerception(w.simulator, near).detector->Detect(obs, "chair")->size(), 1U);
+  GroundTruthConfig large;
+  large.max_distance_m = 50;
+  large.min_visible_px = 1000000;
+  EXPECT_TRUE(GroundTruthPerception(w.simulator, large).detector->Detect(obs, "chair")->empty());
+}
+
+TEST(GroundTruth, ConfidenceGrowsOnTheWayThereAndPassesTheStopThreshold) {
+  World w;
+  auto suite = GroundTruthPerception(w.simulator, {});
+  float last = 0;
+  for (int i = 0; i < 8; ++i) {
+    const auto found = suite.detector->Detect(w.simulator.Observe(), "chair");
+    ASSERT_FALSE(found->empty());
+    EXPECT_GE(found->front().confidence, last);
+    last = found->front().confidence;
+    w.simulator.Step(Action::kMoveForward);
+  }
+  EXPECT_GE(last, 0.70F);  // object.found_confidence
+  EXPECT_LT(last, 1.0F);
+}
+
+TEST(GroundTruth, OtherGoalsMatchRawNamesExactly) {
+  World w;
+  const Observation obs = w.simulator.Observe();
+  auto suite = GroundTruthPerception(w.simulator, {});
+  EXPECT_EQ(suite.detector->Detect(obs, "stool")->size(), 1U);
+  EXPECT_TRUE(suite.detector->Detect(obs, "stoo")->empty());
+  EXPECT_TRUE(suite.detector->Detect(obs, "bed")->empty());
+}
+
+TEST(GroundTruth, StairPixelsAreExactlyThoseOfStairs) {
+  World w;
+  const Observation obs = w.simulator.Observe();
+  auto suite = GroundTruthPerception(w.simulator, {});
+  const auto stairs = suite.stairs->SegmentStairs(obs);
+  ASSERT_TRUE(stairs.has_value());
+  int count = 0;
+  for (std::size_t i = 0; i < stairs->data.size(); ++i) {
+    const SceneInstance* instance = w.scene.FindInstance(w.simulator.last_frame().instance.data[i]);
+    const bool is_stairs = instance != nullptr && instance->name == "stairs";
+    EXPECT_EQ(stairs->data[i], is_stairs ? 0.9F : 0.0F);
+    count += is_stairs ? 1 : 0;
+  }
+  EXPECT_GT(count, 20);
+}
+
+TEST(GroundTruth, AForeignObservationIsAnErrorNotAGuess) {
+  World w;
+  auto suite = GroundTruthPerception(w.simulator, {});
+  Observation never_rendered;
+  EXPECT_EQ(suite.detector->Detect(never_rendered, "chair").error().code, ErrorCode::kMismatch);
+  EXPECT_FALSE(suite.stairs->SegmentStairs(never_rendered).has_value());
+  perception::Detection detection;
+  EXPECT_FALSE(suite.segmenter->Segment(never_rendered, detection).has_value());
+}
+
+TEST(GroundTruth, AllPartsWorkTogether) {
+  World w;
+  const Observation obs = w.simulator.Observe();
+  auto suite = GroundTruthPerception(w.simulator, {});
+  const auto percept = suite.Look(obs, "chair");
+  ASSERT_TRUE(percept.has_value()) << percept.error().Message();
+  ASSERT_EQ(percept->detections.size(), 1U);
+  EXPECT_FALSE(percept->detections[0].mask.empty());
+  EXPECT_EQ(percept->features.dim, 768);
+}
+
+}  // namespace
+}  // namespace crossnav::sim::test
