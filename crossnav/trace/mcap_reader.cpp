@@ -195,7 +195,7 @@ class Scanner {
     while (!records.empty()) {
       const auto record = TakeRecord(records);
       if (!record || record->op == McapOp::kChunk) return Bad("a record in the chunk is damaged");
-      if (const auto good = Read(*record); !good) return good;
+      if (auto good = Read(*record); !good) return good;
     }
     return {};
   }

@@ -316,7 +316,7 @@ Result<void> McapWriter::Close() {
   impl_->EndChunk();
   impl_->PutSummaryAndFooter();
   impl_->file.flush();
-  if (const auto good = impl_->CheckFile(); !good) return good;
+  if (auto good = impl_->CheckFile(); !good) return good;
   impl_->file.close();
   std::error_code code;
   std::filesystem::rename(impl_->part, impl_->path, code);

@@ -16,7 +16,7 @@
 namespace crossnav::trace {
 
 struct CandidateTrace {
-  std::string kind;      ///< live_poi, history_poi, traversable_frontier, descend_frontier, ...
+  std::string kind;  ///< live_poi, history_poi, traversable_frontier, descend_frontier, ...
   Vector3d p_nav_world = Vector3d::Zero();    ///< where the agent would stand
   Vector3d p_focus_world = Vector3d::Zero();  ///< what it is about
   double score = 0;
@@ -45,8 +45,8 @@ struct StepTrace {
   std::vector<CandidateTrace> candidates;  ///< best first within each class
   std::vector<Vector3d> path_world;        ///< planned, from the agent to the target
   VerificationTrace verification;
-  std::vector<std::string> events;         ///< e.g. "goal activated: bed", "entrance rejected"
-  double level_m = 0;                      ///< height of the current exploration level
+  std::vector<std::string> events;  ///< e.g. "goal activated: bed", "entrance rejected"
+  double level_m = 0;               ///< height of the current exploration level
   std::vector<geometry::StateChange> voxel_changes;  ///< sorted by key
   bool all_explored = false;
   int detections = 0;
