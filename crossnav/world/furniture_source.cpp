@@ -5,6 +5,7 @@
 #include <string>
 
 #include "crossnav/world/furniture.h"
+#include "crossnav/world/furniture_pack.h"
 
 namespace crossnav::world {
 namespace {
@@ -27,7 +28,9 @@ void VaryName(ObjectModel& model, Rng& rng) {
 }  // namespace
 
 std::optional<ObjectModel> FurnitureSource::Make(std::string_view kind, Rng& rng) const {
-  auto model = MakeFurniture(kind, rng);
+  std::optional<ObjectModel> model;
+  if (pack && rng.Chance(pack_share)) model = pack->Draw(kind, rng);
+  if (!model) model = MakeFurniture(kind, rng);
   if (model) VaryName(*model, rng);
   return model;
 }

@@ -8,6 +8,7 @@
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/architecture.h"
 #include "crossnav/world/furnish.h"
+#include "crossnav/world/furniture_pack.h"
 #include "crossnav/world/glb_writer.h"
 #include "crossnav/world/house_gate.h"
 #include "crossnav/world/house_plan.h"
@@ -61,21 +62,29 @@ std::string SceneIdOf(const HouseParams& params) {
   return fmt::format("{:05}-House{}", params.seed % 100000, params.seed);
 }
 
-Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt) {
+Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
+                                    const FurnitureSource& source) {
   Rng rng(params.seed, static_cast<std::uint64_t>(attempt) + 1);
   auto plan = DrawHousePlan(Settled(params), rng);
   if (!plan) return plan;
   plan->id = SceneIdOf(params);
-  Furnish(*plan, FurnitureSource{}, rng);
+  Furnish(*plan, source, rng);
   return plan;
 }
 
 Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out_dir) {
   if (auto ok = CheckParams(params); !ok) return tl::unexpected(ok.error());
+  std::optional<FurniturePack> pack;
+  if (!params.furniture_pack.empty()) {
+    auto loaded = FurniturePack::Load(params.furniture_pack);
+    if (!loaded) return tl::unexpected(loaded.error());
+    pack = std::move(*loaded);
+  }
+  const FurnitureSource source{pack ? &*pack : nullptr};
   HouseReport report;
   for (int attempt = 0; attempt < params.max_attempts; ++attempt) {
     ++report.attempts;
-    const auto plan = DrawFurnishedPlan(params, attempt);
+    const auto plan = DrawFurnishedPlan(params, attempt, source);
     if (!plan) {
       ++report.refusals[plan.error().what];
       continue;
@@ -95,8 +104,11 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
     auto folder = WriteScene(scene, out_dir);
     if (!folder) return tl::unexpected(folder.error());
     report.folder = *folder;
+    report.bytes = 0;
     for (const auto& file : fs::directory_iterator(*folder)) report.bytes += file.file_size();
-    return report;
+    if (report.bytes < kMaxSceneBytes) return report;
+    ++report.refusals["files larger than 40 MB"];
+    fs::remove_all(*folder);
   }
   std::string reasons;
   for (const auto& [what, count] : report.refusals) {

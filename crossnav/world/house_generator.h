@@ -8,6 +8,7 @@
 #include <string>
 
 #include "crossnav/core/result.h"
+#include "crossnav/world/furniture_source.h"
 #include "crossnav/world/house_params.h"
 #include "crossnav/world/plan.h"
 
@@ -31,7 +32,8 @@ struct HouseReport {
 Result<HouseReport> GenerateHouse(const HouseParams& params, const std::filesystem::path& out_dir);
 
 /// The furnished plan of one attempt, for tests and pictures.
-Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt);
+Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
+                                    const FurnitureSource& source = {});
 
 /// "00017-House17".
 std::string SceneIdOf(const HouseParams& params);

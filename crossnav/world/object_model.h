@@ -12,7 +12,8 @@
 namespace crossnav::world {
 
 struct ObjectModel {
-  std::string name;  ///< raw semantic name, e.g. "dining chair"
+  std::string asset_id;  ///< of an imported model; models with the same id share their pictures
+  std::string name;      ///< raw semantic name, e.g. "dining chair"
   sim::TriangleMesh mesh;
   std::vector<sim::Material> materials;
   std::vector<sim::Texture> textures;

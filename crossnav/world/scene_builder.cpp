@@ -46,7 +46,12 @@ int SceneBuilder::Place(const ObjectModel& model, const Pose& T_world_object, in
   const int id = BeginInstance(model.name, region);
   std::vector<int> material_of;
   std::vector<int> texture_of;
-  for (const auto& texture : model.textures) texture_of.push_back(AddTexture(texture));
+  const bool is_shared = !model.asset_id.empty();
+  if (is_shared) texture_of = asset_textures_[model.asset_id];
+  if (texture_of.empty()) {
+    for (const auto& texture : model.textures) texture_of.push_back(AddTexture(texture));
+  }
+  if (is_shared) asset_textures_[model.asset_id] = texture_of;
   for (const auto& m : model.materials) {
     material_of.push_back(
         Material(m.colour, m.texture < 0 ? -1 : texture_of[static_cast<std::size_t>(m.texture)]));

@@ -40,6 +40,7 @@ class SceneBuilder {
   sim::Scene scene_;
   std::map<std::tuple<int, int, int, int>, int> material_index_;
   std::map<Pattern, int> pattern_texture_;
+  std::map<std::string, std::vector<int>> asset_textures_;
 };
 
 }  // namespace crossnav::world

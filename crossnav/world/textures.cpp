@@ -120,8 +120,7 @@ sim::Texture MakePattern(Pattern pattern, std::uint64_t seed) {
   for (int y = 0; y < kSize_px; ++y) {
     for (int x = 0; x < kSize_px; ++x) {
       const double f = value((x + 0.5) / kSize_px, (y + 0.5) / kSize_px, seed);
-      // Five bits of tone: no eye sees the difference, and the picture takes a third of the bytes.
-      const auto b = static_cast<std::uint8_t>(std::lround(std::clamp(f, 0.0, 1.0) * 31) * 8 + 7);
+      const auto b = static_cast<std::uint8_t>(std::lround(std::clamp(f, 0.0, 1.0) * 255));
       texture.rgb.At(x, y) = {b, b, b};
     }
   }

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/furniture_import.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <fstream>
+
+#include "crossnav/world/furniture_pack.h"
+#include "crossnav/world/obj_reader.h"
+#include "crossnav/world/zip_reader.h"
+#include "temp_dir.h"
+
+namespace crossnav::world {
+namespace {
+
+void Put(std::string& out, std::uint32_t v, int bytes) {
+  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<char>(v >> (8 * i)));
+}
+
+/// A zip archive with stored entries, written by hand.
+std::string Zip(const std::map<std::string, std::string>& files) {
+  std::string out, directory;
+  for (const auto& [name, text] : files) {
+    const auto crc = static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size())));
+    const auto size = static_cast<std::uint32_t>(text.size());
+    const auto offset = static_cast<std::uint32_t>(out.size());
+    const auto common = [&](std::string& to) {
+      Put(to, 20, 2);
+      Put(to, 0, 2);
+      Put(to, 0, 2);
+      Put(to, 0, 4);
+      Put(to, crc, 4);
+      Put(to, size, 4);
+      Put(to, size, 4);
+      Put(to, static_cast<std::uint32_t>(name.size()), 2);
+      Put(to, 0, 2);
+    };
+    Put(out, 0x04034b50, 4);
+    common(out);
+    out += name + text;
+    Put(directory, 0x02014b50, 4);
+    Put(directory, 20, 2);
+    common(directory);
+    Put(directory, 0, 2);
+    Put(directory, 0, 2);
+    Put(directory, 0, 2);
+    Put(directory, 0, 4);
+    Put(directory, offset, 4);
+    directory += name;
+  }
+  const auto start = static_cast<std::uint32_t>(out.size());
+  out += directory;
+  Put(out, 0x06054b50, 4);
+  Put(out, 0, 4);
+  Put(out, static_cast<std::uint32_t>(files.size()), 2);
+  Put(out, static_cast<std::uint32_t>(files.size()), 2);
+  Put(out, static_cast<std::uint32_t>(directory.size()), 4);
+  Put(out, start, 4);
+  Put(out, 0, 2);
+  return out;
+}
+
+constexpr const char* kObj =
+    "mtllib a.mtl\nv 0 0 0\nv 2 0 0\nv 2 0 4\nv 0 0 4\nv 0 6 -1\nvt 0 0\n"
+    "usemtl wood\nf 1/1 2/1 3/1 4/1\nusemtl glass\nf 1 2 5\nusemtl wood\nf -5 -4 -1\n";
+constexpr const char* kMtl = "newmtl wood\nKd 1 0.5 0\nnewmtl glass\nKd 1 1 1\nd 0.05\n";
+
+TEST(ZipReader, ReadsWhatWasWrittenAndRefusesTheRest) {
+  const std::string bytes = Zip({{"a.txt", "hello"}, {"b/c.txt", "world"}});
+  const auto zip = ZipReader::Parse(bytes, "test.zip");
+  ASSERT_TRUE(zip.has_value()) << zip.error().Message();
+  EXPECT_EQ(zip->Names(), (std::vector<std::string>{"a.txt", "b/c.txt"}));
+  EXPECT_EQ(zip->Read("b/c.txt").value(), "world");
+  EXPECT_EQ(zip->Read("none").error().code, ErrorCode::kNotFound);
+  for (std::size_t n = 0; n < bytes.size(); ++n) {  // never reads past the end
+    const auto cut = ZipReader::Parse(bytes.substr(0, n), "cut");
+    if (cut) (void)cut->Read("a.txt");
+  }
+  EXPECT_FALSE(ZipReader::Parse("nothing of the kind, but long enough", "x").has_value());
+}
+
+TEST(ObjReader, ReadsFacesMaterialsAndLeavesGlassOut) {
+  const auto lookup = [](const std::string& name) -> std::optional<std::string> {
+    if (name == "a.mtl") return kMtl;
+    return std::nullopt;
+  };
+  const auto model = ParseObj(kObj, lookup, "a.obj");
+  ASSERT_TRUE(model.has_value()) << model.error().Message();
+  EXPECT_EQ(model->mesh.triangles.size(), 3U);  // a quad and a triangle; the glass is gone
+  ASSERT_EQ(model->materials.size(), 1U);
+  EXPECT_EQ(model->materials[0].colour, (Rgb8{255, 128, 0}));
+  const auto bad = ParseObj("v 0 0 0\nf 1 2 3\n", lookup, "bad.obj");
+  ASSERT_FALSE(bad.has_value());
+  EXPECT_EQ(bad.error().where, "bad.obj: line 2");
+}
+
+TEST(FurnitureImport, FitsTheCatalogueSizeAndKeepsTheCredits) {
+  const TempDir dir;
+  const std::string catalogue =
+      "version=1.0\nid#1=Scopia#bed1\nname#1=Bed\ncreator#1=Jos\\u00e9\nmodel#1=/m/a.obj\n"
+      "width#1=170\ndepth#1=210\nheight#1=110\ndropOnTopElevation#1=-1\n"
+      "id#2=Scopia#unknown\nname#2=Thing\nmodel#2=/m/a.obj\n";
+  std::ofstream(dir.path() / "Scopia.sh3f", std::ios::binary) << Zip(
+      {{"PluginFurnitureCatalog.properties", catalogue}, {"m/a.obj", kObj}, {"m/a.mtl", kMtl}});
+  const auto report = ImportFurniture(dir.path(), dir.path() / "pack");
+  ASSERT_TRUE(report.has_value()) << report.error().Message();
+  EXPECT_EQ(report->models, 1);
+  const auto pack = FurniturePack::Load(dir.path() / "pack");
+  ASSERT_TRUE(pack.has_value()) << pack.error().Message();
+  ASSERT_EQ(pack->entries().size(), 1U);
+  const PackEntry& entry = pack->entries()[0];
+  EXPECT_EQ(entry.kind, "bed");
+  EXPECT_EQ(entry.licence, "CC-BY 3.0");
+  EXPECT_EQ(entry.author, "Jos\xC3\xA9");
+  const auto model = pack->Read(entry);
+  ASSERT_TRUE(model.has_value()) << model.error().Message();
+  EXPECT_TRUE(model->Size().isApprox(Vector3d(1.7, 2.1, 1.1), 1e-5)) << model->Size().transpose();
+  EXPECT_NEAR(model->Bounds().min.z(), 0, 1e-6);
+  std::ifstream credits(dir.path() / "pack" / "ATTRIBUTION.md");
+  const std::string text((std::istreambuf_iterator<char>(credits)), {});
+  EXPECT_NE(text.find("\"Bed\" (Scopia#bed1) by Jos"), std::string::npos);
+  EXPECT_NE(text.find("creativecommons.org/licenses/by/3.0/"), std::string::npos);
+}
+
+TEST(FurnitureImport, SaysWhatIsMissing) {
+  const TempDir dir;
+  EXPECT_EQ(ImportFurniture(dir.path(), dir.path() / "pack").error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(FurniturePack::Load(dir.path()).error().code, ErrorCode::kNotFound);
+}
+
+TEST(FurniturePack, RefusesATruncatedPack) {
+  const TempDir dir;
+  PackModel m;
+  m.entry.id = "x";
+  m.entry.kind = "chair";
+  ModelBuilder b("chair");
+  b.Colour({1, 2, 3});
+  b.mesh.AddBox({0, 0, 0}, {1, 1, 1});
+  m.model = b.Finish();
+  ASSERT_TRUE(WritePack({m}, dir.path()).has_value());
+  ASSERT_TRUE(FurniturePack::Load(dir.path()).has_value());
+  std::filesystem::resize_file(dir.path() / "furniture.pack", 20);
+  EXPECT_EQ(FurniturePack::Load(dir.path()).error().code, ErrorCode::kMismatch);
+}
+
+}  // namespace
+}  // namespace crossnav::world
