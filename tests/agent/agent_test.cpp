@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/agent.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "crossnav/geometry/map_blocks.h"
+#include "crossnav/trace/trace_json.h"
+#include "support/box_walker.h"
+#include "support/fake_perception.h"
+
+namespace crossnav::agent {
+namespace {
+
+using crossnav::testing::BoxOf;
+using test::BoxWalker;
+using test::FakeSight;
+using test::FakeSuite;
+
+Config SmallConfig() {
+  Config config;
+  config.sensor.width_px = config.sensor.height_px = 64;
+  return config;
+}
+
+/// A room of 4 x 4 m.
+BoxWalker ClosedRoom() {
+  BoxWalker walker;
+  walker.sensor = SmallConfig().sensor;
+  walker.rooms.shell = BoxOf(0, 0, 0, 4, 4, 2.6);
+  walker.pose.p_world = Vector3d(1.5, 1.5, 0);
+  return walker;
+}
+
+const Box3 kCouch = BoxOf(6.6, 2.9, 0, 7.5, 3.7, 0.8);
+
+/// Two rooms of 4 x 4 m side by side; a door of 1 m at y in [0.4, 1.4], a couch in the far corner.
+BoxWalker TwoRooms() {
+  BoxWalker walker = ClosedRoom();
+  walker.rooms.shell = BoxOf(0, 0, 0, 8, 4, 2.6);
+  walker.rooms.solids = {BoxOf(4, 0, 0, 4.12, 0.4, 2.6), BoxOf(4, 1.4, 0, 4.12, 4, 2.6),
+                         BoxOf(4, 0.4, 2.05, 4.12, 1.4, 2.6), kCouch};
+  walker.pose.p_world = Vector3d(1.0, 3.0, 0);
+  walker.pose.yaw_rad = DegToRad(90);
+  return walker;
+}
+
+/// Features tell the couch's half of the house from the other; "couch" is the former's text.
+FakeSight CouchSight() {
+  FakeSight sight;
+  test::SeeBox(kCouch, "couch", &sight);
+  sight.features = [](const Observation& obs) {
+    perception::FeatureGrid grid{8, 8, 4, {}};
+    for (int row = 0; row < 8; ++row)
+      for (int col = 0; col < 8; ++col) {
+        const int u = col * obs.rgb.width / 8, v = row * obs.rgb.height / 8;
+        const Vector3d p =
+            obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+        const bool is_couch = kCouch.HorizontalDistance(p) < 0.05 && p.z() < 0.9;
+        const std::vector<float> cell =
+            is_couch ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0.8F, 0.6F, 0};
+        grid.data.insert(grid.data.end(), cell.begin(), cell.end());
+      }
+    return grid;
+  };
+  sight.text = [](std::string_view text) {
+    return text == "couch" ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0, 0, 1};
+  };
+  return sight;
+}
+
+struct Walk {
+  std::vector<std::string> traces;
+  Action last_action = Action::kTurnLeft;
+  bool all_explored = false;
+  std::optional<Vector3d> p_claimed_world;
+};
+
+/// Steps until STOP, "all explored" or `limit` steps.
+Walk RunAgent(Agent& agent, BoxWalker& walker, int limit) {
+  Walk walk;
+  for (int i = 0; i < limit; ++i) {
+    const auto result = agent.Step(walker.Look());
+    if (!result) {
+      ADD_FAILURE() << result.error().Message();
+      return walk;
+    }
+    walk.traces.push_back(ToJson(result->trace));
+    walk.last_action = result->action;
+    walk.all_explored = result->all_explored;
+    walk.p_claimed_world = result->p_claimed_world;
+    if (walk.all_explored || walk.last_action == Action::kStop) break;
+    walker.Do(result->action);
+  }
+  return walk;
+}
+
+TEST(Agent, FindsTheObjectInTheNextRoomAndStopsWithinRange) {
+  Agent agent(SmallConfig(), FakeSuite(CouchSight()));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  BoxWalker walker = TwoRooms();
+  const Walk walk = RunAgent(agent, walker, 400);
+  ASSERT_EQ(walk.last_action, Action::kStop) << "after " << walk.traces.size() << " steps";
+  EXPECT_LE(kCouch.HorizontalDistance(walker.pose.p_world), 1.30);
+  ASSERT_TRUE(walk.p_claimed_world.has_value());
+  EXPECT_LT(kCouch.HorizontalDistance(*walk.p_claimed_world), 0.2);
+  const auto last = trace::StepTraceFromJson(walk.traces.back());
+  ASSERT_TRUE(last.has_value());
+  EXPECT_TRUE(last->verification.passed);
+}
+
+TEST(Agent, TellsWhenAClosedRoomWithoutTheGoalIsExplored) {
+  Agent agent(SmallConfig(), FakeSuite({}));
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker = ClosedRoom();
+  const Walk walk = RunAgent(agent, walker, 400);
+  EXPECT_TRUE(walk.all_explored) << "after " << walk.traces.size() << " steps";
+  EXPECT_NE(walk.last_action, Action::kStop);
+  EXPECT_FALSE(walk.p_claimed_world.has_value());
+}
+
+TEST(Agent, NeverStopsAtWhatItWasNotAskedFor) {
+  Agent agent(SmallConfig(), FakeSuite(CouchSight()));
+  ASSERT_TRUE(agent.SetGoal("toilet").has_value());
+  BoxWalker walker = TwoRooms();
+  const Walk walk = RunAgent(agent, walker, 600);
+  EXPECT_TRUE(walk.all_explored) << "after " << walk.traces.size() << " steps";
+  EXPECT_NE(walk.last_action, Action::kStop);
+}
+
+TEST(Agent, AMalformedObservationIsAnErrorThatNamesItsField) {
+  Agent agent(SmallConfig(), FakeSuite({}));
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());
+  const Observation good = ClosedRoom().Look();
+  const auto where = [&](const Observation& obs) {
+    const auto result = agent.Step(obs);
+    return result ? std::string() : result.error().where;
+  };
+  Observation bad = good;
+  bad.T_world_camera.translation().x() = std::nan("");
+  EXPECT_EQ(where(bad), "observation.T_world_camera");
+  bad = good;
+  bad.T_world_camera.linear()(0, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(where(bad), "observation.T_world_camera");
+  bad = good;
+  bad.T_world_camera.linear() *= 2;
+  EXPECT_EQ(where(bad), "observation.T_world_camera");
+  bad = good;
+  bad.depth_m = DepthImage(63, 64, 1.0F);
+  EXPECT_EQ(where(bad), "observation.depth_m");
+  bad = good;
+  bad.rgb = RgbImage();
+  EXPECT_EQ(where(bad), "observation.depth_m");
+  EXPECT_EQ(where(Observation()), "observation.depth_m");
+  EXPECT_EQ(agent.map().Stats().known, 0);  // nothing of them got into the map
+  EXPECT_EQ(where(good), "");               // and the agent goes on
+}
+
+TEST(Agent, InvalidDepthEverywhereIsNoError) {
+  for (const float depth : {0.0F, std::numeric_limits<float>::quiet_NaN(),
+                            std::numeric_limits<float>::infinity(), -1.0F}) {
+    Agent agent(SmallConfig(), FakeSuite({}));
+    ASSERT_TRUE(agent.SetGoal("bed").has_value());
+    Observation obs = ClosedRoom().Look();
+    obs.depth_m = DepthImage(64, 64, depth);
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(agent.Step(obs).has_value());
+  }
+}
+
+TEST(Agent, AFailingNetworkIsAnErrorOfTheStep) {
+  for (const std::string part : {"detector", "stairs", "encoder"}) {
+    FakeSight sight;
+    sight.failing = part;
+    Agent agent(SmallConfig(), FakeSuite(sight));
+    EXPECT_EQ(agent.SetGoal("bed").has_value(), part != "encoder");
+    const auto result = agent.Step(ClosedRoom().Look());
+    ASSERT_FALSE(result.has_value()) << part;
+    EXPECT_EQ(result.error().where, part);
+  }
+}
+
+struct WorldBytes {
+  std::vector<geometry::MapBlock> blocks;
+  std::vector<std::pair<geometry::VoxelKey, geometry::Voxel>> states;
+  std::vector<geometry::VoxelKey> keys;
+  std::vector<std::vector<float>> rows;
+  std::vector<float> weights;
+  friend bool operator==(const WorldBytes&, const WorldBytes&) = default;
+};
+
+WorldBytes BytesOf(const Agent& agent) {
+  WorldBytes bytes;
+  bytes.blocks = ExportBlocks(agent.map());
+  agent.map().ForEach([&](const geometry::VoxelKey& key, const geometry::Voxel& voxel) {
+    bytes.states.emplace_back(key, voxel);
+  });
+  const auto& memory = agent.memory();
+  bytes.keys.assign(memory.Keys().begin(), memory.Keys().end());
+  for (std::int64_t row = 0; row < memory.Size(); ++row) {
+    bytes.rows.push_back(memory.FeatureAt(row));
+    bytes.weights.push_back(memory.WeightAt(row));
+  }
+  return bytes;
+}
+
+TEST(Agent, ANewGoalLeavesMapAndMemoryAsTheyAre) {
+  Agent agent(SmallConfig(), FakeSuite(CouchSight()));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  BoxWalker walker = TwoRooms();
+  RunAgent(agent, walker, 60);
+  const WorldBytes before = BytesOf(agent);
+  ASSERT_GT(before.states.size(), 1000u);
+  ASSERT_GT(before.rows.size(), 100u);
+  ASSERT_TRUE(agent.SetGoal("toilet").has_value());
+  EXPECT_TRUE(BytesOf(agent) == before);
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  EXPECT_TRUE(BytesOf(agent) == before);
+}
+
+TEST(Agent, StairMarksSurviveANewGoal) {
+  // Everything low is called a stair; an entrance that proves none leaves its marks in the map.
+  FakeSight sight;
+  sight.stairs = [](const Observation& obs) { return Image<float>(obs.rgb.width, 64, 0.9F); };
+  Agent agent(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker = ClosedRoom();
+  RunAgent(agent, walker, 60);
+  const WorldBytes before = BytesOf(agent);
+  ASSERT_TRUE(agent.SetGoal("sofa").has_value());
+  EXPECT_TRUE(BytesOf(agent) == before);
+}
+
+TEST(Agent, TheFirstGoalIsTheSameWithAndWithoutHistory) {
+  std::vector<std::vector<std::string>> traces;
+  for (const bool use_history : {true, false}) {
+    Config config = SmallConfig();
+    config.policy.poi.use_history = use_history;
+    Agent agent(config, FakeSuite(CouchSight()));
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    BoxWalker walker = TwoRooms();
+    traces.push_back(RunAgent(agent, walker, 400).traces);
+  }
+  EXPECT_GT(traces[0].size(), 20u);
+  EXPECT_EQ(traces[0], traces[1]);
+}
+
+TEST(Agent, ASecondGoalSeenBeforeIsRememberedOnlyWithHistory) {
+  for (const bool use_history : {true, false}) {
+    Config config = SmallConfig();
+    config.policy.poi.use_history = use_history;
+    Agent agent(config, FakeSuite(CouchSight()));
+    ASSERT_TRUE(agent.SetGoal("toilet").has_value());
+    BoxWalker walker = TwoRooms();
+    RunAgent(agent, walker, 600);
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    const auto first = agent.Step(walker.Look());
+    ASSERT_TRUE(first.has_value());
+    const bool is_remembered = first->trace.reason == "goal remembered";
+    const bool is_seen = first->trace.reason == "goal seen";
+    EXPECT_EQ(is_remembered, use_history) << first->trace.reason;
+    EXPECT_FALSE(is_seen);
+    walker.Do(first->action);
+    const Walk walk = RunAgent(agent, walker, 400);
+    EXPECT_TRUE(walk.last_action == Action::kStop || !use_history);
+  }
+}
+
+TEST(Agent, TheSameObservationsGiveTheSameTracesByteForByte) {
+  std::vector<std::vector<std::string>> traces;
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    Agent agent(SmallConfig(), FakeSuite(CouchSight()));
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    BoxWalker walker = TwoRooms();
+    traces.push_back(RunAgent(agent, walker, 400).traces);
+  }
+  EXPECT_EQ(traces[0], traces[1]);
+}
+
+TEST(Agent, MovesOnlyThroughFreeSpace) {
+  Agent agent(SmallConfig(), FakeSuite({}));
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker = TwoRooms();
+  int forward = 0, bumps = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto result = agent.Step(walker.Look());
+    ASSERT_TRUE(result.has_value());
+    if (result->all_explored) break;
+    const Vector3d before = walker.pose.p_world;
+    walker.Do(result->action);
+    if (result->action != Action::kMoveForward) continue;
+    ++forward;
+    bumps += (walker.pose.p_world - before).norm() < 0.01;
+  }
+  EXPECT_GT(forward, 10);
+  EXPECT_LE(10 * bumps, forward);
+}
+
+}  // namespace
+}  // namespace crossnav::agent

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// A walker in a house of boxes: what the agent's actions do and what its sensor then sees, without
+// the simulator. A step that would touch a box does not happen. World frame, metres.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/core/action.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/perception/perception.h"
+#include "support/box_rooms.h"
+#include "support/fake_perception.h"
+
+namespace crossnav::test {
+
+struct BoxWalker {
+  crossnav::testing::BoxRooms rooms;
+  AgentPose pose;
+  SensorConfig sensor;
+  ActionConfig action;
+  double radius_m = 0.1;
+
+  Observation Look() const {
+    Observation obs;
+    obs.camera = sensor.Intrinsics();
+    obs.T_world_camera = CameraPose(pose, sensor.camera_height_m);
+    obs.depth_m = crossnav::testing::RenderDepth(rooms, obs.camera, obs.T_world_camera);
+    obs.rgb = RgbImage(sensor.width_px, sensor.height_px);
+    return obs;
+  }
+
+  bool IsFree(const Vector3d& p) const {
+    const Box3& shell = rooms.shell;
+    if (p.x() < shell.min.x() + radius_m || p.x() > shell.max.x() - radius_m ||
+        p.y() < shell.min.y() + radius_m || p.y() > shell.max.y() - radius_m)
+      return false;
+    for (const Box3& solid : rooms.solids)
+      if (solid.min.z() < p.z() + 1.5 && solid.HorizontalDistance(p) < radius_m) return false;
+    return true;
+  }
+
+  void Do(Action what) {
+    const double turn = DegToRad(action.turn_deg), pitch = DegToRad(action.pitch_deg),
+                 limit = DegToRad(action.max_pitch_deg);
+    if (what == Action::kTurnLeft) pose.yaw_rad = WrapAngle(pose.yaw_rad + turn);
+    if (what == Action::kTurnRight) pose.yaw_rad = WrapAngle(pose.yaw_rad - turn);
+    if (what == Action::kLookUp) pose.pitch_rad = std::min(limit, pose.pitch_rad + pitch);
+    if (what == Action::kLookDown) pose.pitch_rad = std::max(-limit, pose.pitch_rad - pitch);
+    if (what != Action::kMoveForward) return;
+    const Vector3d next = pose.p_world + action.forward_m * Vector3d(std::cos(pose.yaw_rad),
+                                                                     std::sin(pose.yaw_rad), 0);
+    if (IsFree(next)) pose.p_world = next;
+  }
+};
+
+/// A detector and segmenter that know which pixels show `object`: those whose end point lies on it.
+inline void SeeBox(const Box3& object, std::string_view name, FakeSight* sight) {
+  const auto mask_of = [object](const Observation& obs) {
+    MaskImage mask(obs.rgb.width, obs.rgb.height, 0);
+    for (int v = 0; v < mask.height; ++v)
+      for (int u = 0; u < mask.width; ++u) {
+        const Vector3d p =
+            obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+        mask.At(u, v) = (p.array() > object.min.array() - 0.01).all() &&
+                        (p.array() < object.max.array() + 0.01).all() &&
+                        p.z() > object.min.z() + 0.02;
+      }
+    return mask;
+  };
+  sight->detect = [mask_of, goal_name = std::string(name)](const Observation& obs,
+                                                           std::string_view goal) {
+    std::vector<perception::Detection> found;
+    if (goal != goal_name) return found;
+    const MaskImage mask = mask_of(obs);
+    perception::Detection detection;
+    detection.box = {mask.width, mask.height, 0, 0};
+    for (int v = 0; v < mask.height; ++v)
+      for (int u = 0; u < mask.width; ++u) {
+        if (!mask.At(u, v)) continue;
+        auto& box = detection.box;
+        box = {std::min(box.u0, u), std::min(box.v0, v), std::max(box.u1, u + 1),
+               std::max(box.v1, v + 1)};
+      }
+    detection.confidence = 0.9F;
+    if (detection.box.u1 > 0) found.push_back(detection);
+    return found;
+  };
+  sight->segment = [mask_of](const Observation& obs, perception::Detection& detection) {
+    detection.mask = mask_of(obs);
+    detection.mask_quality = 0.9F;
+  };
+}
+
+}  // namespace crossnav::test
