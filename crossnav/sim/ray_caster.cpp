@@ -115,19 +115,19 @@ struct RayCaster::Impl {
     float s, t;  // weights of the second and third corner
   };
 
-  /// `n` and `d` need not be unit vectors.
-  Rgb8 ColourOf(const Hit& hit, const Vector3f& n, const Vector3f& d) const {
-    const float light =
-        Light(n / std::sqrt(std::max(n.squaredNorm(), 1e-30F)), d / std::sqrt(d.squaredNorm()));
+  Rgb8 ColourOf(const Hit& hit, float light) const {
     const TriangleLook& look = looks[hit.geometry][hit.primitive];
     const Colour3f base =
         look.is_flat != 0
             ? Colour3f{float(look.colour.r), float(look.colour.g), float(look.colour.b)}
             : SurfaceColour(scene, triangles[hit.geometry][hit.primitive], hit.s, hit.t);
-    return {static_cast<std::uint8_t>(base.r * light + 0.5F),
-            static_cast<std::uint8_t>(base.g * light + 0.5F),
-            static_cast<std::uint8_t>(base.b * light + 0.5F)};
+    const auto byte = [light](float x) {
+      return static_cast<std::uint8_t>(static_cast<int>(x * light + 0.5F));
+    };
+    return {byte(base.r), byte(base.g), byte(base.b)};
   }
+
+  void Store(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const;
 };
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
@@ -154,62 +154,82 @@ struct RayGenerator {
         cx(static_cast<float>(K.cx)),
         cy(static_cast<float>(K.cy)) {}
 
-  void Fill(int u0, int v0, RTCRayHit16& packet) const {
+  /// What is the same for all packets of a picture; Embree leaves it as it is.
+  void Begin(RTCRayHit16& packet) const {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const float x = (static_cast<float>(u0 + lane % kTileWidth) - cx) / fx;
-      const float y = (static_cast<float>(v0 + lane / kTileWidth) - cy) / fy;
       packet.ray.org_x[lane] = origin.x();
       packet.ray.org_y[lane] = origin.y();
       packet.ray.org_z[lane] = origin.z();
-      packet.ray.dir_x[lane] = forward.x() + x * right.x() + y * down.x();
-      packet.ray.dir_y[lane] = forward.y() + x * right.y() + y * down.y();
-      packet.ray.dir_z[lane] = forward.z() + x * right.z() + y * down.z();
       packet.ray.tnear[lane] = 0;
-      packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
       packet.ray.time[lane] = 0;
       packet.ray.mask[lane] = ~0U;
       packet.ray.id[lane] = 0;
       packet.ray.flags[lane] = 0;
-      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+
+  void Fill(int u0, int v0, RTCRayHit16& packet) const {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float x = (static_cast<float>(u0 + lane % kTileWidth) - cx) / fx;
+      const float y = (static_cast<float>(v0 + lane / kTileWidth) - cy) / fy;
+      packet.ray.dir_x[lane] = forward.x() + x * right.x() + y * down.x();
+      packet.ray.dir_y[lane] = forward.y() + x * right.y() + y * down.y();
+      packet.ray.dir_z[lane] = forward.z() + x * right.z() + y * down.z();
+      packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
     }
   }
 };
 
+/// Marks the lanes of a tile that lie in the picture.
+void MarkInside(int columns, int rows, std::array<int, kLanes>& valid) {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const bool inside = lane % kTileWidth < columns && lane / kTileWidth < rows;
+    valid[static_cast<std::size_t>(lane)] = inside ? -1 : 0;
+  }
+}
+
 }  // namespace
 
+/// Writes the hits of a packet into the picture; lanes without a hit stay as they are.
+void RayCaster::Impl::Store(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const {
+  std::array<float, kLanes> light;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    light[static_cast<std::size_t>(lane)] =
+        Light({packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]},
+              {packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]});
+  }
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const unsigned geometry = packet.hit.geomID[lane], primitive = packet.hit.primID[lane];
+    if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
+    const std::size_t pixel = static_cast<std::size_t>(v0 + lane / kTileWidth) *
+                                  static_cast<std::size_t>(frame.rgb.width) +
+                              static_cast<std::size_t>(u0 + lane % kTileWidth);
+    frame.rgb.data[pixel] = ColourOf({geometry, primitive, packet.hit.u[lane], packet.hit.v[lane]},
+                                     light[static_cast<std::size_t>(lane)]);
+    frame.depth_m.data[pixel] = packet.ray.tfar[lane];
+    frame.instance.data[pixel] = looks[geometry][primitive].instance;
+  }
+}
+
 Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_camera) const {
-  CROSSNAV_CHECK(camera.width_px > 0 && camera.height_px > 0, "camera without pixels");
+  const int width = camera.width_px, height = camera.height_px;
+  CROSSNAV_CHECK(width > 0 && height > 0, "camera without pixels");
   CROSSNAV_CHECK(IsValidPose(T_world_camera), "camera pose is not a finite rotation");
-  Frame frame;
-  frame.rgb = RgbImage(camera.width_px, camera.height_px);
-  frame.depth_m = DepthImage(camera.width_px, camera.height_px);
-  frame.instance = InstanceImage(camera.width_px, camera.height_px);
+  Frame frame{RgbImage(width, height), DepthImage(width, height), InstanceImage(width, height)};
   const RayGenerator generator(camera, T_world_camera);
   alignas(64) std::array<int, kLanes> valid = AllLanes();
-  alignas(64) RTCRayHit16 packet;
-  for (int v0 = 0; v0 < camera.height_px; v0 += kTileHeight) {
-    for (int u0 = 0; u0 < camera.width_px; u0 += kTileWidth) {
+  alignas(64) RTCRayHit16 packet{};
+  generator.Begin(packet);
+  for (int v0 = 0; v0 < height; v0 += kTileHeight) {
+    for (int u0 = 0; u0 < width; u0 += kTileWidth) {
       generator.Fill(u0, v0, packet);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const bool inside =
-            u0 + lane % kTileWidth < camera.width_px && v0 + lane / kTileWidth < camera.height_px;
-        valid[static_cast<std::size_t>(lane)] = inside ? -1 : 0;
-      }
+      const bool is_whole = u0 + kTileWidth <= width && v0 + kTileHeight <= height;
+      if (!is_whole) MarkInside(width - u0, height - v0, valid);
       IntersectPacket(impl_->rays.get(), valid.data(), &packet);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const bool hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-        if (valid[static_cast<std::size_t>(lane)] == 0 || !hit) continue;
-        const int u = u0 + lane % kTileWidth, v = v0 + lane / kTileWidth;
-        frame.rgb.At(u, v) = impl_->ColourOf(
-            {packet.hit.geomID[lane], packet.hit.primID[lane], packet.hit.u[lane],
-             packet.hit.v[lane]},
-            {packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]},
-            {packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]});
-        frame.depth_m.At(u, v) = packet.ray.tfar[lane];
-        frame.instance.At(u, v) =
-            impl_->looks[packet.hit.geomID[lane]][packet.hit.primID[lane]].instance;
-      }
+      impl_->Store(packet, u0, v0, frame);
+      if (!is_whole) valid = AllLanes();
     }
   }
   return frame;
@@ -239,7 +259,7 @@ std::optional<RayHit> RayCaster::Cast(const Vector3d& p_world, const Vector3d& d
   hit.p_world = p_world + direction / length * hit.distance_m;
   hit.triangle = impl_->triangles[ray.hit.geomID][ray.hit.primID];
   hit.colour = impl_->ColourOf({ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v},
-                               {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, d);
+                               Light({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, d));
   return hit;
 }
 

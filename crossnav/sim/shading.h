@@ -64,14 +64,17 @@ inline Colour3f SurfaceColour(const Scene& scene, std::uint32_t triangle, float 
   return colour;
 }
 
-/// Share of light [0, 1] on a surface with unit normal `n` seen along the unit ray `d` (both
-/// world).
+/// Share of light [0, 1] on a surface with normal `n` seen along the ray `d` (world, any lengths).
+/// Plain arithmetic, so that a loop over lanes vectorises.
 inline float Light(const Vector3f& n, const Vector3f& d) {
-  const float facing = std::abs(n.dot(d));
-  const float towards_viewer = n.dot(d) > 0 ? -1.0F : 1.0F;  // meshes are not wound consistently
-  return std::clamp(
-      0.52F + 0.32F * facing + towards_viewer * (0.10F * n.z() + 0.06F * n.x() + 0.03F * n.y()),
-      0.0F, 1.0F);
+  const float turned = n.x() * d.x() + n.y() * d.y() + n.z() * d.z();
+  const float n2 = n.x() * n.x() + n.y() * n.y() + n.z() * n.z() + 1e-30F;
+  const float d2 = d.x() * d.x() + d.y() * d.y() + d.z() * d.z();
+  const float one_over_n = 1 / std::sqrt(n2);
+  const float facing = std::abs(turned) * one_over_n / std::sqrt(d2);
+  const float side = 0.10F * n.z() + 0.06F * n.x() + 0.03F * n.y();
+  // The normal is turned to the viewer: meshes are not wound consistently. The sum stays in (0, 1).
+  return 0.52F + 0.32F * facing + std::copysign(one_over_n, -turned) * side;
 }
 
 }  // namespace crossnav::sim
