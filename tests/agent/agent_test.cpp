@@ -219,15 +219,38 @@ TEST(Agent, ANewGoalLeavesMapAndMemoryAsTheyAre) {
   EXPECT_TRUE(BytesOf(agent) == before);
 }
 
+int StairMarksOf(const Agent& agent) {
+  int marks = 0;
+  agent.map().ForEach([&](const geometry::VoxelKey& key, const geometry::Voxel&) {
+    marks += agent.map().StairMarkAt(key) != geometry::StairMark::kNone;
+  });
+  return marks;
+}
+
 TEST(Agent, StairMarksSurviveANewGoal) {
-  // Everything low is called a stair; an entrance that proves none leaves its marks in the map.
+  // Boxes stacked like steps in a corner, and a mask that calls them stairs.
+  BoxWalker walker = ClosedRoom();
+  for (int step = 0; step < 5; ++step)
+    walker.rooms.solids.push_back(
+        BoxOf(2.4 + 0.3 * step, 2.8, 0, 2.7 + 0.3 * step, 4, 0.18 * (step + 1)));
   FakeSight sight;
-  sight.stairs = [](const Observation& obs) { return Image<float>(obs.rgb.width, 64, 0.9F); };
+  sight.stairs = [](const Observation& obs) {
+    Image<float> probability(obs.rgb.width, obs.rgb.height, 0.0F);
+    for (int v = 0; v < probability.height; ++v)
+      for (int u = 0; u < probability.width; ++u) {
+        const Vector3d p =
+            obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+        const bool is_stair = p.x() > 2.39 && p.x() < 3.91 && p.y() > 2.79 && p.y() < 3.99 &&
+                              p.z() > 0.03 && p.z() < 1.0;
+        probability.At(u, v) = is_stair ? 0.9F : 0.0F;
+      }
+    return probability;
+  };
   Agent agent(SmallConfig(), FakeSuite(sight));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());
-  BoxWalker walker = ClosedRoom();
-  RunAgent(agent, walker, 60);
+  for (int i = 0; i < 150 && StairMarksOf(agent) == 0; ++i) RunAgent(agent, walker, 1);
   const WorldBytes before = BytesOf(agent);
+  ASSERT_GT(StairMarksOf(agent), 0);
   ASSERT_TRUE(agent.SetGoal("sofa").has_value());
   EXPECT_TRUE(BytesOf(agent) == before);
 }
