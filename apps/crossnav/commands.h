@@ -26,7 +26,8 @@ Result<bench::RunConfig> LoadConfig(const CommonOptions& options,
 
 struct WorldOptions {
   std::uint64_t seed = 1;
-  int count = 1, floors = 2;
+  int count = 1, floors = 2;  ///< floors 0 = drawn from the seed
+  double area_m2 = 0;         ///< of one floor; 0 = drawn from the seed
   std::string out;
   bool embedded = false;
 };
@@ -61,8 +62,9 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
 struct RunOptions {
   std::string scenes, episodes, episode;
   std::string variant = "full";
-  std::string out;     ///< folder for pictures, record and trace
-  std::string replay;  ///< .mcap; empty = none
+  std::string out;       ///< folder for pictures, record and trace
+  std::string replay;    ///< .mcap; empty = none
+  std::string save_map;  ///< map file to save the memory to; empty = none
   std::string success, budget_scope;
 };
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);
@@ -101,6 +103,15 @@ struct ReplayOptions {
 };
 Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& common,
                           Console& console);
+
+struct MapOptions {
+  std::string file, text, out;
+  int top = 4;
+  bool surfaces_only = false, skip_damaged = false;
+};
+Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Console& console);
+Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Console& console);
+Result<void> MapExport(const MapOptions& options, const CommonOptions& common, Console& console);
 
 struct BenchOptions {
   std::string scenes, episodes, episode;

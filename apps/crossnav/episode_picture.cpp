@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "episode_picture.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,6 +9,15 @@
 #include "crossnav/sim/picture.h"
 
 namespace crossnav::app {
+
+/// A floor's picture while it is drawn.
+struct FloorCanvas {
+  const sim::TopDown& view;
+  Canvas canvas;
+
+  PixelPoint At(const Vector3d& p_world) const { return {view.U(p_world), view.V(p_world)}; }
+};
+
 namespace {
 
 constexpr double kPxPerM = 60;  // chosen: a 10 m house fits a screen
@@ -21,14 +31,6 @@ constexpr Rgb8 kWhite{255, 255, 255};
 Rgb8 ColourOf(int goal) {
   return kGoalColours[static_cast<std::size_t>(goal) % kGoalColours.size()];
 }
-
-/// A floor's picture while it is drawn.
-struct FloorCanvas {
-  const sim::TopDown& view;
-  Canvas canvas;
-
-  PixelPoint At(const Vector3d& p_world) const { return {view.U(p_world), view.V(p_world)}; }
-};
 
 /// A label on a light ground, centred at `at`.
 void Label(FloorCanvas& floor, PixelPoint at, const std::string& text, Rgb8 colour) {
@@ -81,50 +83,60 @@ Result<void> EpisodePicture::OnEpisodeEnd(const agent::Agent& state,
   return {};
 }
 
+void EpisodePicture::DrawMap(FloorCanvas& floor, int id) const {
+  for (const Vector3d& p : stairs_world_) {
+    const PixelPoint at = floor.At(p);
+    floor.canvas.Fill({at.u - 3, at.v - 3}, {at.u + 3, at.v + 3}, kStairColour, 0.5);
+  }
+  for (const trace::CandidateTrace& frontier : frontiers_) {
+    if (context_.navmesh().FloorOf(frontier.p_nav_world) != id) continue;
+    floor.canvas.Ring(floor.At(frontier.p_focus_world), 7, 3, kFrontierColour);
+    floor.canvas.Disc(floor.At(frontier.p_nav_world), 3, kFrontierColour);
+  }
+}
+
+void EpisodePicture::DrawGoals(FloorCanvas& floor, int id) const {
+  for (std::size_t k = 0; k < episode_.goals.size(); ++k) {
+    const Rgb8 colour = ColourOf(static_cast<int>(k));
+    for (const bench::Target& target : context_.TargetsOf(episode_.goals[k])) {
+      const auto& floors = target.floors;
+      if (std::find(floors.begin(), floors.end(), id) == floors.end()) continue;
+      floor.canvas.Box(floor.At(target.box.min), floor.At(target.box.max), 3, colour);
+      Label(floor, floor.At(target.box.Center()), std::to_string(k + 1), colour);
+    }
+  }
+}
+
+void EpisodePicture::DrawTrajectory(FloorCanvas& floor, int id) const {
+  const auto is_here = [&](const Vector3d& p) { return context_.navmesh().FloorOf(p) == id; };
+  for (std::size_t i = 1; i < trajectory_.size(); ++i) {
+    const Place &a = trajectory_[i - 1], &b = trajectory_[i];
+    if (!is_here(b.p_world)) continue;
+    floor.canvas.Line(floor.At(a.p_world), floor.At(b.p_world), 3, ColourOf(b.goal));
+  }
+  if (!trajectory_.empty() && is_here(trajectory_.front().p_world)) {
+    const PixelPoint at = floor.At(trajectory_.front().p_world);
+    floor.canvas.Ring(at, 8, 3, kBlack);
+    Label(floor, {at.u, at.v + 20}, "start", kBlack);
+  }
+  for (std::size_t k = 0; k < stages_.size(); ++k) {
+    if (!is_here(stages_[k].end_world)) continue;
+    const PixelPoint at = floor.At(stages_[k].end_world);
+    floor.canvas.Disc(at, 7, ColourOf(static_cast<int>(k)));
+    floor.canvas.Ring(at, 8, 2, stages_[k].success ? kWhite : kBlack);
+  }
+}
+
 Result<std::vector<std::filesystem::path>> EpisodePicture::Write(
     const std::filesystem::path& folder) const {
   std::vector<std::filesystem::path> paths;
-  const sim::NavMesh& navmesh = context_.navmesh();
-  for (const sim::Floor& ground : navmesh.Floors()) {
-    const sim::TopDown view =
-        sim::RenderTopDown(context_.scene(), context_.caster(), navmesh, ground.id, kPxPerM);
+  for (const sim::Floor& ground : context_.navmesh().Floors()) {
+    const sim::TopDown view = sim::RenderTopDown(context_.scene(), context_.caster(),
+                                                 context_.navmesh(), ground.id, kPxPerM);
     FloorCanvas floor{view, Canvas(view.image)};
-    const auto is_here = [&](const Vector3d& p) { return navmesh.FloorOf(p) == ground.id; };
-    for (const Vector3d& p : stairs_world_) {
-      const PixelPoint at = floor.At(p);
-      floor.canvas.Fill({at.u - 3, at.v - 3}, {at.u + 3, at.v + 3}, kStairColour, 0.5);
-    }
-    for (const trace::CandidateTrace& frontier : frontiers_) {
-      if (!is_here(frontier.p_nav_world)) continue;
-      floor.canvas.Ring(floor.At(frontier.p_focus_world), 7, 3, kFrontierColour);
-      floor.canvas.Disc(floor.At(frontier.p_nav_world), 3, kFrontierColour);
-    }
-    for (std::size_t k = 0; k < episode_.goals.size(); ++k) {
-      for (const bench::Target& target : context_.TargetsOf(episode_.goals[k])) {
-        const bool is_on_floor =
-            std::find(target.floors.begin(), target.floors.end(), ground.id) != target.floors.end();
-        if (!is_on_floor) continue;
-        const Rgb8 colour = ColourOf(static_cast<int>(k));
-        floor.canvas.Box(floor.At(target.box.min), floor.At(target.box.max), 3, colour);
-        Label(floor, floor.At(target.box.Center()), std::to_string(k + 1), colour);
-      }
-    }
-    for (std::size_t i = 1; i < trajectory_.size(); ++i) {
-      const Place &a = trajectory_[i - 1], &b = trajectory_[i];
-      if (!is_here(b.p_world)) continue;
-      floor.canvas.Line(floor.At(a.p_world), floor.At(b.p_world), 3, ColourOf(b.goal));
-    }
-    if (!trajectory_.empty() && is_here(trajectory_.front().p_world)) {
-      const PixelPoint at = floor.At(trajectory_.front().p_world);
-      floor.canvas.Ring(at, 8, 3, kBlack);
-      Label(floor, {at.u, at.v + 20}, "start", kBlack);
-    }
-    for (std::size_t k = 0; k < stages_.size(); ++k) {
-      if (!is_here(stages_[k].end_world)) continue;
-      const PixelPoint at = floor.At(stages_[k].end_world);
-      floor.canvas.Disc(at, 7, ColourOf(static_cast<int>(k)));
-      floor.canvas.Ring(at, 8, 2, stages_[k].success ? kWhite : kBlack);
-    }
+    DrawMap(floor, ground.id);
+    DrawGoals(floor, ground.id);
+    DrawTrajectory(floor, ground.id);
     DrawLegend(floor, episode_);
     paths.push_back(folder / ("floor_" + std::to_string(ground.id) + ".png"));
     if (auto ok = sim::WritePng(floor.canvas.image(), paths.back()); !ok) {

@@ -11,6 +11,8 @@
 
 namespace crossnav::app {
 
+struct FloorCanvas;
+
 class EpisodePicture : public bench::RunObserver {
  public:
   EpisodePicture(const bench::SceneContext& context, const bench::Episode& episode)
@@ -28,6 +30,10 @@ class EpisodePicture : public bench::RunObserver {
     Vector3d p_world;
     int goal = 0;
   };
+  void DrawMap(FloorCanvas& floor, int id) const;
+  void DrawGoals(FloorCanvas& floor, int id) const;
+  void DrawTrajectory(FloorCanvas& floor, int id) const;
+
   const bench::SceneContext& context_;
   const bench::Episode& episode_;
   std::vector<Place> trajectory_;

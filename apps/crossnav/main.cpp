@@ -23,6 +23,7 @@ struct Options {
   ReportOptions report;
   MetricsOptions metrics;
   ReplayOptions replay;
+  MapOptions map;
   BenchOptions bench;
   Command command;
 };
@@ -52,7 +53,11 @@ void AddWorld(CLI::App& app, Options& o) {
                            [&o](Console& c) { return WorldGenerate(o.world, o.common, c); });
   verb->add_option("--seed", o.world.seed, "First seed");
   verb->add_option("--count", o.world.count, "Number of houses")->check(CLI::Range(1, 100000));
-  verb->add_option("--floors", o.world.floors, "Floors per house")->check(CLI::Range(1, 9));
+  verb->add_option("--floors", o.world.floors, "Floors per house; 0 = by the seed")
+      ->check(CLI::Range(0, 4));
+  verb->add_option("--area", o.world.area_m2,
+                   "Area of a floor [m2], 60 to 400; default: by the seed")
+      ->check(CLI::Range(60.0, 400.0));
   verb->add_option("--out", o.world.out, "Folder to write to")->required();
   verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
 }
@@ -121,6 +126,7 @@ void AddRuns(CLI::App& app, Options& o) {
   run->add_option("--episodes", o.run.episodes, "Episode file")->required();
   run->add_option("--episode", o.run.episode, "Its id")->required();
   run->add_option("--replay", o.run.replay, "Replay to write (.mcap)");
+  run->add_option("--save-map", o.run.save_map, "Map file to save the memory to");
   run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
   AddProtocol(run, o.run);
 
@@ -167,6 +173,28 @@ void AddResults(CLI::App& app, Options& o) {
   page->add_option("--out", o.replay.out, "Page to write (.html)")->required();
 }
 
+void AddMap(CLI::App& app, Options& o) {
+  CLI::App* map = app.add_subcommand("map", "Look into a saved memory");
+  map->require_subcommand(1);
+  CLI::App* info = AddVerb(*map, o, "info", "What a map file holds", "crossnav map info home.map",
+                           [&o](Console& c) { return MapInfo(o.map, o.common, c); });
+  CLI::App* query = AddVerb(*map, o, "query", "Places that answer a text, best first",
+                            "crossnav map query home.map \"potted plant\" --top 4",
+                            [&o](Console& c) { return MapQuery(o.map, o.common, c); });
+  CLI::App* points = AddVerb(*map, o, "export", "Voxels as a coloured point cloud (PLY)",
+                             "crossnav map export home.map --out home.ply",
+                             [&o](Console& c) { return MapExport(o.map, o.common, c); });
+  for (CLI::App* verb : {info, query, points}) {
+    verb->add_option("MAP", o.map.file, "Map file")->required();
+    verb->add_flag("--skip-damaged", o.map.skip_damaged, "Go on with what is intact");
+  }
+  query->add_option("TEXT", o.map.text, "What to look for")->required();
+  query->add_option("--top", o.map.top, "Places at most")->check(CLI::Range(1, 1000));
+  points->add_option("--out", o.map.out, "PLY to write")->required();
+  points->add_option("--query", o.map.text, "Colour by similarity to this text");
+  points->add_flag("--surfaces", o.map.surfaces_only, "Leave out the air");
+}
+
 void AddTools(CLI::App& app, Options& o) {
   AddVerb(app, o, "doctor", "What this program finds here, and what is missing",
           "crossnav doctor --json", [&o](Console& c) { return Doctor(o.common, c); });
@@ -190,6 +218,7 @@ int Main(int argc, char** argv) {
   AddEpisodes(app, options);
   AddRuns(app, options);
   AddResults(app, options);
+  AddMap(app, options);
   AddTools(app, options);
   try {
     app.parse(argc, argv);

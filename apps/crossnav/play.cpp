@@ -8,6 +8,7 @@
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/metrics_report.h"
 #include "crossnav/bench/runner.h"
+#include "crossnav/store/map_file.h"
 #include "crossnav/trace/replay_page.h"
 #include "crossnav/trace/replay_writer.h"
 #include "crossnav/trace/trace_json.h"
@@ -51,6 +52,26 @@ class ReplayLog : public bench::RunObserver {
  private:
   trace::ReplayWriter writer_;
   int last_step_ = 0, goal_index_ = 0;
+};
+
+/// Saves the memory when the episode is over.
+class MapLog : public bench::RunObserver {
+ public:
+  MapLog(std::filesystem::path path, std::string frame)
+      : path_(std::move(path)), frame_(std::move(frame)) {}
+
+  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord&) override {
+    store::SaveInfo info;
+    info.encoder_name = "ground-truth";
+    info.frame = frame_;
+    const auto saved = store::SaveMemory(path_, state.map(), state.memory(), info);
+    if (!saved) return tl::unexpected(saved.error());
+    return {};
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string frame_;
 };
 
 trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episode& episode,
@@ -107,6 +128,7 @@ Result<Written> WriteFiles(const bench::EpisodeRecord& record, const bench::RunH
   if (!pictures) return tl::unexpected(pictures.error());
   for (const auto& path : *pictures) add("picture", path);
   if (!files.replay.empty()) add("replay", files.replay);
+  if (!files.map.empty()) add("map", files.map);
   if (!files.page.empty()) {
     if (auto ok = trace::ExportReplayPage(files.replay, files.page); !ok) {
       return tl::unexpected(ok.error());
@@ -149,6 +171,8 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   auto replay = OpenReplay(context, episode, config, header, files.replay);
   if (!replay) return tl::unexpected(replay.error());
   if (*replay) observers.push_back(replay->get());
+  MapLog map(files.map, context.scene().id);
+  if (!files.map.empty()) observers.push_back(&map);
   const auto record = bench::RunEpisode(context, episode, config, observers);
   console.EndProgress();
   if (!record) return record;

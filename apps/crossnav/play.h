@@ -14,6 +14,7 @@ struct PlayFiles {
   std::filesystem::path folder;  ///< results.jsonl, trace.jsonl, floor_<id>.png
   std::filesystem::path replay;  ///< .mcap; empty = none
   std::filesystem::path page;    ///< .html; empty = none
+  std::filesystem::path map;     ///< memory to save; empty = none
 };
 
 /// Runs the episode, writes the files, prints the summary and where everything is.

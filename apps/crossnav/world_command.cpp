@@ -1,21 +1,57 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "crossnav/world/embedded_house.h"
+#include "crossnav/world/house_generator.h"
 
 namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json HouseJson(const world::HouseReport& house) {
+  return {
+      {"scene", house.scene_id}, {"folder", house.folder.string()}, {"attempts", house.attempts},
+      {"floors", house.floors},  {"area_m2", house.area_m2},        {"stairs", house.stairs},
+      {"rooms", house.rooms},    {"instances", house.instances},    {"bytes", house.bytes}};
+}
+
+std::string HouseText(const world::HouseReport& house) {
+  std::string text = fmt::format("{}  {} floors, {:.0f} m2 walkable,", house.folder.string(),
+                                 house.floors, house.area_m2);
+  for (const auto& [kind, count] : house.stairs) text += fmt::format(" {} {}", count, kind);
+  for (const auto& [category, count] : house.instances)
+    text += fmt::format(", {} {}", count, category);
+  return text + "\n";
+}
+
+}  // namespace
 
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*common*/,
                            Console& console) {
-  if (!options.embedded) {
-    return Fail(ErrorCode::kUnsupported,
-                "this version writes only the embedded house; add --embedded", "world generate");
+  Json houses = Json::array();
+  if (options.embedded) {
+    const auto folder = world::WriteEmbeddedHouse(options.out);
+    if (!folder) return tl::unexpected(folder.error());
+    console.Print(folder->string() + "\n");
+    houses.push_back({{"scene", world::kEmbeddedSceneId}, {"folder", folder->string()}});
   }
-  const auto folder = world::WriteEmbeddedHouse(options.out);
-  if (!folder) return tl::unexpected(folder.error());
-  console.Print(folder->string() + "\n");
-  console.Document(nlohmann::ordered_json({{"scenes", {folder->string()}}}).dump());
+  for (int i = 0; i < options.count && !options.embedded; ++i) {
+    console.Progress(fmt::format("house {} of {}", i + 1, options.count));
+    world::HouseParams params;
+    params.seed = options.seed + static_cast<std::uint64_t>(i);
+    params.floors = options.floors;
+    params.area_m2 = options.area_m2;
+    const auto house = world::GenerateHouse(params, options.out);
+    if (!house) return tl::unexpected(house.error());
+    console.EndProgress();
+    console.Print(HouseText(*house));
+    houses.push_back(HouseJson(*house));
+  }
+  console.Document(Json({{"scenes", std::move(houses)}}).dump(1));
   return {};
 }
 

@@ -71,8 +71,13 @@ Json GoalJson(const GoalObject& goal) {
 }  // namespace
 
 std::string ContentId(const Episode& episode) {
-  Json content = {SceneName(episode.scene_id), PositionJson(episode.start.p_world),
-                  RotationJson(episode.start.yaw_rad), episode.goals};
+  // Whole tenths of millimetres and hundredths of degrees: the same after any round trip.
+  const auto whole = [](double value, double unit) { return std::llround(value / unit); };
+  const Vector3d& p = episode.start.p_world;
+  const auto yaw = (whole(RadToDeg(episode.start.yaw_rad), 0.01) % 36000 + 36000) % 36000;
+  const Json content = {SceneName(episode.scene_id),
+                        {whole(p.x(), 1e-4), whole(p.y(), 1e-4), whole(p.z(), 1e-4), yaw},
+                        episode.goals};
   return SceneName(episode.scene_id) + "-" + HexHash(HashString(content.dump())).substr(0, 10);
 }
 
