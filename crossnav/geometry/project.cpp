@@ -21,9 +21,10 @@ using Eigen::Matrix3d;
 
 constexpr double kMargin_px = 1e-3;   // chosen: likewise
 constexpr double kLaneMargin = 1e-4;  // chosen: of the greatest reach, for positions in float
-constexpr double kLaneSlack = 3e-4;   // chosen: likewise, for times of crossing in float
+constexpr double kLaneSlack = 1e-6;   // chosen: sixteen roundings of a float
 constexpr double kInner = 0.4;        // chosen: of a voxel's edge, near its corners
-constexpr int kRows = 4;              // chosen: of a voxel's pixels, that `fast` looks at
+constexpr double kSkip = 0.4;         // chosen: of a voxel's depth, where `fast` does not look
+constexpr int kRows = 8;              // chosen: of a voxel's pixels, that `fast` looks at
 
 /// Half the extent of a cube, along the camera's axes and across the image's four side planes.
 struct CubeExtent {
@@ -102,6 +103,7 @@ class Projection {
     lanes_.half_x = static_cast<float>(cubes_[0].half.x());
     lanes_.half_y = static_cast<float>(cubes_[0].half.y());
     lanes_.half_z = static_cast<float>(cubes_[0].half.z());
+    lanes_.skip_m = static_cast<float>(is_exact_ ? 0 : 2 * kSkip * cubes_[0].half.z());
     lanes_.margin_m = static_cast<float>(kLaneMargin * reach_m);
     const double ball = std::max(0.0, 0.49 * s - kLaneMargin * reach_m);
     lanes_.ball_m2 = static_cast<float>(ball * ball);
@@ -110,7 +112,11 @@ class Projection {
       lanes_.per_v[a] = static_cast<float>(per_v_[a]);
       lanes_.ray[a] = static_cast<float>(forward_[a]);
     }
-    lanes_.slack_m = static_cast<float>(kLaneSlack * reach_m);
+    const double reach_vox = reach_m / s, ray_vox = per_u_.cwiseAbs().maxCoeff() * view_.width() +
+                                                    per_v_.cwiseAbs().maxCoeff() * view_.height() +
+                                                    1 / s;
+    lanes_.room_slack = static_cast<float>(kLaneSlack * reach_vox * ray_vox);
+    lanes_.beyond_slack = static_cast<float>(kLaneSlack * reach_m * ray_vox);
   }
 
   CubeExtent ExtentOf(double side_vox) const {

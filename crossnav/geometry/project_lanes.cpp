@@ -95,11 +95,12 @@ HWY_INLINE M MayReach(const LaneFrame& f, const LaneCube& cube, const Picture& p
   const auto tv = hn::ShiftRight<kTileShift>(Clamp(hn::ConvertTo(di, p.v), f.height - 1));
   const V reach =
       hn::GatherIndex(d, cube.dilated_m, hn::Add(hn::Mul(tv, hn::Set(di, cube.columns)), tu));
-  const M may = hn::And(in_view, hn::Gt(reach, z_near));
+  const V z_least = hn::Add(z_near, hn::Set(d, f.skip_m));
+  const M may = hn::And(in_view, hn::Gt(reach, z_least));
   if (!hn::AllFalse(d, may)) {
     StoreRange(p.u, ru, f.width, out->u0.data() + i, out->u1.data() + i);
     StoreRange(p.v, rv, f.height, out->v0.data() + i, out->v1.data() + i);
-    hn::StoreU(z_near, d, out->z_near_m.data() + i);
+    hn::StoreU(z_least, d, out->z_near_m.data() + i);
   }
   return may;
 }
@@ -148,35 +149,41 @@ HWY_INLINE LaneAnswer AskCenters(const LaneFrame& f, const LaneCube& cube, Pictu
   return answer;
 }
 
-// Times of crossing in metres of depth: the voxel is met from `enter` to `leave`.
-struct Crossing {
-  V enter, leave;
-  M unsure;  // nearly parallel to a face
+// How clearly rays meet a voxel and end beyond it; certain and impossible above and below the
+// slack.
+struct Meeting {
+  V room;  // of the ray inside the voxel: leaving each pair of faces after entering each other pair
+  V ahead;   // of the voxel's far faces before the camera [voxels]
+  V beyond;  // of its end behind the voxel [voxels]
 };
 
-HWY_INLINE Crossing Cross(const LaneFrame& f, const LaneRows& rows, V pixel, float v) {
+// Faces are compared by their times of crossing, without divisions: lo_a / d_a < hi_b / d_b.
+HWY_INLINE Meeting Meet(const LaneFrame& f, const LaneRows& rows, V pixel, float v, V reach) {
   const Wide d;
-  const V one = hn::Set(d, 1.0F);
-  const V parallel = hn::Set(d, 0.05F);  // chosen: below, float times are too coarse
-  Crossing c{hn::Zero(d), hn::Set(d, 1e30F), hn::Lt(one, hn::Zero(d))};
+  std::array<V, 3> ray, lo, hi;
   for (int a = 0; a < 3; ++a) {
-    const V ray =
+    const V along =
         hn::Add(hn::Mul(hn::Set(d, f.per_u[a]), pixel), hn::Set(d, f.ray[a] + f.per_v[a] * v));
-    c.unsure = hn::Or(c.unsure, hn::Lt(hn::Abs(ray), parallel));
-    const V inverse = hn::Div(one, ray);
-    const V t0 = hn::Mul(hn::Set(d, rows.lo[a]), inverse);
-    const V t1 = hn::Mul(hn::Set(d, rows.lo[a] + 1), inverse);
-    c.enter = hn::Max(c.enter, hn::Min(t0, t1));
-    c.leave = hn::Min(c.leave, hn::Max(t0, t1));
+    const M is_down = hn::Lt(along, hn::Zero(d));
+    const V lower = hn::Set(d, rows.lo[a]), upper = hn::Set(d, rows.lo[a] + 1);
+    ray[a] = hn::Abs(along);
+    lo[a] = hn::IfThenElse(is_down, hn::Neg(upper), lower);
+    hi[a] = hn::IfThenElse(is_down, hn::Neg(lower), upper);
   }
-  return c;
+  const auto room = [&](int in, int out) {
+    return hn::Sub(hn::Mul(hi[out], ray[in]), hn::Mul(lo[in], ray[out]));
+  };
+  const auto beyond = [&](int a) { return hn::Sub(hn::Mul(reach, ray[a]), hi[a]); };
+  return {hn::Min(hn::Min(hn::Min(room(0, 1), room(1, 0)), hn::Min(room(0, 2), room(2, 0))),
+                  hn::Min(room(1, 2), room(2, 1))),
+          hn::Min(hn::Min(hi[0], hi[1]), hi[2]), hn::Max(hn::Max(beyond(0), beyond(1)), beyond(2))};
 }
 
 RowsAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
   const Wide d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const V slack = hn::Set(d, f.slack_m), z_near = hn::Set(d, rows.z_near_m);
-  const V last = hn::Set(d, static_cast<float>(rows.u1));
+  const V room = hn::Set(d, f.room_slack), beyond = hn::Set(d, f.beyond_slack);
+  const V z_near = hn::Set(d, rows.z_near_m), last = hn::Set(d, static_cast<float>(rows.u1));
   bool is_possible = false;
   for (int v = rows.v0; v <= rows.v1; v += rows.step) {
     for (int u = rows.u0; u <= rows.u1; u += lanes) {
@@ -184,13 +191,12 @@ RowsAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
       const V reach = hn::LoadU(d, f.reach_m + static_cast<std::ptrdiff_t>(v) * f.width + u);
       const M reaches = hn::And(hn::Le(pixel, last), hn::Gt(reach, z_near));
       if (hn::AllFalse(d, reaches)) continue;
-      const Crossing c = Cross(f, rows, pixel, static_cast<float>(v));
-      const M sure = hn::AndNot(c.unsure, hn::And(hn::Gt(c.leave, hn::Add(c.enter, slack)),
-                                                  hn::Gt(reach, hn::Add(c.leave, slack))));
+      const Meeting m = Meet(f, rows, pixel, static_cast<float>(v), reach);
+      const V clear = hn::Min(m.ahead, m.beyond);
+      const M sure = hn::And(hn::Gt(m.room, room), hn::Gt(clear, beyond));
       if (!hn::AllFalse(d, hn::And(reaches, sure))) return RowsAnswer::kCertain;
-      const M maybe =
-          hn::And(hn::Gt(hn::Add(c.leave, slack), c.enter), hn::Gt(hn::Add(reach, slack), c.leave));
-      is_possible |= !hn::AllFalse(d, hn::And(reaches, hn::Or(c.unsure, maybe)));
+      const M maybe = hn::And(hn::Gt(m.room, hn::Neg(room)), hn::Gt(clear, hn::Neg(beyond)));
+      is_possible |= !hn::AllFalse(d, hn::And(reaches, maybe));
     }
   }
   return is_possible ? RowsAnswer::kPossible : RowsAnswer::kNone;

@@ -20,9 +20,11 @@ struct LaneFrame {
   float half_x = 0, half_y = 0, half_z = 0;  ///< half extent of a voxel along the camera's axes
   float ball_m2 = 0;                         ///< square of the radius of a voxel's inner ball
   float margin_m = 0;
+  float skip_m = 0;  ///< rays that end this little behind a voxel's nearest corner are left out
   std::array<float, 3> per_u{}, per_v{};  ///< ray per pixel [voxels per metre of depth]
   std::array<float, 3> ray{};             ///< of pixel (0, 0)
-  float slack_m = 0;                      ///< of times of crossing
+  float room_slack = 0;    ///< above rounding of products of a ray and a position, both in voxels
+  float beyond_slack = 0;  ///< above rounding of a position [voxels]
 };
 
 /// 4 x 4 x 4 voxels, those asked in front of the camera. Bit x + 4 y + 16 z. What is computed for a

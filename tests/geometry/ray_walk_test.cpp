@@ -30,7 +30,7 @@ TEST(RayWalkTest, WalksWhatTheLiteralWalkPasses) {
   for (int i = 0; i < 3000; ++i) {
     const Vector3d a = RandomEnd(rng), b = RandomEnd(rng);
     KeySet literal;
-    WalkPixel(a.data(), b.data(), &literal);
+    WalkPixel(a.data(), b.data(), [&](const VoxelKey& key) { literal.insert(key); });
     EXPECT_TRUE(Walked(a, b) == literal);
   }
 }

@@ -24,14 +24,15 @@ struct FrameSets {
 };
 
 /// Amanatides and Woo, per pixel. Crossing times from the faces, ties in the order x, y, z.
-inline void WalkPixel(const double start[3], const double end[3], KeySet* passed) {
+template <class F>
+void WalkPixel(const double start[3], const double end[3], F&& visit) {
   int cell[3], last[3];
   for (int a = 0; a < 3; ++a) {
     cell[a] = static_cast<int>(std::floor(start[a]));
     last[a] = static_cast<int>(std::floor(end[a]));
   }
   while (cell[0] != last[0] || cell[1] != last[1] || cell[2] != last[2]) {
-    passed->insert({cell[0], cell[1], cell[2]});
+    visit(VoxelKey{cell[0], cell[1], cell[2]});
     int next = -1;
     double first = std::numeric_limits<double>::infinity();
     for (int a = 0; a < 3; ++a) {
@@ -47,9 +48,10 @@ inline void WalkPixel(const double start[3], const double end[3], KeySet* passed
   }
 }
 
-inline FrameSets IntegrateLiterally(const MapConfig& config, const DepthImage& depth,
-                                    const CameraIntrinsics& K, const Pose& T) {
-  FrameSets sets;
+/// Calls hit(key) for every end voxel and pass(key) for every voxel before one, pixel by pixel.
+template <class Hit, class Pass>
+void VisitLiterally(const MapConfig& config, const DepthImage& depth, const CameraIntrinsics& K,
+                    const Pose& T, Hit&& hit, Pass&& pass) {
   const double s = config.voxel_m;
   const double start[3] = {T(0, 3) / s, T(1, 3) / s, T(2, 3) / s};
   for (int v = 0; v < depth.height; ++v) {
@@ -61,12 +63,20 @@ inline FrameSets IntegrateLiterally(const MapConfig& config, const DepthImage& d
       const double x = (u - K.cx) * z / K.fx, y = (v - K.cy) * z / K.fy;
       double end[3];
       for (int a = 0; a < 3; ++a) end[a] = (T(a, 0) * x + T(a, 1) * y + T(a, 2) * z + T(a, 3)) / s;
-      WalkPixel(start, end, &sets.free);
+      WalkPixel(start, end, pass);
       if (is_hit)
-        sets.hit.insert({static_cast<int>(std::floor(end[0])), static_cast<int>(std::floor(end[1])),
-                         static_cast<int>(std::floor(end[2]))});
+        hit(VoxelKey{static_cast<int>(std::floor(end[0])), static_cast<int>(std::floor(end[1])),
+                     static_cast<int>(std::floor(end[2]))});
     }
   }
+}
+
+inline FrameSets IntegrateLiterally(const MapConfig& config, const DepthImage& depth,
+                                    const CameraIntrinsics& K, const Pose& T) {
+  FrameSets sets;
+  VisitLiterally(
+      config, depth, K, T, [&](const VoxelKey& key) { sets.hit.insert(key); },
+      [&](const VoxelKey& key) { sets.free.insert(key); });
   return sets;
 }
 
