@@ -10,8 +10,8 @@ declare -A PACKAGES=(
   [build]="g++ cmake ninja-build ccache python3 \
     libeigen3-dev libexpected-dev libfmt-dev libembree-dev libtbb-dev libtinygltf-dev \
     librecast-dev nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
-    zlib1g-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev libmeshoptimizer-dev \
-    protobuf-compiler libgtest-dev"
+    zlib1g-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
+    protobuf-compiler libmeshoptimizer-dev libgtest-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
   [lint]="clang clang-format clang-tidy"
   [docs]="doxygen"
