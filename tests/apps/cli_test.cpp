@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+// Runs the program: exit codes, one clear message, nothing half written, one JSON document.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/temp_folder.h"
+
+namespace crossnav {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string ReadText(const fs::path& path) {
+  std::ostringstream buffer;
+  buffer << std::ifstream(path, std::ios::binary).rdbuf();
+  return buffer.str();
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+/// Small images, so that an episode takes a second.
+constexpr const char* kSmall =
+    " --set sensor.width_px=160 --set sensor.height_px=160 --set ground_truth.min_visible_px=20"
+    " --set ground_truth.feature_dim=64 --set eval.action_budget=40";
+
+class Cli : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<test::TempFolder>();
+    ASSERT_EQ(RunIn(*shared_, "world generate --embedded --out scenes").exit_code, 0);
+    const auto made =
+        RunIn(*shared_,
+              "episodes generate --scenes scenes --count 4 --cross-floor 0.5 --seed 2 "
+              "--out e.json");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  void SetUp() override {
+    for (const char* name : {"scenes", "e.json"}) {
+      fs::copy(shared_->path() / name, folder_.path() / name, fs::copy_options::recursive);
+    }
+  }
+
+  static Outcome RunIn(const test::TempFolder& folder, const std::string& arguments) {
+    const fs::path out = folder.path() / "stdout", err = folder.path() / "stderr";
+    const std::string command = "cd '" + folder.path().string() + "' && '" CROSSNAV_PROGRAM "' " +
+                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadText(out), ReadText(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+  Outcome Run(const std::string& arguments) { return RunIn(folder_, arguments); }
+
+  fs::path At(const std::string& name) const { return folder_.path() / name; }
+  fs::path SceneFile(const std::string& name) const {
+    return folder_.path() / "scenes/00001-CrossnavHouse" / ("CrossnavHouse" + name);
+  }
+  Json Episodes() const { return Json::parse(ReadText(At("e.json"))); }
+  std::string FirstId() const { return Episodes()["episodes"][0]["episode_id"]; }
+
+  /// Exit 1, one line on stderr that holds all `parts`, and no results.
+  void ExpectFailure(const std::string& arguments, const std::vector<std::string>& parts) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const std::string& part : parts) {
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in " << outcome.err;
+    }
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    EXPECT_FALSE(fs::exists(At("run")));
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+      EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+    }
+  }
+  void ExpectEvalFailure(const std::vector<std::string>& parts) {
+    ExpectFailure("eval --quiet --scenes scenes --episodes e.json --out run" + std::string(kSmall),
+                  parts);
+  }
+
+  test::TempFolder folder_;
+  static inline std::unique_ptr<test::TempFolder> shared_;
+};
+
+TEST_F(Cli, UsageErrorsExitWithTwo) {
+  EXPECT_EQ(Run("").exit_code, 2);
+  EXPECT_EQ(Run("fly").exit_code, 2);
+  EXPECT_EQ(Run("eval --scenes scenes").exit_code, 2);
+  EXPECT_EQ(Run("demo 3").exit_code, 2);
+}
+
+TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
+  for (const char* verb :
+       {"doctor", "world generate", "scene info", "scene render", "episodes generate",
+        "episodes check", "run", "eval", "report", "metrics", "replay export", "map info",
+        "map query", "map export", "bench", "demo"}) {
+    const Outcome outcome = Run(std::string(verb) + " --help");
+    EXPECT_EQ(outcome.exit_code, 0) << verb;
+    EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;
+    for (const char* option : {"--json", "--config", "--set", "--quiet"}) {
+      EXPECT_NE(outcome.out.find(option), std::string::npos) << verb << " " << option;
+    }
+  }
+}
+
+TEST_F(Cli, DoctorPrintsOneJsonDocument) {
+  const Outcome outcome = Run("doctor --json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(Json::parse(outcome.out).contains("version"));
+}
+
+TEST_F(Cli, SceneInfoFollowsTheContract) {
+  const Outcome outcome = Run("scene info scenes/00001-CrossnavHouse --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json info = Json::parse(outcome.out);
+  EXPECT_TRUE(info["navmesh"].contains("settings"));
+  EXPECT_TRUE(info["navmesh"]["hash"].is_string());
+  EXPECT_GT(info["navmesh"]["area_m2"], 10);
+  EXPECT_EQ(info["floors"].size(), 2u);
+  EXPECT_EQ(info["connections"][0]["floors"], (std::vector<int>{0, 1}));
+  EXPECT_GT(info["connections"][0]["rise_m"], 2);
+  const Json bed = info["instances"]["bed"][0];
+  for (const char* key : {"id", "name", "floor", "box_min", "box_max", "viewpoints"}) {
+    EXPECT_TRUE(bed.contains(key)) << key;
+  }
+}
+
+TEST_F(Cli, EvalIsTheSameForAnyNumberOfJobsAndShards) {
+  const std::string eval =
+      std::string("eval --quiet --json --scenes scenes --episodes e.json") + kSmall;
+  ASSERT_EQ(Run(eval + " --out a").exit_code, 0);
+  ASSERT_EQ(Run(eval + " --out b --jobs 3").exit_code, 0);
+  ASSERT_EQ(Run(eval + " --out c --shard 0/2").exit_code, 0);
+  ASSERT_EQ(Run(eval + " --out c --shard 1/2").exit_code, 0);
+  const auto records = [&](const std::string& file) {
+    std::istringstream stream(ReadText(At(file)));
+    std::vector<Json> lines;
+    for (std::string line; std::getline(stream, line);) {
+      lines.push_back(Json::parse(line));
+      lines.back().erase("wall_s");
+      lines.back().erase("timing_ms");
+    }
+    return lines;
+  };
+  const auto a = records("a/results.jsonl");
+  ASSERT_EQ(a.size(), 5u);
+  EXPECT_EQ(a[0]["kind"], "header");
+  EXPECT_EQ(a, records("b/results.jsonl"));
+  auto c = records("c/results.0-of-2.jsonl");
+  const auto rest = records("c/results.1-of-2.jsonl");
+  c.insert(c.end(), rest.begin() + 1, rest.end());
+  for (std::size_t i = 1; i < a.size(); ++i) EXPECT_EQ(a[i], c[i]);
+  // Both shards make one report; one alone does not.
+  EXPECT_EQ(Run("report a c --out report").exit_code, 0);
+  EXPECT_TRUE(fs::exists(At("report/report.md")));
+  EXPECT_EQ(Run("report c/results.0-of-2.jsonl --out other").exit_code, 1);
+}
+
+TEST_F(Cli, InterruptedEvalGoesOnAndGivesTheSameFile) {
+  const std::string eval =
+      std::string("eval --quiet --scenes scenes --episodes e.json --out run") + kSmall;
+  ASSERT_EQ(Run(eval).exit_code, 0);
+  const std::string whole = ReadText(At("run/results.jsonl"));
+  std::size_t second_line = whole.find('\n', whole.find('\n') + 1) + 1;
+  WriteText(At("run/results.jsonl"), whole.substr(0, second_line + 50));  // torn
+  ASSERT_EQ(Run(eval + " --resume").exit_code, 0);
+  const std::string again = ReadText(At("run/results.jsonl"));
+  EXPECT_EQ(again.substr(0, second_line), whole.substr(0, second_line));
+  EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), 5);
+  const Outcome other = Run(eval + " --set eval.seed=99");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("another run"), std::string::npos) << other.err;
+  EXPECT_EQ(ReadText(At("run/results.jsonl")), again);
+}
+
+TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {
+  const Outcome outcome =
+      Run("run --quiet --json --scenes scenes --episodes e.json --episode " + FirstId() +
+          " --out run --replay run/r.mcap --save-map run/m.map" + kSmall);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["record"]["episode_id"], FirstId());
+  for (const char* name :
+       {"results.jsonl", "trace.jsonl", "floor_0.png", "floor_1.png", "r.mcap"}) {
+    EXPECT_GT(fs::file_size(At(std::string("run/") + name)), 100u) << name;
+  }
+  EXPECT_EQ(Run("replay export run/r.mcap --out run/r.html").exit_code, 0);
+  EXPECT_EQ(Run("metrics run/results.jsonl --json").exit_code, 0);
+  const std::string settings = " --set ground_truth.feature_dim=64";
+  const Outcome info = Run("map info run/m.map --json" + settings);
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_GT(Json::parse(info.out)["feature_rows"], 0);
+  EXPECT_EQ(Run("map query run/m.map sofa --json" + settings).exit_code, 0);
+  EXPECT_EQ(Run("map export run/m.map --out m.ply").exit_code, 0);
+}
+
+TEST_F(Cli, MissingMeshIsNamed) {
+  fs::remove(SceneFile(".glb"));
+  ExpectEvalFailure({"CrossnavHouse"});
+  ExpectFailure("scene info scenes/00001-CrossnavHouse", {"CrossnavHouse"});
+}
+
+TEST_F(Cli, TruncatedMeshIsNamed) {
+  fs::resize_file(SceneFile(".glb"), fs::file_size(SceneFile(".glb")) / 2);
+  ExpectEvalFailure({"CrossnavHouse.glb"});
+}
+
+TEST_F(Cli, MalformedSemanticLineIsNamedWithItsNumber) {
+  std::string text = ReadText(SceneFile(".semantic.txt"));
+  const std::size_t third = text.find('\n', text.find('\n') + 1) + 1;
+  text.insert(third, "this is no instance\n");
+  WriteText(SceneFile(".semantic.txt"), text);
+  ExpectEvalFailure({"CrossnavHouse.semantic.txt", "3"});
+}
+
+TEST_F(Cli, UnknownConfigKeyIsNamedWithItsNeighbour) {
+  WriteText(At("c.toml"), "[policy.poi]\nuse_histroy = true\n");
+  ExpectFailure("eval --quiet --scenes scenes --episodes e.json --out run --config c.toml",
+                {"c.toml", "policy.poi.use_histroy", "policy.poi.use_history"});
+  ExpectFailure("eval --quiet --scenes scenes --episodes e.json --out run --set map.voxels=1",
+                {"map.voxels"});
+}
+
+TEST_F(Cli, MissingSceneIsNamedWithItsEpisode) {
+  Json file = Episodes();
+  file["episodes"][1]["scene_id"] = "00099-Nowhere/Nowhere.glb";
+  WriteText(At("e.json"), file.dump());
+  ExpectEvalFailure({"e.json", "episodes[1]", "scene_id", "Nowhere"});
+}
+
+TEST_F(Cli, MissingCategoryIsNamedWithItsEpisode) {
+  Json file = Episodes();
+  file["episodes"][2]["goals"][1] = "unicorn";
+  WriteText(At("e.json"), file.dump());
+  ExpectEvalFailure({"e.json", "episodes[2]", "goals", "unicorn"});
+}
+
+TEST_F(Cli, NanPoseIsNamedWithFileAndKey) {
+  std::string text = ReadText(At("e.json"));
+  const std::string key = "\"start_position\":[";
+  const std::size_t begin = text.find(key) + key.size();
+  text.replace(begin, text.find(',', begin) - begin, "NaN");
+  WriteText(At("e.json"), text);
+  ExpectEvalFailure({"e.json", "start_position", "NaN"});
+}
+
+TEST_F(Cli, ErrorsUnderJsonAreOneDocument) {
+  const Outcome outcome = Run("scene info nowhere --json");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(Json::parse(outcome.out)["error"]["code"], "not_found");
+}
+
+TEST_F(Cli, EpisodesCheckFindsATamperedCertificate) {
+  EXPECT_EQ(Run("episodes check e.json --scenes scenes --quiet").exit_code, 0);
+  Json file = Episodes();
+  file["episodes"][0]["certificate"][0] = {0, 1, 2};
+  WriteText(At("e.json"), file.dump());
+  const Outcome outcome = Run("episodes check e.json --scenes scenes --quiet");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("certificate[0]"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Cli, MissingReplayAndMapAreErrors) {
+  ExpectFailure("replay export no.mcap --out no.html", {"no.mcap"});
+  ExpectFailure("map info no.map", {"no.map"});
+  ExpectFailure("metrics no.jsonl", {"no.jsonl"});
+}
+
+}  // namespace
+}  // namespace crossnav

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/episodes.h"
+
+#include <gtest/gtest.h>
+
+#include "crossnav/bench/gzip_file.h"
+#include "crossnav/bench/habitat_frame.h"
+#include "support/temp_folder.h"
+
+namespace crossnav::bench {
+namespace {
+
+Episode MakeEpisode() {
+  Episode episode;
+  episode.scene_id = "val/00001-House/House.glb";
+  episode.start.p_world = {1.2345, -2.5, 0.05};
+  episode.start.yaw_rad = DegToRad(123);
+  episode.goals = {"sofa", "bed"};
+  episode.has_certificate = true;
+  episode.floors = {{0, 0.05}, {1, 2.85}};
+  episode.certificate = {{0}, {1}};
+  episode.cross_floor_required = true;
+  episode.first_transition_stage = 2;
+  episode.episode_id = ContentId(episode);
+  return episode;
+}
+
+TEST(HabitatFrame, RoundTripAndKnownPoses) {
+  const Vector3d p(1, 2, 3);
+  EXPECT_EQ(WorldFromHabitat(HabitatFromWorld(p)), p);
+  EXPECT_EQ(WorldFromHabitat({0, 0, -1}), Vector3d(1, 0, 0));  // forward
+  EXPECT_EQ(WorldFromHabitat({-1, 0, 0}), Vector3d(0, 1, 0));  // left
+  EXPECT_DOUBLE_EQ(YawFromHabitat({0, 0, 0, 1}), 0);
+  for (const double yaw : {-3.0, -1.0, 0.5, 2.9}) {
+    EXPECT_NEAR(YawFromHabitat(HabitatFromYaw(yaw)), yaw, 1e-12);
+  }
+}
+
+TEST(Episodes, OurFileRoundTripsPlainAndGzip) {
+  const crossnav::test::TempFolder folder;
+  EpisodeFile file;
+  file.episodes = {MakeEpisode()};
+  file.goals_by_category["House.glb_sofa"] = {{7, "loveseat", "sofa", {1, 2, 0.4}, {{1, 1, 0}}}};
+  for (const char* name : {"e.json", "e.json.gz"}) {
+    const auto path = folder.path() / name;
+    ASSERT_TRUE(WriteEpisodes(path, file));
+    const auto read = ReadEpisodes(path);
+    ASSERT_TRUE(read) << read.error().Message();
+    ASSERT_EQ(read->episodes.size(), 1u);
+    const Episode &a = file.episodes[0], &b = read->episodes[0];
+    EXPECT_EQ(b.episode_id, a.episode_id);
+    EXPECT_EQ(b.scene_id, a.scene_id);
+    EXPECT_EQ(b.goals, a.goals);
+    EXPECT_EQ(b.floors, a.floors);
+    EXPECT_EQ(b.certificate, a.certificate);
+    EXPECT_EQ(b.first_transition_stage, 2);
+    EXPECT_TRUE(b.cross_floor_required);
+    EXPECT_NEAR((b.start.p_world - a.start.p_world).norm(), 0, 1e-5);
+    EXPECT_NEAR(b.start.yaw_rad, a.start.yaw_rad, 1e-4);
+    EXPECT_EQ(read->goals_by_category.at("House.glb_sofa")[0].viewpoints_world.size(), 1u);
+  }
+}
+
+TEST(Episodes, IdSurvivesTheRoundTripForEveryHeading) {
+  const crossnav::test::TempFolder folder;
+  EpisodeFile file;
+  for (int degrees = -179; degrees <= 180; ++degrees) {
+    Episode episode = MakeEpisode();
+    episode.start.yaw_rad = DegToRad(degrees);
+    episode.episode_id = ContentId(episode);
+    file.episodes.push_back(episode);
+  }
+  ASSERT_TRUE(WriteEpisodes(folder.path() / "e.json", file));
+  const auto read = ReadEpisodes(folder.path() / "e.json");
+  ASSERT_TRUE(read) << read.error().Message();
+  for (const Episode& episode : read->episodes) EXPECT_EQ(ContentId(episode), episode.episode_id);
+}
+
+TEST(Episodes, SameContentGivesTheSameBytes) {
+  const crossnav::test::TempFolder folder;
+  EpisodeFile file;
+  file.episodes = {MakeEpisode()};
+  ASSERT_TRUE(WriteEpisodes(folder.path() / "a.json.gz", file));
+  ASSERT_TRUE(WriteEpisodes(folder.path() / "b.json.gz", file));
+  const auto a = ReadTextFile(folder.path() / "a.json.gz");
+  const auto b = ReadTextFile(folder.path() / "b.json.gz");
+  EXPECT_EQ(*a, *b);
+}
+
+TEST(Episodes, OneMapFileGetsIdsFromContent) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "scene_episodes.json";
+  ASSERT_TRUE(WriteTextFile(path, R"({"episodes":[
+    {"start_position":[1,0.1,2],"start_rotation":[0,0,0,1],"object_goals":["chair","bed"],
+     "scene_id":"hm3d/val/00800-A/A.basis.glb","floor":0,"best_seq_dists":[[2.5,[0,0,0]]]}]})"));
+  const auto file = ReadEpisodes(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  EXPECT_EQ(file->format, EpisodeFormat::kOneMap);
+  EXPECT_EQ(file->episodes[0].goals, (std::vector<std::string>{"chair", "bed"}));
+  EXPECT_EQ(file->episodes[0].episode_id, ContentId(file->episodes[0]));
+  EXPECT_TRUE(file->episodes[0].episode_id.starts_with("00800-A-"));
+  EXPECT_EQ(file->episodes[0].start.p_world, Vector3d(-2, -1, 0.1));
+}
+
+TEST(Episodes, RealObjectNavFilesAreRead) {
+  const std::filesystem::path path =
+      std::filesystem::path(CROSSNAV_SHARED_DIR) / "data/objectnav_mini/v2/val_mini.json.gz";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const auto file = ReadEpisodes(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  EXPECT_EQ(file->format, EpisodeFormat::kObjectNav);
+  ASSERT_EQ(file->episodes.size(), 30u);
+  const Episode& first = file->episodes[0];
+  EXPECT_EQ(first.episode_id, "00800-TEEsavR23oF-7");
+  EXPECT_EQ(first.goals, std::vector<std::string>{"bed"});
+  EXPECT_TRUE(first.start.p_world.isApprox(Vector3d(2.67815, 3.99935, 0.01338), 1e-9));
+  EXPECT_EQ(file->goals_by_category.at("TEEsavR23oF.basis.glb_chair").size(), 12u);
+  EXPECT_FALSE(
+      file->goals_by_category.at("wcojb4TFT35.basis.glb_sofa")[0].viewpoints_world.empty());
+}
+
+struct BadFile {
+  const char* text;
+  const char* message;
+};
+
+class BadEpisodes : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadEpisodes, EndInOneErrorWithFileAndKey) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "bad.json";
+  ASSERT_TRUE(WriteTextFile(path, GetParam().text));
+  const auto file = ReadEpisodes(path);
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().Message().find("bad.json"), std::string::npos);
+  EXPECT_NE(file.error().Message().find(GetParam().message), std::string::npos)
+      << file.error().Message();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadEpisodes,
+    testing::Values(BadFile{"", "JSON"}, BadFile{"{\"episodes\": 3}", "episodes"},
+                    BadFile{"[]", "episodes"},
+                    BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,NaN,2],)"
+                            R"("start_rotation":[0,0,0,1],"goals":["bed"],"episode_id":"x"}]})",
+                            "start_position"},
+                    BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,null,2],)"
+                            R"("start_rotation":[0,0,0,1],"goals":["bed"],"episode_id":"x"}]})",
+                            "start_position"},
+                    BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,2],)"
+                            R"("start_rotation":[0,0,0,1],"goals":["bed"],"episode_id":"x"}]})",
+                            "start_position"},
+                    BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,2,3],)"
+                            R"("start_rotation":[0,0,0,0],"goals":["bed"],"episode_id":"x"}]})",
+                            "start_rotation"},
+                    BadFile{R"({"episodes":[{"start_position":[1,2,3],"start_rotation":[0,0,0,1],)"
+                            R"("goals":["bed"],"episode_id":"x"}]})",
+                            "scene_id"},
+                    BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,2,3],)"
+                            R"("start_rotation":[0,0,0,1],"goals":["bed"]}]})",
+                            "episode_id"},
+                    BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,2,3],)"
+                            R"("start_rotation":[0,0,0,1],"goals":["bed","sofa"],"episode_id":"x",)"
+                            R"("floors":[],"start_floor":0,"cross_floor_required":false,)"
+                            R"("first_transition_stage":0,"certificate":[[0]]}]})",
+                            "certificate"}));
+
+TEST(Episodes, TruncatedGzipIsAnErrorAtEveryLength) {
+  const crossnav::test::TempFolder folder;
+  EpisodeFile file;
+  file.episodes = {MakeEpisode()};
+  const auto path = folder.path() / "e.json.gz";
+  ASSERT_TRUE(WriteEpisodes(path, file));
+  const auto size = std::filesystem::file_size(path);
+  for (std::uintmax_t cut = size - 1; cut > 20; cut -= 37) {
+    std::filesystem::resize_file(path, cut);
+    EXPECT_FALSE(ReadEpisodes(path)) << cut;
+    if (cut < 57) break;
+  }
+}
+
+TEST(Episodes, DuplicateIdsAreRefused) {
+  const crossnav::test::TempFolder folder;
+  EpisodeFile file;
+  file.episodes = {MakeEpisode(), MakeEpisode()};
+  ASSERT_TRUE(WriteEpisodes(folder.path() / "e.json", file));
+  EXPECT_FALSE(ReadEpisodes(folder.path() / "e.json"));
+}
+
+TEST(Episodes, SceneNameIsTheFolder) {
+  EXPECT_EQ(SceneName("hm3d/val/00800-A/A.basis.glb"), "00800-A");
+  EXPECT_EQ(SceneName("00800-A"), "00800-A");
+  EXPECT_EQ(SceneName("val/00800-A"), "00800-A");
+}
+
+}  // namespace
+}  // namespace crossnav::bench
