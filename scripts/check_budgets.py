@@ -18,8 +18,10 @@ MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
 MAX_COLUMNS = 100
 SPDX = "SPDX-License-Identifier: MIT"
-# File -> why it may break the length budget.
-LONG_FILES = {}
+# File -> (lines it may have, why it breaks the budget).
+LONG_FILES = {
+    "crossnav/geometry/project.cpp": (450, "one algorithm in three passes that share their tables"),
+}
 
 
 def sources(root):
@@ -38,8 +40,9 @@ def check_file(relative, lines):
     head = [line for line in lines[:3] if not line.startswith(("#!", "<!DOCTYPE"))]
     if not head or SPDX not in head[0]:
         yield f"{relative}:1: the first line must hold '{SPDX}'"
-    if len(lines) > MAX_FILE_LINES and relative not in LONG_FILES:
-        yield f"{relative}: {len(lines)} lines, at most {MAX_FILE_LINES}"
+    limit = LONG_FILES.get(relative, (MAX_FILE_LINES, ""))[0]
+    if len(lines) > limit:
+        yield f"{relative}: {len(lines)} lines, at most {limit}"
 
 
 def long_lines(lines):
