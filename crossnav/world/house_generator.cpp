@@ -7,6 +7,7 @@
 
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/architecture.h"
+#include "crossnav/world/finish_mesh.h"
 #include "crossnav/world/furnish.h"
 #include "crossnav/world/furniture_pack.h"
 #include "crossnav/world/glb_writer.h"
@@ -19,6 +20,8 @@ namespace crossnav::world {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kOcclusionEdge_m = 0.8;  // chosen: fine enough for a soft corner
 
 Result<void> CheckParams(const HouseParams& params) {
   if (params.floors < 0 || params.floors > 4) {
@@ -89,7 +92,12 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
       ++report.refusals[plan.error().what];
       continue;
     }
-    const sim::Scene scene = BuildHouse(*plan, {params.has_textures, params.seed});
+    sim::Scene scene = BuildHouse(*plan, {params.has_textures, params.seed});
+    if (params.is_scan) {
+      ScanDamage damage;
+      damage.seed = params.seed;
+      DamageAsScan(scene, damage);
+    }
     auto navmesh = sim::NavMesh::Build(scene, {});
     if (!navmesh) {
       ++report.refusals[navmesh.error().what];
@@ -100,6 +108,10 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
       continue;
     }
     report.area_m2 = navmesh->AreaM2();
+    if (params.has_ambient_occlusion) {
+      Subdivide(scene.mesh, kOcclusionEdge_m);
+      BakeAmbientOcclusion(scene);
+    }
     Describe(*plan, scene, report);
     auto folder = WriteScene(scene, out_dir);
     if (!folder) return tl::unexpected(folder.error());

@@ -12,7 +12,7 @@ struct HouseParams {
   int floors = 0;      ///< 1 to 4; 0 = drawn from the seed (2 most often)
   double area_m2 = 0;  ///< of one floor, 60 to 400; 0 = drawn from the seed
   bool has_textures = true;
-  bool has_baked_light = true;
+  bool has_ambient_occlusion = true;
   bool is_scan = false;  ///< holes, noise and floating fragments, as in a real scan
   int max_attempts =
       12;  ///< plans tried before giving up; chosen: a plan passes about 3 times in 4
