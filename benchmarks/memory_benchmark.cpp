@@ -2,7 +2,7 @@
 // The semantic memory's two costs, on one thread, each beside what it should be held against in the
 // same run: lifting a frame against upsample-and-scatter written plainly, a query against the
 // bandwidth with which this machine reads the same bytes. Process CPU time, runs alternating.
-// Usage: memory_benchmark [frames] [rows]
+// Then what saving and loading that memory takes. Usage: memory_benchmark [frames] [rows]
 #include <malloc.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <unordered_map>
@@ -20,6 +21,7 @@
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/row_store.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/store/map_file.h"
 
 // Every allocation is counted, so that "transient" is measured, not claimed.
 namespace {
@@ -290,6 +292,30 @@ ReadAll(const std::uint64_t* p, std::size_t n) {
   return x;
 }
 
+// CPU time; the disk's share is not in it.
+void BenchFile(const memory::SemanticMemory& memory) {
+  const auto path = std::filesystem::temp_directory_path() / "crossnav_memory_benchmark.map";
+  std::filesystem::remove(path);
+  const geometry::VoxelMap map;
+  double start = CpuMs();
+  const auto first = store::SaveMemory(path, map, memory, {});
+  const double first_ms = CpuMs() - start;
+  start = CpuMs();
+  const auto again = store::SaveMemory(path, map, memory, {});
+  const double again_ms = CpuMs() - start;
+  start = CpuMs();
+  const auto loaded = store::LoadMemory(path);
+  const double load_ms = CpuMs() - start;
+  if (!first || !again || !loaded) {
+    std::printf("saving failed\n");
+    return;
+  }
+  std::printf("map file %.0f MB: first save %.0f ms, save without changes %.0f ms, load %.0f ms\n",
+              static_cast<double>(std::filesystem::file_size(path)) / 1e6, first_ms, again_ms,
+              load_ms);
+  std::filesystem::remove(path);
+}
+
 void BenchQuery(std::int64_t row_count) {
   SemanticMemory memory({}, kVoxel, kDim);
   Rng rng(2);
@@ -340,6 +366,7 @@ void BenchQuery(std::int64_t row_count) {
       similarity.At(0) / read.At(0));
   std::printf("  whole query         p50 %8.2f ms  (clusters and scores included)\n",
               query.At(0.5));
+  BenchFile(memory);
 }
 
 }  // namespace
