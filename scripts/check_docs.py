@@ -4,8 +4,9 @@
 
     scripts/check_docs.py [ROOT]
 
-Relative links in Markdown files lead somewhere; every label of the paper that the code cites has a
-row in docs/paper_map.md; every file and name in such a row exists. Exit status 1 if anything fails.
+Relative links in Markdown files and documents named in the code lead somewhere; every label of the
+paper that the code cites has a row in docs/paper_map.md; every file and name in such a row exists.
+Exit status 1 if anything fails.
 """
 import pathlib
 import re
@@ -36,6 +37,14 @@ def check_links(root):
                     yield f"{path.relative_to(root)}: broken link to {target}"
 
 
+def check_citations(root):
+    """Documents of ours that the code names, and that are not there."""
+    for path in files(root, ("crossnav", "apps"), {".h", ".cpp"}):
+        for name in sorted(set(re.findall(r"\bdocs/[\w/]+\.md\b", path.read_text("utf-8")))):
+            if not (root / name).exists():
+                yield f"{path.relative_to(root)}: names {name}, which is not there"
+
+
 def check_row(root, number, row):
     """Problems with the files and names of one row of the paper map."""
     cells = [cell.strip() for cell in row.strip().strip("|").split("|")]
@@ -50,7 +59,8 @@ def check_row(root, number, row):
                 yield f"docs/paper_map.md:{number}: no file {name}"
         for name in quoted:
             if "/" not in name and name not in text:
-                yield f"docs/paper_map.md:{number}: {name} is not in {', '.join(paths) or 'any file'}"
+                where = ", ".join(paths) or "any file"
+                yield f"docs/paper_map.md:{number}: {name} is not in {where}"
 
 
 def check_paper_map(root):
@@ -72,7 +82,7 @@ def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
     if root.is_file():
         root = root.parent.parent
-    problems = list(check_links(root)) + list(check_paper_map(root))
+    problems = [*check_links(root), *check_citations(root), *check_paper_map(root)]
     print("\n".join(problems) if problems else "docs: links and paper map hold")
     return 1 if problems else 0
 
