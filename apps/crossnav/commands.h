@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One struct of options and one function per verb of the program (spec: docs/cli.md). main.cpp
+// One struct of options and one function per verb of the program (`crossnav VERB --help` describes them). main.cpp
 // fills the structs from the command line; nothing else knows how they were typed.
 #pragma once
 
