@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One struct of options and one function per verb of the program (`crossnav VERB --help` describes them). main.cpp
-// fills the structs from the command line; nothing else knows how they were typed.
+// One struct of options and one function per verb of the program; `crossnav VERB --help` describes
+// them. main.cpp fills the structs from the command line; nothing else knows how they were typed.
 #pragma once
 
 #include <cstdint>
