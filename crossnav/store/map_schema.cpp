@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <string_view>
 
 namespace crossnav::store {
 namespace {
@@ -129,9 +130,9 @@ Result<bool> IsEmptyFile(Database& db) {
 }
 
 std::string NameOfBlock(const char* table, std::int64_t id, const geometry::VoxelKey& key) {
-  return std::string(table == kMapTable ? "map" : "feature") + " block " + std::to_string(id) +
-         " (" + std::to_string(key.x) + "," + std::to_string(key.y) + "," + std::to_string(key.z) +
-         ")";
+  return std::string(std::string_view(table) == kMapTable ? "map" : "feature") + " block " +
+         std::to_string(id) + " (" + std::to_string(key.x) + "," + std::to_string(key.y) + "," +
+         std::to_string(key.z) + ")";
 }
 
 }  // namespace crossnav::store
