@@ -21,7 +21,8 @@ bool IsCategory(std::string_view goal) {
   return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
 }
 
-/// The frame that `obs` was made from, or null where the simulator has since moved on.
+/// The simulator's last frame, or null where it cannot be the one that `obs` was made from. Only
+/// the sizes are compared: depth and pose of an observation may have had noise added.
 const Frame* FrameOf(const Simulator& simulator, const Observation& obs) {
   const Frame& frame = simulator.last_frame();
   const bool same = frame.instance.width == obs.depth_m.width &&

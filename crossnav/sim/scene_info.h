@@ -20,8 +20,8 @@ namespace crossnav::sim {
 /// turned to the instance, at pitch -30, 0 or +30 degrees. Reading taken: coverage is the
 /// silhouette that the instance would have in those three images if nothing else were there, in
 /// rays of even angular spacing; visible is the share of these rays whose first hit is the
-/// instance. Only points on the main connected ground around; ordered by x, then y, then z.
-/// Deterministic. Costs about 0.1 ms per grid point.
+/// instance. A point over (or under) the box counts where the instance is in view. Ordered by x,
+/// then y, then z. Deterministic. Costs about 0.1 ms per grid point.
 std::vector<Vector3d> Viewpoints(const Scene& scene, const NavMesh& navmesh,
                                  const RayCaster& caster, const SceneInstance& instance,
                                  const SensorConfig& sensor);

@@ -40,7 +40,7 @@ WalkGraph::WalkGraph(const dtNavMesh& mesh) {
     for (int p = 0; p < tile->header->polyCount; ++p) {
       if ((tile->polys[p].flags & kWalkFlag) == 0) continue;
       index_of_[base | static_cast<dtPolyRef>(p)] = static_cast<int>(polygons_.size());
-      polygons_.push_back({base | static_cast<dtPolyRef>(p), {}});
+      polygons_.push_back({base | static_cast<dtPolyRef>(p), -1, {}});
     }
   }
   for (int i = 0; i < mesh.getMaxTiles(); ++i) {
@@ -56,6 +56,7 @@ WalkGraph::WalkGraph(const dtNavMesh& mesh) {
     }
   }
   LinkPortals();
+  NumberIslands();
 }
 
 int WalkGraph::PointId(const float* v) {
@@ -123,6 +124,27 @@ void WalkGraph::LinkPortals() {
         portal.back = static_cast<int>(k);
       }
     }
+  }
+}
+
+void WalkGraph::NumberIslands() {
+  int count = 0;
+  std::vector<int> open;
+  for (std::size_t i = 0; i < polygons_.size(); ++i) {
+    if (polygons_[i].island >= 0) continue;
+    polygons_[i].island = count;
+    open.assign(1, static_cast<int>(i));
+    while (!open.empty()) {
+      const auto at = static_cast<std::size_t>(open.back());
+      open.pop_back();
+      for (const Portal& portal : polygons_[at].portals) {
+        int& island = polygons_[static_cast<std::size_t>(portal.to)].island;
+        if (island >= 0) continue;
+        island = count;
+        open.push_back(portal.to);
+      }
+    }
+    ++count;
   }
 }
 

@@ -56,12 +56,14 @@ class WalkGraph {
   };
   struct Polygon {
     dtPolyRef ref = 0;
+    int island = -1;  // connected polygons have the same
     std::vector<Portal> portals;
   };
 
   void AddPortals(const dtMeshTile& tile, const dtPoly& poly,
                   const std::vector<char>& is_border_vertex, std::vector<Portal>& portals);
   void LinkPortals();
+  void NumberIslands();
   int PointId(const float* v);
 
   std::vector<Polygon> polygons_;

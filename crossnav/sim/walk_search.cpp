@@ -13,7 +13,7 @@ namespace crossnav::sim {
 namespace {
 
 constexpr double kEpsilon_m = 1e-7;
-constexpr std::size_t kMaxNodes = 4'000'000;  // chosen: far above any house; a guard, not a limit
+constexpr std::size_t kMaxNodes = 1'000'000;  // chosen: far above any house; a guard, not a limit
 constexpr int kStartId = -1;
 
 double Cross(const Vector2d& a, const Vector2d& b) {
@@ -49,11 +49,18 @@ struct PlanBox {
 
 class WalkSearch {
  public:
-  WalkSearch(const WalkGraph& graph, const SurfacePoint& start, std::span<const SurfacePoint> goals)
-      : graph_(graph), start_(start.p_world.head<2>()) {
+  /// `prune` drops ways to a turning point that are longer than one already known. That is right
+  /// but where two pieces of ground touch in a single point, which is one point for both.
+  WalkSearch(const WalkGraph& graph, const SurfacePoint& start, std::span<const SurfacePoint> goals,
+             bool prune)
+      : graph_(graph), start_(start.p_world.head<2>()), prune_(prune) {
+    const auto at = graph.index_of_.find(start.ref);
+    if (at == graph.index_of_.end()) return;
+    start_polygon_ = at->second;
     for (std::size_t i = 0; i < goals.size(); ++i) {
       const auto polygon = graph.index_of_.find(goals[i].ref);
       if (polygon == graph.index_of_.end()) continue;
+      if (IslandOf(polygon->second) != IslandOf(start_polygon_)) continue;
       const Vector2d p = goals[i].p_world.head<2>();
       goals_.push_back({polygon->second, i, p});
       goal_box_.Add(p);
@@ -61,12 +68,12 @@ class WalkSearch {
     std::sort(goals_.begin(), goals_.end(), [](const Goal& a, const Goal& b) {
       return std::pair(a.polygon, a.index) < std::pair(b.polygon, b.index);
     });
-    const auto polygon = graph.index_of_.find(start.ref);
-    start_polygon_ = polygon == graph.index_of_.end() ? -1 : polygon->second;
   }
 
+  bool HasGoals() const { return !goals_.empty(); }
+
   std::optional<WalkPath> Run() {
-    if (start_polygon_ < 0 || goals_.empty()) return std::nullopt;
+    if (!HasGoals()) return std::nullopt;
     Node first;
     first.root = start_;
     first.polygon = start_polygon_;
@@ -104,7 +111,12 @@ class WalkSearch {
     Vector2d via;
   };
 
+  int IslandOf(int polygon) const {
+    return graph_.polygons_[static_cast<std::size_t>(polygon)].island;
+  }
+
   bool IsWorseRoot(int id, double g) {
+    if (!prune_) return false;
     const auto [it, is_new] = root_g_.emplace(id, g);
     if (is_new || g <= it->second + 1e-9) {
       it->second = std::min(it->second, g);
@@ -305,6 +317,7 @@ class WalkSearch {
 
   const WalkGraph& graph_;
   Vector2d start_;
+  bool prune_;
   int start_polygon_ = -1;
   std::vector<Goal> goals_;  // by polygon
   PlanBox goal_box_;
@@ -321,7 +334,10 @@ class WalkSearch {
 
 std::optional<WalkPath> WalkGraph::FindShortest(const SurfacePoint& start,
                                                 std::span<const SurfacePoint> goals) const {
-  return WalkSearch(*this, start, goals).Run();
+  WalkSearch search(*this, start, goals, true);
+  if (!search.HasGoals()) return std::nullopt;
+  if (auto path = search.Run()) return path;
+  return WalkSearch(*this, start, goals, false).Run();  // connected, so there is a way
 }
 
 }  // namespace crossnav::sim
