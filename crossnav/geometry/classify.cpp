@@ -2,6 +2,7 @@
 #include "crossnav/geometry/classify.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -224,6 +225,25 @@ KeyBox DependentKeys(const GridEntry& entry, const MapCells& cells) {
            base.y + (63 - std::countl_zero(flat)) / 8 + r, base.z + z_high + cells.support_depth}};
 }
 
+constexpr std::size_t kFewChanges = 256;  // chosen: below, a plain sort is as fast
+
+/// Counting sort by `digit_count` binary digits of `value(key)`, up to ten at a time. Stable.
+template <class F>
+void SortByAxis(std::vector<StateChange>* changes, std::vector<StateChange>* other, int digit_count,
+                const F& value) {
+  constexpr int kDigits = 10;
+  for (int shift = 0; shift < digit_count; shift += kDigits) {
+    std::array<std::uint32_t, (1 << kDigits) + 1> start{};
+    const auto digit = [&](const StateChange& change) {
+      return (static_cast<std::uint32_t>(value(change.key)) >> shift) & ((1U << kDigits) - 1);
+    };
+    for (const StateChange& change : *changes) ++start[digit(change) + 1];
+    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+    for (const StateChange& change : *changes) (*other)[start[digit(change)]++] = change;
+    changes->swap(*other);
+  }
+}
+
 }  // namespace
 
 std::vector<GridEntry*> TakeStaleBlocks(MapData& map) {
@@ -265,8 +285,24 @@ void ClassifyBlock(const MapData& map, GridEntry& entry, std::vector<StateChange
 }
 
 void SortChanges(std::vector<StateChange>* changes) {
-  std::sort(changes->begin(), changes->end(),
-            [](const StateChange& a, const StateChange& b) { return a.key < b.key; });
+  if (changes->size() < kFewChanges) {
+    std::sort(changes->begin(), changes->end(),
+              [](const StateChange& a, const StateChange& b) { return a.key < b.key; });
+    return;
+  }
+  VoxelKey lo = changes->front().key, hi = lo;
+  for (const StateChange& change : *changes) {
+    lo = {std::min(lo.x, change.key.x), std::min(lo.y, change.key.y), std::min(lo.z, change.key.z)};
+    hi = {std::max(hi.x, change.key.x), std::max(hi.y, change.key.y), std::max(hi.z, change.key.z)};
+  }
+  const auto digits = [](std::int32_t first, std::int32_t last) {
+    return static_cast<int>(std::bit_width(static_cast<std::uint32_t>(last - first)));
+  };
+  // The least important axis first; each pass keeps the order of equals.
+  std::vector<StateChange> other(changes->size());
+  SortByAxis(changes, &other, digits(lo.z, hi.z), [&](const VoxelKey& k) { return k.z - lo.z; });
+  SortByAxis(changes, &other, digits(lo.y, hi.y), [&](const VoxelKey& k) { return k.y - lo.y; });
+  SortByAxis(changes, &other, digits(lo.x, hi.x), [&](const VoxelKey& k) { return k.x - lo.x; });
 }
 
 }  // namespace crossnav::geometry

@@ -151,7 +151,10 @@ TEST_P(RaysTest, LocalUpdatesEqualAFullRebuildAfterEveryFrame) {
   for (int i = 0; i < 12; ++i) {
     Integrate(map, RandomFrame(rng));
     map.ObserveBody({rng.Uniform(-2, 2), rng.Uniform(-2, 2), rng.Uniform(-1, 1)}, 0.88);
-    for (const StateChange& change : map.UpdateStates()) replayed[change.key] = change.voxel;
+    const std::vector<StateChange>& changes = map.UpdateStates();
+    for (std::size_t k = 1; k < changes.size(); ++k)
+      ASSERT_LT(changes[k - 1].key, changes[k].key) << "frame " << i;
+    for (const StateChange& change : changes) replayed[change.key] = change.voxel;
     const Result<VoxelMap> rebuilt = ImportBlocks(ExportBlocks(map), map.config());
     ASSERT_TRUE(rebuilt.has_value());
     ASSERT_EQ(Differences(StatesOf(map), StatesOf(*rebuilt)), "") << "frame " << i;
