@@ -65,6 +65,7 @@ struct RunOptions {
   std::string out;       ///< folder for pictures, record and trace
   std::string replay;    ///< .mcap; empty = none
   std::string save_map;  ///< map file to save the memory to; empty = none
+  std::string memory;    ///< map file to start from; empty = none
   std::string success, budget_scope;
 };
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);

@@ -127,6 +127,7 @@ void AddRuns(CLI::App& app, Options& o) {
   run->add_option("--episode", o.run.episode, "Its id")->required();
   run->add_option("--replay", o.run.replay, "Replay to write (.mcap)");
   run->add_option("--save-map", o.run.save_map, "Map file to save the memory to");
+  run->add_option("--memory", o.run.memory, "Map file to start from, as --save-map wrote it");
   run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
   AddProtocol(run, o.run);
 

@@ -54,6 +54,27 @@ class ReplayLog : public bench::RunObserver {
   int last_step_ = 0, goal_index_ = 0;
 };
 
+/// Gives the agent a saved memory before its first goal: the lifelong case.
+class MemoryLoader : public bench::RunObserver {
+ public:
+  MemoryLoader(std::filesystem::path path, const bench::RunConfig& config)
+      : path_(std::move(path)), config_(config) {}
+
+  Result<void> OnStart(agent::Agent& state) override {
+    store::LoadOptions options;
+    options.map = config_.agent.map;
+    options.fusion = config_.agent.fusion;
+    options.encoder_name = "ground-truth";
+    auto loaded = store::LoadMemory(path_, options);
+    if (!loaded) return tl::unexpected(loaded.error());
+    return state.Restore(std::move(loaded->map), std::move(loaded->memory));
+  }
+
+ private:
+  std::filesystem::path path_;
+  const bench::RunConfig& config_;
+};
+
 /// Saves the memory when the episode is over.
 class MapLog : public bench::RunObserver {
  public:
@@ -171,6 +192,8 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   auto replay = OpenReplay(context, episode, config, header, files.replay);
   if (!replay) return tl::unexpected(replay.error());
   if (*replay) observers.push_back(replay->get());
+  MemoryLoader memory(files.memory, config);
+  if (!files.memory.empty()) observers.push_back(&memory);
   MapLog map(files.map, context.scene().id);
   if (!files.map.empty()) observers.push_back(&map);
   const auto record = bench::RunEpisode(context, episode, config, observers);

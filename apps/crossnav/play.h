@@ -15,6 +15,7 @@ struct PlayFiles {
   std::filesystem::path replay;  ///< .mcap; empty = none
   std::filesystem::path page;    ///< .html; empty = none
   std::filesystem::path map;     ///< memory to save; empty = none
+  std::filesystem::path memory;  ///< saved memory to start from; empty = none
 };
 
 /// Runs the episode, writes the files, prints the summary and where everything is.

@@ -41,6 +41,7 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
                                      : std::filesystem::path(options.out);
   files.replay = options.replay;
   files.map = options.save_map;
+  files.memory = options.memory;
   const auto record = PlayEpisode(**context, *episode, *config, header, files, console);
   if (!record) return tl::unexpected(record.error());
   return {};
@@ -74,7 +75,7 @@ Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Conso
   bench::RunHeader header = MakeHeader(*config, "full", *read);
   header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
   const auto folder = out / fmt::format("{}", options.number);
-  const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html", {}};
+  const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html", {}, {}};
   const auto record =
       PlayEpisode(**context, read->episodes.front(), *config, header, files, console);
   if (!record) return tl::unexpected(record.error());

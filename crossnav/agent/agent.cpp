@@ -8,6 +8,7 @@
 #include "crossnav/agent/behaviour.h"
 #include "crossnav/agent/state.h"
 #include "crossnav/agent/targets.h"
+#include "crossnav/core/check.h"
 #include "crossnav/policy/stair_geometry.h"
 
 namespace crossnav::agent {
@@ -125,7 +126,7 @@ struct Agent::Impl {
   void UpdateMap();
   void UpdateLevel(const AgentPose& agent);
   void NoticeBump(const AgentPose& agent);
-  void ApplyMode(Situation& now, const ModeDecision& next, const Options& options);
+  void ApplyMode(const ModeDecision& next, const Options& options);
   const std::optional<Target>& SelectTarget(const ModeDecision& next, const Options& options) const;
   std::optional<Action> Act(Situation& now, const ModeDecision& next,
                             const std::optional<Target>& target,
@@ -164,7 +165,7 @@ void Agent::Impl::NoticeBump(const AgentPose& agent) {
   goal.events.push_back("stuck: stepping aside");
 }
 
-void Agent::Impl::ApplyMode(Situation& now, const ModeDecision& next, const Options& options) {
+void Agent::Impl::ApplyMode(const ModeDecision& next, const Options& options) {
   const bool is_poi = next.mode == Mode::kPoiNavigation || next.mode == Mode::kTargetApproach;
   if (is_poi) {
     goal.script.clear();
@@ -245,10 +246,31 @@ Result<void> Agent::SetGoal(const std::string& name) {
   fresh.goal = name;
   fresh.index = impl_->goal.index + 1;
   fresh.text = std::move(*text);
+  if (impl_->config.query.relevancy == "contrastive") {
+    for (const char* prompt : {"wall", "floor", "ceiling", "furniture", "thing"}) {  // chosen
+      auto background = impl_->perception.encoder->EncodeText(prompt);
+      if (!background) return tl::unexpected(background.error());
+      fresh.background.push_back(std::move(*background));
+    }
+  }
   fresh.events.push_back("goal activated: " + name);
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
   impl_->bumps.Clear();
+  return {};
+}
+
+Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memory) {
+  World& world = impl_->world;
+  CROSSNAV_CHECK(world.step == 0, "a saved memory is given before the first step");
+  if (map.config().voxel_m != impl_->config.map.voxel_m)
+    return Fail(ErrorCode::kMismatch, "the saved map has another voxel size than map.voxel_m",
+                "memory");
+  if (memory.Dim() != 0 && memory.Dim() != impl_->perception.encoder->Dim())
+    return Fail(ErrorCode::kMismatch, "the saved features have another dimension than the encoder",
+                "memory");
+  world.map = std::move(map);
+  world.memory = std::move(memory);
   return {};
 }
 
@@ -306,7 +328,7 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   self.UpdateMap();
   Options options = CollectCandidates(now);  // eq:supp_candidate_set
   const ModeDecision next = NextMode(InputsFor(now, options, session, entrance));  // pure
-  self.ApplyMode(now, next, options);
+  self.ApplyMode(next, options);
   clock.Stop("candidates");
 
   const std::optional<Target>& target =

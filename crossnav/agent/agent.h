@@ -41,6 +41,11 @@ class Agent {
   /// map, stairs and features stay as they are.
   Result<void> SetGoal(const std::string& goal);
 
+  /// Starts from a saved memory, the lifelong case: the map's states, stairs and features are known
+  /// before the first goal. Call before SetGoal. The world frame is the saved one. Errors: another
+  /// voxel size or feature dimension.
+  Result<void> Restore(geometry::VoxelMap map, memory::SemanticMemory memory);
+
   /// One step. Errors: a malformed observation (sizes, NaN pose) or a failing network.
   Result<StepResult> Step(const Observation& obs);
 

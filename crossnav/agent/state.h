@@ -73,6 +73,7 @@ struct GoalState {
   std::string goal;
   int index = -1;
   std::vector<float> text;
+  std::vector<std::vector<float>> background;  ///< text vectors for query.relevancy = contrastive
   policy::Mode mode = policy::Mode::kBasicExplore;
   bool is_new = true;
   policy::LivePois live;

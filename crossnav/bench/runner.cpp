@@ -102,6 +102,9 @@ Result<EpisodeRecord> EpisodeRun::Run() {
   record.cross_floor_required = episode_.cross_floor_required;
   record.first_transition_stage = episode_.first_transition_stage;
   record.goals = episode_.goals;
+  for (RunObserver* observer : observers_) {
+    if (auto ok = observer->OnStart(agent_); !ok) return tl::unexpected(ok.error());
+  }
   for (const std::string& goal : episode_.goals) {
     if (!HasBudget(actions_)) break;  // a stage that was not executed leaves no row
     auto stage = RunStage(goal);

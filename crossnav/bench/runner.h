@@ -31,10 +31,12 @@ struct StepCost {
   double observe_wall_ms = 0, observe_cpu_ms = 0;  ///< rendering and moving
 };
 
-/// Watches an episode: progress line, replay, pictures. Must not influence it.
+/// Watches an episode: progress line, replay, pictures. Must not influence it, except that OnStart
+/// may give the agent a saved memory.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
+  virtual Result<void> OnStart(agent::Agent& /*state*/) { return {}; }
   virtual Result<void> OnStep(const StepView& /*step*/) { return {}; }
   virtual void OnStepCost(const StepCost& /*cost*/) {}
   virtual Result<void> OnStageEnd(const StageRecord& /*stage*/) { return {}; }

@@ -3,8 +3,6 @@
 // paper does not have says "chosen".
 #pragma once
 
-#include <string>
-
 namespace crossnav::policy {
 
 struct ObjectConfig {
@@ -21,7 +19,6 @@ struct PoiConfig {
   bool use_history = true;  ///< false = the paper's "w/o H-POI"
   double live_takeover_m = 1.0;
   double blacklist_xy_m = 0.8, blacklist_z_m = 0.6;
-  double arrival_m = 0.5;  // chosen: two forward steps
 };
 
 struct FrontierConfig {
@@ -29,8 +26,6 @@ struct FrontierConfig {
   int min_cluster_init_descent = 2;
   double level_band_m = 0.35;     // chosen: one step above the maximum climb
   double unknown_column_m = 0.3;  // chosen: genuine unknown, nothing seen within +-0.3 m
-  std::string score = "nearest";  ///< nearest | semantic
-  int commitment_steps = 20;      // chosen: grace period
   double arrival_m = 0.35;        // chosen: one forward step and a voxel
 };
 
@@ -80,7 +75,6 @@ void Visit(V& visit, PoiConfig& c) {
   visit("live_takeover_m", c.live_takeover_m, 0.0, 100.0);
   visit("blacklist_xy_m", c.blacklist_xy_m, 0.0, 100.0);
   visit("blacklist_z_m", c.blacklist_z_m, 0.0, 100.0);
-  visit("arrival_m", c.arrival_m, 0.05, 10.0);
 }
 template <class V>
 void Visit(V& visit, FrontierConfig& c) {
@@ -88,8 +82,6 @@ void Visit(V& visit, FrontierConfig& c) {
   visit("min_cluster_init_descent", c.min_cluster_init_descent, 1, 100000);
   visit("level_band_m", c.level_band_m, 0.0, 10.0);
   visit("unknown_column_m", c.unknown_column_m, 0.0, 10.0);
-  visit("score", c.score, {"nearest", "semantic"});
-  visit("commitment_steps", c.commitment_steps, 0, 10000);
   visit("arrival_m", c.arrival_m, 0.05, 10.0);
 }
 template <class V>
