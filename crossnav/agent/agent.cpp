@@ -99,6 +99,12 @@ ModeInputs InputsFor(const Situation& now, const Options& options, SessionVerdic
   return in;
 }
 
+/// What later stages need of a frame.
+struct Seen {
+  std::vector<policy::Sighting> sightings;
+  int detections = 0;
+};
+
 trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_m) {
   trace::CandidateTrace t;
   t.kind = NameOf(candidate.kind);
@@ -123,6 +129,7 @@ struct Agent::Impl {
   Impl(const Config& c, perception::PerceptionSuite p)
       : config(c), perception(std::move(p)), world(c) {}
 
+  Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
   void UpdateMap();
   void UpdateLevel(const AgentPose& agent);
   void NoticeBump(const AgentPose& agent);
@@ -274,85 +281,85 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   return {};
 }
 
-Result<StepResult> Agent::Step(const Observation& obs) {
-  if (auto ok = CheckObservation(obs); !ok) return tl::unexpected(ok.error());
-  Impl& self = *impl_;
-  World& world = self.world;
-  GoalState& goal = self.goal;
-  const Config& config = self.config;
-  const double camera_m = config.sensor.camera_height_m;
-  const AgentPose agent = AgentPoseOf(obs.T_world_camera, camera_m);
-  StepResult result;
-  StageClock clock(result.timing);
-  self.changes.clear();
-
+/// Everything that one frame adds to the world, in the paper's order.
+Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, StageClock& clock) {
   // Boxes, masks, stair pixels, dense features.
-  auto seen = self.perception.Look(obs, goal.goal);
-  if (!seen) return tl::unexpected(seen.error());
+  auto percept = perception.Look(obs, goal.goal);
+  if (!percept) return tl::unexpected(percept.error());
   clock.Stop("perceive");
 
   // Sec. "RGB-D Projection and Sparse Voxelization", then eq:supp_support_classification.
   const auto& end_voxels = world.map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
-  world.map.ObserveBody(agent.p_world, camera_m);
+  world.map.ObserveBody(agent.p_world, config.sensor.camera_height_m);
   clock.Stop("integrate");
-  self.UpdateMap();
+  UpdateMap();
   clock.Stop("classify");
 
   // eq:intra_frame_fusion, eq:supp_feature_fusion.
-  const auto& grid = seen->features;
+  const auto& grid = percept->features;
   world.memory.Fuse(end_voxels, obs.depth_m, obs.camera, obs.T_world_camera,
                     {grid.rows, grid.cols, grid.dim, grid.data});
   clock.Stop("fuse");
 
   // Evidence only; nothing is promoted outside a session (sec. "Stair-State Promotion").
-  if (!config.policy.planar)
-    world.stairs.Update(seen->stair_probability, end_voxels, world.map, config.policy.stair,
+  if (!config.policy.planar) {
+    world.stairs.Update(percept->stair_probability, end_voxels, world.map, config.policy.stair,
                         world.step);
-  const auto sightings =
-      policy::LiftDetections(seen->detections, obs, config.map, config.policy.object,
+  }
+  auto sightings =
+      policy::LiftDetections(percept->detections, obs, config.map, config.policy.object,
                              config.policy.object.secondary_confidence);
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
-  self.NoticeBump(agent);
-  self.UpdateLevel(agent);
+  NoticeBump(agent);
+  UpdateLevel(agent);
   clock.Stop("evidence");
+  return Seen{std::move(sightings), static_cast<int>(percept->detections.size())};
+}
 
-  Situation now{config,
-                world,
-                goal,
-                agent,
-                planner::StartVoxel(world.map, agent.p_world),
-                &self.bumps.obstacles()};
+Result<StepResult> Agent::Step(const Observation& obs) {
+  if (auto ok = CheckObservation(obs); !ok) return tl::unexpected(ok.error());
+  Impl& self = *impl_;
+  GoalState& goal = self.goal;
+  const double camera_m = self.config.sensor.camera_height_m;
+  const AgentPose agent = AgentPoseOf(obs.T_world_camera, camera_m);
+  StepResult result;
+  StageClock clock(result.timing);
+  self.changes.clear();
+
+  const auto seen = self.See(obs, agent, clock);  // map, memory, evidence
+  if (!seen) return tl::unexpected(seen.error());
+
+  const auto start = planner::StartVoxel(self.world.map, agent.p_world);
+  Situation now{self.config, self.world, goal, agent, start, &self.bumps.obstacles()};
   std::optional<Action> look;
   const SessionVerdict session = CheckSession(now);
   const EntranceVerdict entrance = CheckEntrance(now, &look);
   self.UpdateMap();
-  Options options = CollectCandidates(now);  // eq:supp_candidate_set
+  const Options options = CollectCandidates(now);  // eq:supp_candidate_set
   const ModeDecision next = NextMode(InputsFor(now, options, session, entrance));  // pure
   self.ApplyMode(next, options);
   clock.Stop("candidates");
 
-  const std::optional<Target>& target =
-      self.SelectTarget(next, options);  // eq:supp_candidate_priority
+  const auto& target = self.SelectTarget(next, options);  // eq:supp_candidate_priority
   policy::Verification verification;
-  if (next.uses_live_poi)
-    verification = policy::Verify(*goal.live.Find(goal.active_live), sightings, obs, config.policy,
-                                  camera_m, config.map.voxel_m);
-  auto action =
-      look && next.mode == Mode::kBasicExplore ? look : self.Act(now, next, target, verification);
-  if (!action) {
-    result.all_explored = !self.Reconsider(now);
-    action = Action::kTurnLeft;
+  if (next.uses_live_poi) {
+    verification = policy::Verify(*goal.live.Find(goal.active_live), seen->sightings, obs,
+                                  self.config.policy, camera_m, self.config.map.voxel_m);
   }
-  result.action = *action;
+  const bool is_looking = look && next.mode == Mode::kBasicExplore;
+  const auto action = is_looking ? look : self.Act(now, next, target, verification);
+  if (!action) result.all_explored = !self.Reconsider(now);
+  result.action = action.value_or(Action::kTurnLeft);
   if (next.uses_live_poi && result.action == Action::kStop)
     result.p_claimed_world = goal.live.Find(goal.active_live)->p_center_world;
   self.bumps.Commit(result.action, agent);
   clock.Stop("act");
+
   self.Record(result, next, options, target, verification);
   result.trace.agent = agent;
   result.trace.T_world_camera = obs.T_world_camera;
-  result.trace.detections = static_cast<int>(seen->detections.size());
-  ++world.step;
+  result.trace.detections = seen->detections;
+  ++self.world.step;
   return result;
 }
 
