@@ -89,7 +89,7 @@ void InsertIntoOctomap(octomap::OcTree& tree, const CameraIntrinsics& K, const F
 
 struct Column {
   const char* name;
-  std::vector<double> ms;
+  std::vector<double> ms = {};
   double Mean(std::size_t from = 0) const {
     double sum = 0;
     for (std::size_t i = from; i < ms.size(); ++i) sum += ms[i];
@@ -107,7 +107,7 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
   octomap::OcTree tree_discretized(0.1), tree_literal(0.1);
 #endif
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Frame& frame = frames[i];
+    const Frame frame = frames[i];  // a copy: as if a camera had just made it
     if (fresh) {
       fast_map = VoxelMap(ConfigOf("fast"));
       exact_map = VoxelMap(ConfigOf("exact"));
@@ -116,20 +116,31 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
     const auto integrate = [&](VoxelMap& map, Column* column) {
       column->ms.push_back(Time([&] { map.Integrate(frame.depth_m, K, frame.T_world_camera); }));
     };
-    integrate(fast_map, &fast);
-    fast_map.ObserveBody(frame.p_foot, 0.88);
-    states.ms.push_back(Time([&] { fast_map.UpdateStates(); }));
-    integrate(exact_map, &exact);
-    integrate(counted_map, &counted);
+    const auto ours = [&] {
+      integrate(fast_map, &fast);
+      fast_map.ObserveBody(frame.p_foot, 0.88);
+      states.ms.push_back(Time([&] { fast_map.UpdateStates(); }));
+      integrate(exact_map, &exact);
+      integrate(counted_map, &counted);
+    };
+    const auto theirs = [&] {
 #ifdef CROSSNAV_HAVE_OCTOMAP
-    if (fresh) {
-      tree_discretized.clear();
-      tree_literal.clear();
-    }
-    discretized.ms.push_back(Time([&] { InsertIntoOctomap(tree_discretized, K, frame, true); }));
-    if (i % 8 == 0)
-      literal.ms.push_back(Time([&] { InsertIntoOctomap(tree_literal, K, frame, false); }));
+      if (fresh) {
+        tree_discretized.clear();
+        tree_literal.clear();
+      }
+      discretized.ms.push_back(Time([&] { InsertIntoOctomap(tree_discretized, K, frame, true); }));
+      if (i % 8 == 0)
+        literal.ms.push_back(Time([&] { InsertIntoOctomap(tree_literal, K, frame, false); }));
 #endif
+    };
+    if (i % 2 == 0) {
+      ours();
+      theirs();
+    } else {
+      theirs();
+      ours();
+    }
   }
   std::printf("%s, %zu frames of %d x %d, CPU ms per frame (mean)\n",
               fresh ? "each frame into an empty map" : "one map, walking", frames.size(),
@@ -151,27 +162,38 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
 #endif
 }
 
-/// A long walk through a two-floor house of 400 m2, rendered as it goes.
+/// A long walk through a two-floor house of 400 m2. Only the frames before each line are full-size
+/// and timed; those between are small, so that rendering them does not take hours.
 void Growth(const CameraIntrinsics& K, int count) {
+  constexpr int kTimed = 20, kSmall_px = 128;
   const BoxRooms rooms = crossnav::testing::MakeBoxHouse(3, 20, 10, 2);
+  const CameraIntrinsics small = IntrinsicsFromHfov(kSmall_px, kSmall_px, DegToRad(90));
   VoxelMap map;
   const std::vector<AgentPose> walk = crossnav::testing::RandomWalk(6, rooms, count, 2);
-  double insertion_ms = 0, states_ms = 0;
-  int since = 0;
-  std::printf("frames   insertion   states   (CPU ms per frame since the line before)   map MB\n");
-  for (int i = 1; i <= count; ++i) {
-    const Pose T = CameraPose(walk[i - 1], 0.88);
-    const DepthImage depth_m = crossnav::testing::RenderDepth(rooms, K, T);
-    insertion_ms += Time([&] { map.Integrate(depth_m, K, T); });
-    map.ObserveBody(walk[i - 1].p_world, 0.88);
-    states_ms += Time([&] { map.UpdateStates(); });
-    ++since;
-    if (i != 20 && i != 100 && i % 500 != 0 && i != count) continue;
+  std::printf("frame    insertion   states   (mean CPU ms of the %d frames before)   map MB\n",
+              kTimed);
+  int next = 0;
+  for (const int line : {100, 300, 1000, 2000, 5000, 10000}) {
+    if (line > count) break;
+    double insertion_ms = 0, states_ms = 0;
+    for (; next < line; ++next) {
+      const bool is_timed = next >= line - kTimed;
+      const CameraIntrinsics& camera = is_timed ? K : small;
+      const Pose T = CameraPose(walk[next], 0.88);
+      const DepthImage depth_m = crossnav::testing::RenderDepth(rooms, camera, T);
+      const double integrate_ms = Time([&] { map.Integrate(depth_m, camera, T); });
+      map.ObserveBody(walk[next].p_world, 0.88);
+      const double update_ms = Time([&] { map.UpdateStates(); });
+      if (!is_timed) continue;
+      insertion_ms += integrate_ms;
+      states_ms += update_ms;
+    }
     const geometry::MapStats stats = map.Stats();
-    std::printf("%6d   %9.2f   %6.2f   %46s   %6.1f (%lld blocks)\n", i, insertion_ms / since,
-                states_ms / since, "", 1e-6 * static_cast<double>(stats.bytes),
-                static_cast<long long>(stats.blocks));
-    insertion_ms = states_ms = since = 0;
+    std::printf("%6d   %9.2f   %6.2f   %40s   %6.1f  (%lld blocks, %lld voxels known)\n", line,
+                insertion_ms / kTimed, states_ms / kTimed, "",
+                1e-6 * static_cast<double>(stats.bytes), static_cast<long long>(stats.blocks),
+                static_cast<long long>(stats.known));
+    std::fflush(stdout);
   }
 }
 

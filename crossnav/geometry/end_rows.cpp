@@ -100,8 +100,9 @@ struct RowPart {
 
 // Lists `first` + i for every i < count where the two differ.
 int FindDifferent(RowPart a, RowPart b, int count, int first, std::int32_t* out) {
-  const hn::ScalableTag<std::int32_t> d;
+  const hn::CappedTag<std::int32_t, 16> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  std::array<std::uint8_t, 8> bytes{};
   const auto differ = [&](const std::int32_t* p, const std::int32_t* q, int i) {
     return hn::Ne(hn::LoadU(d, p + i), hn::LoadU(d, q + i));
   };
@@ -109,8 +110,10 @@ int FindDifferent(RowPart a, RowPart b, int count, int first, std::int32_t* out)
   for (; i + lanes <= count; i += lanes) {
     const auto is_other =
         hn::Or(hn::Or(differ(a.x, b.x, i), differ(a.y, b.y, i)), differ(a.z, b.z, i));
-    if (hn::AllFalse(d, is_other)) continue;
-    found += static_cast<int>(hn::CompressStore(hn::Iota(d, first + i), is_other, d, out + found));
+    // By scanning bits: storing compressed lanes is slow on some machines.
+    hn::StoreMaskBits(d, is_other, bytes.data());
+    for (unsigned bits = bytes[0] | bytes[1] << 8; bits != 0; bits &= bits - 1)
+      out[found++] = first + i + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
   }
   for (; i < count; ++i)
     if (a.x[i] != b.x[i] || a.y[i] != b.y[i] || a.z[i] != b.z[i]) out[found++] = first + i;

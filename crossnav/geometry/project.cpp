@@ -2,15 +2,15 @@
 // Which voxels does some pixel's ray pass before it ends? Blocks that no ray can reach are dropped
 // first; then a voxel is settled by the ray nearest to its centre where that ray goes on beyond it,
 // or by the greatest reach around it where all rays end before it. What remains, next to surfaces,
-// is asked ray by ray: all rays (`exact`) or those through eight inner points (`fast`).
+// is asked ray by ray: all rays (`exact`), or some rows of them (`fast`).
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 
-#include "crossnav/geometry/back_projection.h"
 #include "crossnav/geometry/frame.h"
 #include "crossnav/geometry/integrate.h"
+#include "crossnav/geometry/pixel_rays.h"
 #include "crossnav/geometry/project_lanes.h"
 #include "crossnav/geometry/ray_walk.h"
 
@@ -19,11 +19,11 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double kMargin_px = 1e-3;   // chosen: likewise
+constexpr double kMargin_px = 1e-3;   // chosen: far above rounding of a pixel coordinate
 constexpr double kLaneMargin = 1e-4;  // chosen: of the greatest reach, for positions in float
 constexpr double kLaneSlack = 1e-6;   // chosen: sixteen roundings of a float
 constexpr double kInner = 0.4;        // chosen: of a voxel's edge, near its corners
-constexpr double kSkip = 0.4;         // chosen: of a voxel's depth, where `fast` does not look
+constexpr double kSkip = 0.5;         // chosen: of a voxel's depth, where `fast` does not look
 constexpr int kRows = 8;              // chosen: of a voxel's pixels, that `fast` looks at
 
 /// Half the extent of a cube, along the camera's axes and across the image's four side planes.
@@ -48,22 +48,15 @@ int LastPixel(double bound, int count) {
   return bound >= count ? count - 1 : static_cast<int>(bound);
 }
 
-enum class Answer { kNo, kYes, kUnsure };
-
 class Projection {
  public:
   Projection(MapData& map, const DepthFrame& frame)
-      : map_(map), frame_(frame), view_(map.view), K_(frame.camera) {
+      : map_(map), view_(map.view), K_(frame.camera), rays_(map, frame) {
     const double s = map.config.voxel_m;
-    start_ = frame.T_world_camera.translation() / s;
-    start_key_ = KeyOfVoxelPoint(start_);
-    fraction_ = start_ - Vector3d(start_key_.x, start_key_.y, start_key_.z);
+    start_key_ = KeyOfVoxelPoint(rays_.start());
+    fraction_ = rays_.start() - Vector3d(start_key_.x, start_key_.y, start_key_.z);
     nearest_m_ = 0.5 * s;
     to_camera_ = frame.T_world_camera.linear().transpose() * s;
-    const Matrix3d R = frame.T_world_camera.linear() / s;
-    per_u_ = R.col(0) / K_.fx;
-    per_v_ = R.col(1) / K_.fy;
-    forward_ = R.col(2) - K_.cx * per_u_ - K_.cy * per_v_;
     const double right = K_.width_px - 1 - K_.cx, bottom = K_.height_px - 1 - K_.cy;
     inward_ = {Vector3d(K_.fx, 0, K_.cx), Vector3d(-K_.fx, 0, right), Vector3d(0, K_.fy, K_.cy),
                Vector3d(0, -K_.fy, bottom)};
@@ -75,8 +68,6 @@ class Projection {
     is_counted_ = map.config.clearing == "evidence";
     ball_m2_ = 0.49 * 0.49 * s * s;
     const double reach = std::max(1.0, static_cast<double>(view_.MaxReach()));
-    parallel_ = 1e-7 / reach;
-    slack_m_ = 1e-7 * reach * reach;
     margin_m_ = 1e-5 * reach;
     FillLanes(reach);
   }
@@ -108,13 +99,13 @@ class Projection {
     const double ball = std::max(0.0, 0.49 * s - kLaneMargin * reach_m);
     lanes_.ball_m2 = static_cast<float>(ball * ball);
     for (int a = 0; a < 3; ++a) {
-      lanes_.per_u[a] = static_cast<float>(per_u_[a]);
-      lanes_.per_v[a] = static_cast<float>(per_v_[a]);
-      lanes_.ray[a] = static_cast<float>(forward_[a]);
+      lanes_.per_u[a] = static_cast<float>(rays_.per_u()[a]);
+      lanes_.per_v[a] = static_cast<float>(rays_.per_v()[a]);
+      lanes_.ray[a] = static_cast<float>(rays_.forward()[a]);
     }
-    const double reach_vox = reach_m / s, ray_vox = per_u_.cwiseAbs().maxCoeff() * view_.width() +
-                                                    per_v_.cwiseAbs().maxCoeff() * view_.height() +
-                                                    1 / s;
+    const double reach_vox = reach_m / s,
+                 ray_vox = rays_.per_u().cwiseAbs().maxCoeff() * view_.width() +
+                           rays_.per_v().cwiseAbs().maxCoeff() * view_.height() + 1 / s;
     lanes_.room_slack = static_cast<float>(kLaneSlack * reach_vox * ray_vox);
     lanes_.beyond_slack = static_cast<float>(kLaneSlack * reach_m * ray_vox);
   }
@@ -236,12 +227,14 @@ class Projection {
 
   /// At least half the size, in pixels, of the picture of any voxel of the part.
   double PictureRadius(const CubeView& cube, const Vector3d& center) const {
+    const double margin = 2 * lanes_.margin_m;  // the lanes leave room for one
+    const Vector3d half = cubes_[0].half + Vector3d::Constant(margin);
     const Vector3d& part = cubes_[2].half;
-    const Vector3d& half = cubes_[0].half;
-    const double inverse = 1 / std::max(cube.z_near, nearest_m_);
+    const double inverse =
+        1 / std::max(0.1 * nearest_m_, std::max(cube.z_near, nearest_m_) - margin);
     const double x = (std::abs(center.x()) + part.x()) * inverse;
     const double y = (std::abs(center.y()) + part.y()) * inverse;
-    return 3 +
+    return 1.2 +  // from a place in a tile to whole pixels, and rounding
            inverse * std::max(K_.fx * (half.x() + x * half.z()), K_.fy * (half.y() + y * half.z()));
   }
 
@@ -302,7 +295,7 @@ class Projection {
                             (corner & 4) ? kInner : -kInner);
       int u = 0, v = 0;
       double miss_m2 = 0;
-      if (PixelOf(center + to_camera_ * offset, &u, &v, &miss_m2) && IsPassedBy(key, u, v))
+      if (PixelOf(center + to_camera_ * offset, &u, &v, &miss_m2) && rays_.Passes(key, u, v))
         return true;
     }
     return false;
@@ -315,7 +308,7 @@ class Projection {
     for (int v = r.v0; v <= r.v1; v += kSide) {
       for (int u = r.u0; u <= r.u1; u += kSide) {
         const PixelRect part{u, v, std::min(r.u1, u + kSide - 1), std::min(r.v1, v + kSide - 1)};
-        if (!is_whole && !MayMeet(key, part)) continue;
+        if (!is_whole && !rays_.MayMeet(key, part)) continue;
         if (IsPassedInPart(key, part, cube.z_near - margin_m_)) return true;
       }
     }
@@ -323,15 +316,16 @@ class Projection {
   }
 
   bool IsPassedInPart(const VoxelKey& key, const PixelRect& r, double z_near) const {
-    const RowsAnswer answer = AskLaneRows(
-        lanes_, {r.u0,
-                 r.u1,
-                 r.v0,
-                 r.v1,
-                 1,
-                 static_cast<float>(std::max(0.0, z_near - lanes_.margin_m)),
-                 {static_cast<float>(key.x - start_.x()), static_cast<float>(key.y - start_.y()),
-                  static_cast<float>(key.z - start_.z())}});
+    const RowsAnswer answer =
+        AskLaneRows(lanes_, {r.u0,
+                             r.u1,
+                             r.v0,
+                             r.v1,
+                             1,
+                             static_cast<float>(std::max(0.0, z_near - lanes_.margin_m)),
+                             {static_cast<float>(key.x - rays_.start().x()),
+                              static_cast<float>(key.y - rays_.start().y()),
+                              static_cast<float>(key.z - rays_.start().z())}});
     if (answer == RowsAnswer::kCertain) return true;
     return answer == RowsAnswer::kPossible && IsPassedInTile(key, r, z_near);
   }
@@ -339,90 +333,25 @@ class Projection {
   bool IsPassedInTile(const VoxelKey& key, const PixelRect& tile, double z_near) const {
     for (int v = tile.v0; v <= tile.v1; ++v)
       for (int u = tile.u0; u <= tile.u1; ++u)
-        if (view_.ReachAt(u, v) >= z_near && IsPassedBy(key, u, v)) return true;
+        if (view_.ReachAt(u, v) >= z_near && rays_.Passes(key, u, v)) return true;
     return false;
   }
 
-  /// False if no ray between the rectangle's corner rays can meet the voxel.
-  bool MayMeet(const VoxelKey& key, const PixelRect& rect) const {
-    const std::array<int, 3> cell = {key.x, key.y, key.z};
-    double enter = 0, leave = 1e300;
-    for (int a = 0; a < 3; ++a) {
-      const double d = forward_[a], u0 = per_u_[a] * rect.u0, u1 = per_u_[a] * rect.u1;
-      const double v0 = per_v_[a] * rect.v0, v1 = per_v_[a] * rect.v1;
-      const double d_lo = d + std::min(u0, u1) + std::min(v0, v1);
-      const double d_hi = d + std::max(u0, u1) + std::max(v0, v1);
-      const double lo = cell[a] - start_[a] - 1e-6, hi = cell[a] + 1 - start_[a] + 1e-6;
-      if (lo > 0) {
-        if (d_hi <= 0) return false;
-        enter = std::max(enter, lo / d_hi);
-        if (d_lo > 0) leave = std::min(leave, hi / d_lo);
-      } else if (hi < 0) {
-        if (d_lo >= 0) return false;
-        enter = std::max(enter, hi / d_lo);
-        if (d_hi < 0) leave = std::min(leave, lo / d_hi);
-      } else {
-        if (d_lo > 0) leave = std::min(leave, hi / d_lo);
-        if (d_hi < 0) leave = std::min(leave, lo / d_hi);
-      }
-    }
-    return enter <= leave + slack_m_;
-  }
-
-  /// Does the ray of pixel (u, v) pass the voxel before it ends?
-  bool IsPassedBy(const VoxelKey& key, int u, int v) const {
-    const double reach_m = view_.ReachAt(u, v);
-    if (reach_m == 0) return false;
-    const Answer answer = AskRay(key, forward_ + per_u_ * u + per_v_ * v, reach_m);
-    if (answer != Answer::kUnsure) return answer == Answer::kYes;
-    const DepthReach literal =
-        ReachOf(frame_.depth_m.At(u, v), map_.config.depth_min_m, map_.config.depth_max_m);
-    const Vector3d end =
-        BackProjectToVoxels(K_, frame_.T_world_camera, u, v, literal.depth_m, map_.config.voxel_m);
-    return RayPasses(start_, end, key);
-  }
-
-  /// The ray against the voxel's faces, with room for rounding. `direction`: voxels per metre of
-  /// depth.
-  Answer AskRay(const VoxelKey& key, const Vector3d& direction, double reach_m) const {
-    const std::array<int, 3> cell = {key.x, key.y, key.z};
-    double enter = 0, leave = reach_m + 1;
-    bool is_unsure = false;
-    for (int a = 0; a < 3; ++a) {
-      const double lo = cell[a] - start_[a], hi = lo + 1;
-      if (std::abs(direction[a]) < parallel_) {
-        if (lo > 1e-6 || hi < -1e-6) return Answer::kNo;
-        is_unsure = true;
-        continue;
-      }
-      const double inverse = 1 / direction[a];
-      const double t0 = lo * inverse, t1 = hi * inverse;
-      enter = std::max(enter, std::min(t0, t1));
-      leave = std::min(leave, std::max(t0, t1));
-    }
-    if (leave < enter - slack_m_ || reach_m < leave - slack_m_) return Answer::kNo;
-    const bool is_sure = leave > enter + slack_m_ && reach_m > leave + slack_m_;
-    return is_sure && !is_unsure ? Answer::kYes : Answer::kUnsure;
-  }
-
   MapData& map_;
-  const DepthFrame& frame_;
   DepthView& view_;
-  LaneFrame lanes_;
   const CameraIntrinsics& K_;
-  Vector3d start_;  ///< camera [voxels]
+  PixelRays rays_;
+  LaneFrame lanes_;
   VoxelKey start_key_;
-  Vector3d fraction_;                    ///< of start_ in its voxel
+  Vector3d fraction_;                    ///< of rays_.start() in its voxel
   double nearest_m_ = 0;                 ///< voxels that begin nearer are asked one by one
   Matrix3d to_camera_;                   ///< voxels from the camera -> camera frame [m]
-  Vector3d per_u_, per_v_, forward_;     ///< ray of (u, v): voxels per metre of depth
   std::array<Vector3d, 4> inward_;       ///< normals of the image's side planes, camera frame
   std::array<Vector3d, 8> part_offset_;  ///< of a block's eight parts from its centre, camera frame
   std::array<CubeExtent, 4> cubes_;      ///< of edges 1, 2, 4 and 8 voxels
   bool is_exact_ = false, is_counted_ = false;
-  LaneAnswer answer_;    ///< scratch
   double margin_m_ = 0;  ///< far above rounding, far below a voxel
-  double ball_m2_ = 0, parallel_ = 0, slack_m_ = 0;
+  double ball_m2_ = 0;
 };
 
 }  // namespace

@@ -149,34 +149,41 @@ HWY_INLINE LaneAnswer AskCenters(const LaneFrame& f, const LaneCube& cube, Pictu
   return answer;
 }
 
-// How clearly rays meet a voxel and end beyond it; certain and impossible above and below the
-// slack.
-struct Meeting {
-  V room;  // of the ray inside the voxel: leaving each pair of faces after entering each other pair
-  V ahead;   // of the voxel's far faces before the camera [voxels]
-  V beyond;  // of its end behind the voxel [voxels]
+// Rays seen from the voxel: all go up along every axis, faces turned to match.
+struct Turned {
+  std::array<V, 3> ray, lo, hi;
 };
 
-// Faces are compared by their times of crossing, without divisions: lo_a / d_a < hi_b / d_b.
-HWY_INLINE Meeting Meet(const LaneFrame& f, const LaneRows& rows, V pixel, float v, V reach) {
+HWY_INLINE Turned Turn(const LaneFrame& f, const LaneRows& rows, V pixel, float v) {
   const Wide d;
-  std::array<V, 3> ray, lo, hi;
+  Turned t;
   for (int a = 0; a < 3; ++a) {
     const V along =
         hn::Add(hn::Mul(hn::Set(d, f.per_u[a]), pixel), hn::Set(d, f.ray[a] + f.per_v[a] * v));
     const M is_down = hn::Lt(along, hn::Zero(d));
     const V lower = hn::Set(d, rows.lo[a]), upper = hn::Set(d, rows.lo[a] + 1);
-    ray[a] = hn::Abs(along);
-    lo[a] = hn::IfThenElse(is_down, hn::Neg(upper), lower);
-    hi[a] = hn::IfThenElse(is_down, hn::Neg(lower), upper);
+    t.ray[a] = hn::Abs(along);
+    t.lo[a] = hn::IfThenElse(is_down, hn::Neg(upper), lower);
+    t.hi[a] = hn::IfThenElse(is_down, hn::Neg(lower), upper);
   }
+  return t;
+}
+
+// How far the voxel is ahead of the camera and the ray's end behind the voxel, the lesser [voxels].
+HWY_INLINE V Clearance(const Turned& t, V reach) {
+  const auto beyond = [&](int a) { return hn::Sub(hn::Mul(reach, t.ray[a]), t.hi[a]); };
+  return hn::Min(hn::Max(hn::Max(beyond(0), beyond(1)), beyond(2)),
+                 hn::Min(hn::Min(t.hi[0], t.hi[1]), t.hi[2]));
+}
+
+// How clearly the ray meets the voxel: it enters each pair of faces before it leaves each other
+// one. Times of crossing are compared without divisions: lo_a / ray_a < hi_b / ray_b.
+HWY_INLINE V Room(const Turned& t) {
   const auto room = [&](int in, int out) {
-    return hn::Sub(hn::Mul(hi[out], ray[in]), hn::Mul(lo[in], ray[out]));
+    return hn::Sub(hn::Mul(t.hi[out], t.ray[in]), hn::Mul(t.lo[in], t.ray[out]));
   };
-  const auto beyond = [&](int a) { return hn::Sub(hn::Mul(reach, ray[a]), hi[a]); };
-  return {hn::Min(hn::Min(hn::Min(room(0, 1), room(1, 0)), hn::Min(room(0, 2), room(2, 0))),
-                  hn::Min(room(1, 2), room(2, 1))),
-          hn::Min(hn::Min(hi[0], hi[1]), hi[2]), hn::Max(hn::Max(beyond(0), beyond(1)), beyond(2))};
+  return hn::Min(hn::Min(hn::Min(room(0, 1), room(1, 0)), hn::Min(room(0, 2), room(2, 0))),
+                 hn::Min(room(1, 2), room(2, 1)));
 }
 
 RowsAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
@@ -191,12 +198,14 @@ RowsAnswer AskRows(const LaneFrame& f, const LaneRows& rows) {
       const V reach = hn::LoadU(d, f.reach_m + static_cast<std::ptrdiff_t>(v) * f.width + u);
       const M reaches = hn::And(hn::Le(pixel, last), hn::Gt(reach, z_near));
       if (hn::AllFalse(d, reaches)) continue;
-      const Meeting m = Meet(f, rows, pixel, static_cast<float>(v), reach);
-      const V clear = hn::Min(m.ahead, m.beyond);
-      const M sure = hn::And(hn::Gt(m.room, room), hn::Gt(clear, beyond));
+      const Turned t = Turn(f, rows, pixel, static_cast<float>(v));
+      const V clear = Clearance(t, reach);
+      const M clears = hn::And(reaches, hn::Gt(clear, hn::Neg(beyond)));
+      if (hn::AllFalse(d, clears)) continue;
+      const V met = Room(t);
+      const M sure = hn::And(hn::Gt(met, room), hn::Gt(clear, beyond));
       if (!hn::AllFalse(d, hn::And(reaches, sure))) return RowsAnswer::kCertain;
-      const M maybe = hn::And(hn::Gt(m.room, hn::Neg(room)), hn::Gt(clear, hn::Neg(beyond)));
-      is_possible |= !hn::AllFalse(d, hn::And(reaches, maybe));
+      is_possible |= !hn::AllFalse(d, hn::And(clears, hn::Gt(met, hn::Neg(room))));
     }
   }
   return is_possible ? RowsAnswer::kPossible : RowsAnswer::kNone;
