@@ -209,6 +209,25 @@ TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {
   EXPECT_EQ(Run("map export run/m.map --out m.ply").exit_code, 0);
 }
 
+TEST_F(Cli, ARunGoesOnFromASavedMemory) {
+  const std::string run =
+      "run --quiet --json --scenes scenes --episodes e.json --episode " + FirstId() + kSmall;
+  ASSERT_EQ(Run(run + " --out first --save-map m.map").exit_code, 0);
+  const Outcome second = Run(run + " --out second --memory m.map --save-map n.map");
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  const std::string settings = " --json --set ground_truth.feature_dim=64";
+  const auto rows = [&](const char* map) {
+    return Json::parse(Run("map info " + std::string(map) + settings).out)["feature_rows"]
+        .get<int>();
+  };
+  EXPECT_GE(rows("n.map"), rows("m.map"));  // what was known stays known
+
+  EXPECT_EQ(Run(run + " --out third --memory nowhere.map").exit_code, 1);
+  const Outcome other = Run(run + " --out third --memory m.map --set map.voxel_m=0.2");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("voxel"), std::string::npos) << other.err;
+}
+
 TEST_F(Cli, MissingMeshIsNamed) {
   fs::remove(SceneFile(".glb"));
   ExpectEvalFailure({"CrossnavHouse"});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "crossnav/core/rng.h"
 #include "crossnav/geometry/map_queries.h"
 #include "tests/geometry/map_of_evidence.h"
@@ -77,6 +79,27 @@ TEST(QueriesTest, LineOfSightIsBlockedBySurfacesStrictlyBetween) {
   EXPECT_FALSE(map.HasLineOfSight({2.05, 0.05, 0.25}, {0.05, 0.05, 0.25}));
   EXPECT_TRUE(map.HasLineOfSight({0.05, 0.05, 0.25}, {1.05, 0.05, 0.25}));  // the wall itself
   EXPECT_TRUE(map.HasLineOfSight({0.05, 0.05, 0.85}, {2.05, 0.05, 0.85}));  // over it
+}
+
+TEST(QueriesTest, ReadersMayShareAMapThatNobodyWrites) {
+  Rng rng(6);
+  const VoxelMap map = RandomMap(rng);
+  const auto read = [&](std::int64_t* known) {
+    VoxelMap::Cursor cursor(map);
+    for (int i = 0; i < 20000; ++i) {
+      const VoxelKey key{i % 31 - 15, i / 31 % 31 - 15, i / 961 % 31 - 15};
+      *known += cursor.At(key).state != VoxelState::kUnknown && map.IsObserved(key);
+      VoxelKey found;
+      if (i % 500 == 0) map.NearestFree(CenterOf(key, 0.1), 0.5, &found);
+      if (i % 50 == 0) map.HasLineOfSight(CenterOf(key, 0.1), {0, 0, 0});
+    }
+  };
+  std::int64_t first = 0, second = 0;
+  std::thread other([&] { read(&first); });
+  read(&second);
+  other.join();
+  EXPECT_EQ(first, second);
+  EXPECT_GT(first, 0);
 }
 
 TEST(QueriesTest, SupportLevelsAndColumns) {
