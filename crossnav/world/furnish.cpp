@@ -17,10 +17,6 @@ constexpr double kOffWall_m = 0.08;  // half a wall and its skirting
 constexpr int kTries = 40;           // chosen: per piece
 constexpr double kDoorHead_m = 2.1;
 
-Rect PlanOf(const Box3& b) {
-  return {b.min.x(), b.min.y(), b.max.x(), b.max.y()};
-}
-
 Box3 Solid(const Rect& r, double z0, double z1) {
   Box3 b;
   b.Add({r.x0, r.y0, z0});
