@@ -48,7 +48,7 @@ ADAPTERS = {
     "libpng": (r"^png", ["crossnav/sim/image_codec.cpp", "crossnav/sim/picture.cpp",
                          "crossnav/trace/preview.cpp", "crossnav/world/png_writer.cpp"]),
     "xxHash": (r"^xxhash", ["crossnav/sim/scene.cpp", "crossnav/sim/navmesh*.cpp",
-                            "crossnav/store/*.cpp"]),
+                            "crossnav/store/*.cpp", "crossnav/world/furniture_pack.cpp"]),
     "zlib": (r"^zlib", ["crossnav/bench/gzip_file.cpp", "crossnav/trace/mcap_writer.cpp",
                         "crossnav/trace/replay_page.cpp", "crossnav/world/furniture_pack.cpp",
                         "crossnav/world/zip_reader.cpp"]),
@@ -61,7 +61,8 @@ ADAPTERS = {
                                       "crossnav/bench/report_figures.cpp",
                                       "crossnav/bench/result_json.cpp",
                                       "crossnav/world/furniture_pack.cpp",
-                                      "crossnav/world/glb_writer.cpp", "apps/crossnav/*.cpp"]),
+                                      "crossnav/world/glb_writer.cpp",
+                                      "crossnav/world/house_file.cpp", "apps/crossnav/*.cpp"]),
     "toml++": (r"^toml", ["crossnav/bench/config_file.cpp"]),
     "CLI11": (r"^CLI/", ["apps/crossnav/*"]),
 }

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "console.h"
 #include "crossnav/bench/run_config.h"
 #include "crossnav/core/result.h"
+#include "crossnav/world/furniture_pack.h"
 
 namespace crossnav::app {
 
@@ -29,10 +31,25 @@ struct WorldOptions {
   int count = 1, floors = 2;  ///< floors 0 = drawn from the seed
   double area_m2 = 0;         ///< of one floor; 0 = drawn from the seed
   std::string out;
-  bool embedded = false;
+  std::string furniture;  ///< pack folder, "none", or empty = the default place
+  bool embedded = false, scan = false;
 };
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& common,
                            Console& console);
+
+struct AssetsOptions {
+  std::string libraries;  ///< folder of .sh3f files or of the unpacked package; empty = installed
+  std::string out;        ///< pack folder; empty = DefaultFurniture()
+};
+Result<void> AssetsImport(const AssetsOptions& options, const CommonOptions& common,
+                          Console& console);
+
+/// $XDG_DATA_HOME/crossnav/furniture, where the generator looks for a pack.
+std::string DefaultFurniture();
+/// The pack that was asked for: a folder, "none", or empty = the default place. Nothing, with a
+/// notice, where the default place has none.
+Result<std::optional<world::FurniturePack>> OpenFurniture(const std::string& wish,
+                                                          Console& console);
 
 struct SceneOptions {
   std::string scene;  ///< folder

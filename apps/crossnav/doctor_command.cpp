@@ -34,12 +34,19 @@ bool HasLibrary(const char* name) {
 /// Optional parts: what they are for and how to get them.
 Json OptionalParts() {
   const bool has_onnx = HasLibrary("libonnxruntime.so.1");
+  const bool has_pack = world::FurniturePack::Load(DefaultFurniture()).has_value();
   return Json::array({{{"name", "onnxruntime"},
                        {"found", has_onnx},
                        {"for", "detection and dense features by networks"},
                        {"get", has_onnx ? ""
                                         : "Debian 13: apt-get install libonnxruntime-dev; this "
-                                          "version of crossnav does without"}}});
+                                          "version of crossnav does without"}},
+                      {{"name", "furniture pack"},
+                       {"found", has_pack},
+                       {"for", "generated houses with modelled furniture instead of simple shapes"},
+                       {"get", has_pack ? ""
+                                        : "apt-get install sweethome3d-furniture; crossnav assets "
+                                          "import"}}});
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ using Command = std::function<Result<void>(Console&)>;
 struct Options {
   CommonOptions common;
   WorldOptions world;
+  AssetsOptions assets;
   SceneOptions scene;
   EpisodesOptions episodes;
   RunOptions run;
@@ -59,7 +60,28 @@ void AddWorld(CLI::App& app, Options& o) {
                    "Area of a floor [m2], 60 to 400; default: by the seed")
       ->check(CLI::Range(60.0, 400.0));
   verb->add_option("--out", o.world.out, "Folder to write to")->required();
+  verb->add_option("--furniture", o.world.furniture,
+                   "Furniture pack, or none for simple shapes; default: the one that assets import "
+                   "made, where there is one")
+      ->type_name("DIR|none");
+  verb->add_flag("--scan", o.world.scan, "With the faults of a real scan, drawn from the seed");
   verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
+}
+
+void AddAssets(CLI::App& app, Options& o) {
+  CLI::App* assets = app.add_subcommand("assets", "Furniture models for generated houses");
+  assets->require_subcommand(1);
+  CLI::App* verb =
+      AddVerb(*assets, o, "import", "A furniture pack from the package sweethome3d-furniture",
+              "crossnav assets import --out furniture",
+              [&o](Console& c) { return AssetsImport(o.assets, o.common, c); });
+  verb->add_option("DIR", o.assets.libraries,
+                   "Folder of .sh3f libraries or of the unpacked package; default: the installed "
+                   "package");
+  verb->add_option(
+      "--out", o.assets.out,
+      "Pack to write; default: $XDG_DATA_HOME/crossnav/furniture, where world generate "
+      "looks");
 }
 
 void AddScene(CLI::App& app, Options& o) {
@@ -215,6 +237,7 @@ int Main(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::help);
   Options options;
   AddWorld(app, options);
+  AddAssets(app, options);
   AddScene(app, options);
   AddEpisodes(app, options);
   AddRuns(app, options);

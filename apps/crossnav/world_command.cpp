@@ -20,9 +20,9 @@ Json HouseJson(const world::HouseReport& house) {
 }
 
 std::string HouseText(const world::HouseReport& house) {
-  std::string text = fmt::format("{}  {} floors, {:.0f} m2 walkable,", house.folder.string(),
+  std::string text = fmt::format("{}  {} floors, {:.0f} m2 walkable", house.folder.string(),
                                  house.floors, house.area_m2);
-  for (const auto& [kind, count] : house.stairs) text += fmt::format(" {} {}", count, kind);
+  for (const auto& [kind, count] : house.stairs) text += fmt::format(", {} {}", count, kind);
   for (const auto& [category, count] : house.instances)
     text += fmt::format(", {} {}", count, category);
   return text + "\n";
@@ -39,19 +39,28 @@ Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*c
     console.Print(folder->string() + "\n");
     houses.push_back({{"scene", world::kEmbeddedSceneId}, {"folder", folder->string()}});
   }
+  std::optional<world::FurniturePack> pack;
+  if (!options.embedded) {
+    auto found = OpenFurniture(options.furniture, console);
+    if (!found) return tl::unexpected(found.error());
+    pack = std::move(*found);
+  }
   for (int i = 0; i < options.count && !options.embedded; ++i) {
     console.Progress(fmt::format("house {} of {}", i + 1, options.count));
     world::HouseParams params;
     params.seed = options.seed + static_cast<std::uint64_t>(i);
     params.floors = options.floors;
     params.area_m2 = options.area_m2;
-    const auto house = world::GenerateHouse(params, options.out);
+    params.is_scan = options.scan;
+    const auto house = world::GenerateHouse(params, options.out, pack ? &*pack : nullptr);
     if (!house) return tl::unexpected(house.error());
     console.EndProgress();
     console.Print(HouseText(*house));
     houses.push_back(HouseJson(*house));
   }
-  console.Document(Json({{"scenes", std::move(houses)}}).dump(1));
+  console.Document(Json({{"furniture_pack", pack ? Json(pack->hash()) : Json(nullptr)},
+                         {"scenes", std::move(houses)}})
+                       .dump(1));
   return {};
 }
 

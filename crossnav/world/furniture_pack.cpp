@@ -2,8 +2,10 @@
 #include "crossnav/world/furniture_pack.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -19,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr std::uint64_t kMaxModel = 256U << 20;
 
 struct Writer {
@@ -144,6 +146,10 @@ std::string Attribution(const std::vector<PackModel>& models) {
   return text;
 }
 
+std::string HashOf(const std::string& bytes) {
+  return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+}
+
 std::string ReadAll(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream all;
@@ -167,7 +173,7 @@ Result<void> WritePack(std::vector<PackModel> models, const fs::path& dir) {
     bytes += packed;
     list.push_back(ToJson(m.entry));
   }
-  const Json manifest = {{"format", kFormat}, {"models", list}};
+  const Json manifest = {{"format", kFormat}, {"pack_xxh3", HashOf(bytes)}, {"models", list}};
   for (const auto& [name, text] :
        {std::pair<std::string, std::string>{"furniture.pack", bytes},
         {"ATTRIBUTION.md", Attribution(models)},
@@ -186,23 +192,37 @@ Result<FurniturePack> FurniturePack::Load(const fs::path& dir) {
     return Fail(ErrorCode::kNotFound, "no furniture pack here; `crossnav assets import` makes one",
                 where);
   }
+  std::string pack_hash;
+  const std::string text = ReadAll(dir / "manifest.json");
+  pack.hash_ = HashOf(text);
   try {
-    const Json manifest = Json::parse(ReadAll(dir / "manifest.json"));
+    const Json manifest = Json::parse(text);
     if (manifest.at("format") != kFormat) {
       return Fail(ErrorCode::kUnsupported, "another version of the pack; import it again", where);
     }
+    pack_hash = manifest.at("pack_xxh3");
     for (const Json& j : manifest.at("models")) pack.entries_.push_back(FromJson(j));
   } catch (const Json::exception& e) {
     return Fail(ErrorCode::kMalformed, e.what(), where);
   }
   pack.bytes_ = ReadAll(dir / "furniture.pack");
+  bool is_whole = HashOf(pack.bytes_) == pack_hash;
   for (const auto& e : pack.entries_) {
-    if (e.offset > pack.bytes_.size() || e.bytes > pack.bytes_.size() - e.offset || e.bytes < 8) {
-      return Fail(ErrorCode::kMismatch, "the pack is shorter than its manifest says",
-                  (dir / "furniture.pack").string());
-    }
+    is_whole = is_whole && e.offset <= pack.bytes_.size() &&
+               e.bytes <= pack.bytes_.size() - e.offset && e.bytes >= 8;
+  }
+  if (!is_whole) {
+    return Fail(ErrorCode::kMismatch,
+                "not the pack of its manifest.json; `crossnav assets import` makes it again",
+                (dir / "furniture.pack").string());
   }
   return pack;
+}
+
+const PackEntry* FurniturePack::Find(std::string_view id) const {
+  const auto it = std::find_if(entries_.begin(), entries_.end(),
+                               [&](const PackEntry& e) { return e.id == id; });
+  return it == entries_.end() ? nullptr : &*it;
 }
 
 Result<ObjectModel> FurniturePack::Read(const PackEntry& entry) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A pack of imported furniture on disk: `furniture.pack` (geometry and pictures, one compressed
-// block per model), `manifest.json` (id, kind, title, author, licence, size, where in the pack) and
-// ATTRIBUTION.md. Models are in object frame (object_model.h), metres.
+// block per model), `manifest.json` (id, kind, title, author, licence, size, where in the pack,
+// hash of the pack) and ATTRIBUTION.md. Models are in object frame (object_model.h), metres.
 #pragma once
 
 #include <filesystem>
@@ -30,6 +30,10 @@ class FurniturePack {
   static Result<FurniturePack> Load(const std::filesystem::path& dir);
 
   const std::vector<PackEntry>& entries() const { return entries_; }
+  /// Identity: of everything in the pack. Houses furnished from equal packs have equal bytes.
+  const std::string& hash() const { return hash_; }
+  /// nullptr where there is no such id.
+  const PackEntry* Find(std::string_view id) const;
   Result<ObjectModel> Read(const PackEntry& entry) const;
   /// One of the models of `kind`, or nullopt where the pack has none.
   std::optional<ObjectModel> Draw(std::string_view kind, Rng& rng) const;
@@ -37,7 +41,7 @@ class FurniturePack {
  private:
   std::filesystem::path dir_;
   std::vector<PackEntry> entries_;
-  std::string bytes_;
+  std::string bytes_, hash_;
 };
 
 struct PackModel {

@@ -11,6 +11,7 @@
 #include "crossnav/world/furnish.h"
 #include "crossnav/world/furniture_pack.h"
 #include "crossnav/world/glb_writer.h"
+#include "crossnav/world/house_file.h"
 #include "crossnav/world/house_gate.h"
 #include "crossnav/world/house_plan.h"
 #include "crossnav/world/scene_writer.h"
@@ -75,15 +76,10 @@ Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
   return plan;
 }
 
-Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out_dir) {
+Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out_dir,
+                                  const FurniturePack* pack) {
   if (auto ok = CheckParams(params); !ok) return tl::unexpected(ok.error());
-  std::optional<FurniturePack> pack;
-  if (!params.furniture_pack.empty()) {
-    auto loaded = FurniturePack::Load(params.furniture_pack);
-    if (!loaded) return tl::unexpected(loaded.error());
-    pack = std::move(*loaded);
-  }
-  const FurnitureSource source{pack ? &*pack : nullptr};
+  const FurnitureSource source{pack};
   HouseReport report;
   for (int attempt = 0; attempt < params.max_attempts; ++attempt) {
     ++report.attempts;
@@ -108,12 +104,12 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
       continue;
     }
     report.area_m2 = navmesh->AreaM2();
-    if (params.has_ambient_occlusion) {
+    if (params.has_lights) {
       Subdivide(scene.mesh, kOcclusionEdge_m);
       BakeAmbientOcclusion(scene);
     }
     Describe(*plan, scene, report);
-    auto folder = WriteScene(scene, out_dir);
+    auto folder = WriteScene(scene, out_dir, HouseText(*plan, params, pack));
     if (!folder) return tl::unexpected(folder.error());
     report.folder = *folder;
     report.bytes = 0;

@@ -29,7 +29,9 @@ struct HouseReport {
 };
 
 /// Writes `<out_dir>/<id>/...` and returns what it is; kInvalid after params.max_attempts attempts.
-Result<HouseReport> GenerateHouse(const HouseParams& params, const std::filesystem::path& out_dir);
+/// Furnished from `pack` where there is one, otherwise with the parametric shapes.
+Result<HouseReport> GenerateHouse(const HouseParams& params, const std::filesystem::path& out_dir,
+                                  const FurniturePack* pack = nullptr);
 
 /// The furnished plan of one attempt, for tests and pictures.
 Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,

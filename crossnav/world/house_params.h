@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 
 namespace crossnav::world {
 
@@ -12,11 +11,10 @@ struct HouseParams {
   int floors = 0;      ///< 1 to 4; 0 = drawn from the seed (2 most often)
   double area_m2 = 0;  ///< of one floor, 60 to 400; 0 = drawn from the seed
   bool has_textures = true;
-  bool has_ambient_occlusion = true;
-  bool is_scan = false;  ///< holes, noise and floating fragments, as in a real scan
+  bool has_lights = true;  ///< light of windows and lamps, baked into vertex colours
+  bool is_scan = false;    ///< holes, noise and floating fragments, as in a real scan
   int max_attempts =
       12;  ///< plans tried before giving up; chosen: a plan passes about 3 times in 4
-  std::filesystem::path furniture_pack;  ///< imported models; empty = parametric shapes only
 };
 
 }  // namespace crossnav::world

@@ -83,7 +83,8 @@ Result<void> WriteDatasetConfig(const fs::path& dir) {
   return WriteWhole(dir / "crossnav.scene_dataset_config.json", text);
 }
 
-Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir) {
+Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir,
+                            const std::string& house_text) {
   const auto dash = scene.id.find('-');
   if (dash == std::string::npos || dash + 1 == scene.id.size()) {
     return Fail(ErrorCode::kInvalid, "a scene id reads <number>-<name>", scene.id);
@@ -95,10 +96,12 @@ Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir) {
   if (error) return Fail(ErrorCode::kIo, error.message(), folder.string());
   const std::string stem = scene.id.substr(dash + 1);
   const std::pair<std::string, std::string> files[] = {
+      {stem + ".house.json", house_text},
       {stem + ".semantic.txt", SemanticText(scene)},
       {stem + ".semantic.glb", EncodeSemanticGlb(scene)},
       {stem + ".glb", EncodeRenderGlb(scene)}};
   for (const auto& [name, bytes] : files) {
+    if (bytes.empty()) continue;
     if (auto ok = WriteWhole(folder / name, bytes); !ok) return tl::unexpected(ok.error());
   }
   if (auto ok = WriteDatasetConfig(dir); !ok) return tl::unexpected(ok.error());

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "support/temp_folder.h"
+#include "support/zip_archive.h"
 
 namespace crossnav {
 namespace {
@@ -107,9 +108,9 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
 
 TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
   for (const char* verb :
-       {"doctor", "world generate", "scene info", "scene render", "episodes generate",
-        "episodes check", "run", "eval", "report", "metrics", "replay export", "map info",
-        "map query", "map export", "bench", "demo"}) {
+       {"doctor", "assets import", "world generate", "scene info", "scene render",
+        "episodes generate", "episodes check", "run", "eval", "report", "metrics", "replay export",
+        "map info", "map query", "map export", "bench", "demo"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;
@@ -298,6 +299,41 @@ TEST_F(Cli, MissingReplayAndMapAreErrors) {
   ExpectFailure("replay export no.mcap --out no.html", {"no.mcap"});
   ExpectFailure("map info no.map", {"no.map"});
   ExpectFailure("metrics no.jsonl", {"no.jsonl"});
+}
+
+constexpr const char* kOneRoom = "world generate --seed 5 --floors 1 --area 60 --json --out houses";
+
+TEST_F(Cli, AssetsImportMakesThePackThatHousesAreFurnishedFrom) {
+  fs::create_directories(At("libraries"));
+  WriteText(At("libraries/Scopia.sh3f"),
+            test::Zip({{"PluginFurnitureCatalog.properties",
+                        "version=1.0\nid#1=Scopia#chair\nname#1=Chair\ncreator#1=Ann\n"
+                        "model#1=/a.obj\nwidth#1=40\ndepth#1=40\nheight#1=90\n"},
+                       {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n"}}));
+  const Outcome made = Run("assets import libraries --out pack --json");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const Json pack = Json::parse(made.out);
+  EXPECT_EQ(pack["models"], 2);  // also a dining chair
+  EXPECT_EQ(pack["per_kind"]["chair"], 1);
+  const Outcome house = Run(std::string(kOneRoom) + " --furniture pack");
+  ASSERT_EQ(house.exit_code, 0) << house.err;
+  EXPECT_EQ(Json::parse(house.out)["furniture_pack"], pack["hash"]);
+  EXPECT_EQ(Json::parse(ReadText(At("houses/00005-House5/House5.house.json")))["furniture_pack"],
+            pack["hash"]);
+}
+
+TEST_F(Cli, WithoutAPackTheGeneratorSaysSoAndGoesOn) {
+  ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
+  const Outcome house = Run(kOneRoom);
+  const Outcome wished = Run(std::string(kOneRoom) + " --furniture none");
+  ::unsetenv("XDG_DATA_HOME");
+  EXPECT_EQ(house.exit_code, 0) << house.err;
+  EXPECT_NE(house.err.find("simple shapes"), std::string::npos) << house.err;
+  EXPECT_TRUE(Json::parse(house.out)["furniture_pack"].is_null());
+  EXPECT_EQ(wished.exit_code, 0) << wished.err;
+  EXPECT_EQ(wished.err.find("simple shapes"), std::string::npos) << wished.err;
+  ExpectFailure("world generate --out run --furniture here", {"here", "assets import"});
+  ExpectFailure("assets import here --out run", {"here", "sweethome3d-furniture"});
 }
 
 }  // namespace

@@ -2,65 +2,19 @@
 #include "crossnav/world/furniture_import.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <fstream>
 
 #include "crossnav/world/furniture_pack.h"
 #include "crossnav/world/obj_reader.h"
 #include "crossnav/world/zip_reader.h"
+#include "support/zip_archive.h"
 #include "temp_dir.h"
 
 namespace crossnav::world {
 namespace {
 
-void Put(std::string& out, std::uint32_t v, int bytes) {
-  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<char>(v >> (8 * i)));
-}
-
-/// A zip archive with stored entries, written by hand.
-std::string Zip(const std::map<std::string, std::string>& files) {
-  std::string out, directory;
-  for (const auto& [name, text] : files) {
-    const auto crc = static_cast<std::uint32_t>(
-        crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size())));
-    const auto size = static_cast<std::uint32_t>(text.size());
-    const auto offset = static_cast<std::uint32_t>(out.size());
-    const auto common = [&](std::string& to) {
-      Put(to, 20, 2);
-      Put(to, 0, 2);
-      Put(to, 0, 2);
-      Put(to, 0, 4);
-      Put(to, crc, 4);
-      Put(to, size, 4);
-      Put(to, size, 4);
-      Put(to, static_cast<std::uint32_t>(name.size()), 2);
-      Put(to, 0, 2);
-    };
-    Put(out, 0x04034b50, 4);
-    common(out);
-    out += name + text;
-    Put(directory, 0x02014b50, 4);
-    Put(directory, 20, 2);
-    common(directory);
-    Put(directory, 0, 2);
-    Put(directory, 0, 2);
-    Put(directory, 0, 2);
-    Put(directory, 0, 4);
-    Put(directory, offset, 4);
-    directory += name;
-  }
-  const auto start = static_cast<std::uint32_t>(out.size());
-  out += directory;
-  Put(out, 0x06054b50, 4);
-  Put(out, 0, 4);
-  Put(out, static_cast<std::uint32_t>(files.size()), 2);
-  Put(out, static_cast<std::uint32_t>(files.size()), 2);
-  Put(out, static_cast<std::uint32_t>(directory.size()), 4);
-  Put(out, start, 4);
-  Put(out, 0, 2);
-  return out;
-}
+using test::Zip;
 
 constexpr const char* kObj =
     "mtllib a.mtl\nv 0 0 0\nv 2 0 0\nv 2 0 4\nv 0 0 4\nv 0 6 -1\nvt 0 0\n"
@@ -143,6 +97,28 @@ TEST(FurniturePack, RefusesATruncatedPack) {
   ASSERT_TRUE(FurniturePack::Load(dir.path()).has_value());
   std::filesystem::resize_file(dir.path() / "furniture.pack", 20);
   EXPECT_EQ(FurniturePack::Load(dir.path()).error().code, ErrorCode::kMismatch);
+}
+
+TEST(FurniturePack, KnowsAnotherPackFromItsOwnByTheHash) {
+  const TempDir dir;
+  const auto write = [&](const std::string& name, std::uint8_t red) {
+    PackModel m;
+    m.entry.id = "x";
+    m.entry.kind = "chair";
+    ModelBuilder b("chair");
+    b.Colour({red, 2, 3});
+    b.mesh.AddBox({0, 0, 0}, {1, 1, 1});
+    m.model = b.Finish();
+    EXPECT_TRUE(WritePack({m}, dir.path() / name).has_value());
+    return FurniturePack::Load(dir.path() / name)->hash();
+  };
+  const std::string red = write("red", 200);
+  EXPECT_EQ(red, write("again", 200));
+  EXPECT_NE(red, write("dark", 20));
+  // An import that was interrupted: the new geometry under the old manifest.
+  std::filesystem::copy_file(dir.path() / "dark/furniture.pack", dir.path() / "red/furniture.pack",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(FurniturePack::Load(dir.path() / "red").error().code, ErrorCode::kMismatch);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "crossnav/world/architecture.h"
 #include "crossnav/world/glb_writer.h"
 #include "crossnav/world/groups.h"
+#include "crossnav/world/house_file.h"
 #include "crossnav/world/house_gate.h"
 #include "temp_dir.h"
 
@@ -57,6 +58,64 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
   const auto c = GenerateHouse(params, dir.path() / "c");
   ASSERT_TRUE(c.has_value());
   EXPECT_NE(ReadAll(a->folder / file), ReadAll(c->folder / "House10.glb"));
+}
+
+/// A pack of one bed of one colour.
+FurniturePack PackOfOneBed(const std::filesystem::path& dir) {
+  PackModel m;
+  m.entry.id = "Test#bed";
+  m.entry.kind = "bed";
+  m.entry.title = "A bed";
+  m.entry.author = "Somebody";
+  m.entry.licence = "CC-BY 3.0";
+  ModelBuilder b("bed");
+  b.Colour({1, 2, 3});
+  b.mesh.AddBox({-0.8, -1, 0}, {0.8, 1, 0.5});
+  m.model = b.Finish();
+  EXPECT_TRUE(WritePack({m}, dir).has_value());
+  return *FurniturePack::Load(dir);
+}
+
+TEST(HouseGenerator, FurnishesFromThePackAndCreditsIt) {
+  const TempDir dir;
+  const FurniturePack pack = PackOfOneBed(dir.path() / "pack");
+  HouseParams params;
+  params.seed = 5;
+  params.floors = 1;
+  params.area_m2 = 90;
+  params.has_lights = false;
+  const auto a = GenerateHouse(params, dir.path() / "a", &pack);
+  const auto b = GenerateHouse(params, dir.path() / "b", &pack);
+  const auto plain = GenerateHouse(params, dir.path() / "plain");
+  ASSERT_TRUE(a && b && plain);
+  for (const char* file : {"House5.glb", "House5.semantic.glb", "House5.house.json"}) {
+    EXPECT_EQ(ReadAll(a->folder / file), ReadAll(b->folder / file)) << file;
+  }
+  EXPECT_NE(ReadAll(a->folder / "House5.glb"), ReadAll(plain->folder / "House5.glb"));
+  const std::string text = ReadAll(a->folder / "House5.house.json");
+  EXPECT_NE(text.find("\"furniture_pack\": \"" + pack.hash() + "\""), std::string::npos);
+  EXPECT_NE(text.find("\"author\": \"Somebody\""), std::string::npos);
+  EXPECT_NE(ReadAll(plain->folder / "House5.house.json").find("\"furniture_pack\": null"),
+            std::string::npos);
+}
+
+TEST(HouseGenerator, RoomsOfAHouseCanBeReadBack) {
+  const TempDir dir;
+  HouseParams params;
+  params.seed = 5;
+  params.floors = 1;
+  params.area_m2 = 90;
+  params.has_lights = false;
+  const auto house = GenerateHouse(params, dir.path());
+  ASSERT_TRUE(house.has_value());
+  const auto rooms = ReadHouseRooms(house->folder);
+  ASSERT_TRUE(rooms.has_value()) << rooms.error().Message();
+  std::map<std::string, int> names;
+  for (const HouseRoom& room : *rooms) ++names[room.name];
+  EXPECT_EQ(names, house->rooms);
+  EXPECT_TRUE(ReadHouseRooms(dir.path() / "00001-Other")->empty());
+  std::ofstream(house->folder / "House5.house.json") << "{\"rooms\": [{\"name\": 3}]}";
+  EXPECT_EQ(ReadHouseRooms(house->folder).error().code, ErrorCode::kMalformed);
 }
 
 TEST(HouseGenerator, RefusesImpossibleWishes) {
