@@ -4,6 +4,8 @@
 // back-projection on both sides: OctoMap gets the points that this program computes for it.
 //   map_benchmark [compare] [frames]     insertion and classification
 //   map_benchmark growth [frames]        cost per frame over a long walk, and memory
+#include <sys/resource.h>
+
 #include <ctime>
 
 #include <cstdio>
@@ -201,6 +203,10 @@ void Growth(const CameraIntrinsics& K, int count) {
                 static_cast<long long>(stats.known));
     std::fflush(stdout);
   }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("peak memory of the whole process: %.1f MB\n",
+              1e-3 * static_cast<double>(usage.ru_maxrss));
 }
 
 }  // namespace
