@@ -2,80 +2,24 @@
 // The semantic memory's two costs, on one thread, each beside what it should be held against in the
 // same run: lifting a frame against upsample-and-scatter written plainly, a query against the
 // bandwidth with which this machine reads the same bytes. Process CPU time, runs alternating.
-// Then what saving and loading that memory takes. Usage: memory_benchmark [frames] [rows]
-#include <malloc.h>
-
+// The same query of int8 rows, what compacting costs, and what saving and loading takes. Usage:
+// memory_benchmark [frames] [rows]
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <new>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "counted_memory.h"
 #include "crossnav/core/rng.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/row_store.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/store/map_file.h"
-
-// Every allocation is counted, so that "transient" is measured, not claimed.
-namespace {
-std::atomic<long long> g_held{0}, g_peak{0};
-
-void* Counted(void* p) {
-  if (p == nullptr) std::abort();
-  const long long held = g_held += static_cast<long long>(malloc_usable_size(p));
-  if (held > g_peak) g_peak = held;
-  return p;
-}
-void Release(void* p) {
-  g_held -= static_cast<long long>(malloc_usable_size(p));
-  std::free(p);
-}
-}  // namespace
-
-void* operator new(std::size_t n) {
-  return Counted(std::malloc(n));
-}
-void* operator new[](std::size_t n) {
-  return Counted(std::malloc(n));
-}
-void* operator new(std::size_t n, std::align_val_t a) {
-  const auto align = static_cast<std::size_t>(a);
-  return Counted(std::aligned_alloc(align, (n + align - 1) / align * align));
-}
-void* operator new[](std::size_t n, std::align_val_t a) {
-  return operator new(n, a);
-}
-void operator delete(void* p) noexcept {
-  Release(p);
-}
-void operator delete[](void* p) noexcept {
-  Release(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  Release(p);
-}
-void operator delete[](void* p, std::size_t) noexcept {
-  Release(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept {
-  Release(p);
-}
-void operator delete[](void* p, std::align_val_t) noexcept {
-  Release(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  Release(p);
-}
-void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
-  Release(p);
-}
 
 namespace {
 
@@ -248,24 +192,22 @@ void BenchLifting(int frame_count) {
         static_cast<double>(std::unique(keys.begin(), keys.end()) - keys.begin()) / frame_count;
 
     const long long rows_before = memory.Size();
-    const long long held = g_held;
-    g_peak = held;
+    const long long held = MarkHeldBytes();
     const double start = CpuMs();
     memory.Fuse(f.pixels, f.depth, camera, f.T_world_camera, grid);
     ours.Add(CpuMs() - start);
     const double grown = static_cast<double>(memory.Size() - rows_before) * RowStride(kDim) * 2;
-    transient_mb = std::max(transient_mb, (static_cast<double>(g_peak - held) - grown) / 1e6);
+    transient_mb = std::max(transient_mb, (static_cast<double>(PeakBytes() - held) - grown) / 1e6);
 
     if (i % 40 != 0) continue;  // the plain one is slow
     exact = SemanticMemory(FusionConfig{.storage = "float"});
     plain = PlainMemory();
     exact.Fuse(f.pixels, f.depth, camera, f.T_world_camera, grid);
-    const long long plain_held = g_held;
-    g_peak = plain_held;
+    const long long plain_held = MarkHeldBytes();
     const double plain_start = CpuMs();
     plain.Fuse(f, camera, grid);
     plain_ms.Add(CpuMs() - plain_start);
-    plain_mb = std::max(plain_mb, static_cast<double>(g_peak - plain_held) / 1e6);
+    plain_mb = std::max(plain_mb, static_cast<double>(PeakBytes() - plain_held) / 1e6);
   }
   std::printf("lifting %dx%d, %dx%dx%d: %.0f pixels, %.0f voxels a frame, %d frames, %lld rows\n",
               kSide, kSide, kGrid, kGrid, kDim, pixels, voxels, frame_count,
@@ -314,6 +256,39 @@ void BenchFile(const memory::SemanticMemory& memory) {
               static_cast<double>(std::filesystem::file_size(path)) / 1e6, first_ms, again_ms,
               load_ms);
   std::filesystem::remove(path);
+}
+
+// The same rows under half the budget, so that all of them become int8.
+void BenchCompact(const SemanticMemory& full, const std::vector<float>& text, double read_ms) {
+  FusionConfig config;
+  config.max_rows = static_cast<int>((full.Size() + 1) * 10 / 18);
+  SemanticMemory memory(config, kVoxel, kDim);
+  for (std::int64_t row = 0; row < full.Size(); ++row) memory.AppendRow(full.RowAt(row));
+  const std::vector<float> data(kDim, 1.0f);
+  const CameraIntrinsics camera = IntrinsicsFromHfov(8, 8, 1.4);
+  double start = CpuMs();
+  memory.Fuse({}, DepthImage(8, 8), camera, Pose::Identity(), {1, 1, kDim, data});
+  const double compact_ms = CpuMs() - start;
+  const auto compacted = static_cast<double>(memory.Counters().compacted_rows);
+
+  const std::vector<float> before = full.Similarity(text);
+  double worst = 0;
+  Series similarity;
+  for (int i = 0; i < 31; ++i) {
+    start = CpuMs();
+    const std::vector<float> after = memory.Similarity(text);
+    similarity.Add(CpuMs() - start);
+    for (std::size_t row = 0; row < after.size() && i == 0; ++row)
+      worst = std::max(worst, static_cast<double>(std::abs(after[row] - before[row])));
+  }
+  std::printf(
+      "  similarity, %3.0f %% int8 p50 %6.2f ms  %.2fx of reading half the bytes; largest "
+      "difference %.1e\n",
+      100 * compacted / static_cast<double>(memory.Size()), similarity.At(0.5),
+      similarity.At(0.5) / (read_ms / 2), worst);
+  std::printf("  compacting them     %.0f ms, %.2f us a row; %.0f MB instead of %.0f\n", compact_ms,
+              1e3 * compact_ms / compacted, static_cast<double>(memory.Bytes()) / 1e6,
+              static_cast<double>(full.Bytes()) / 1e6);
 }
 
 void BenchQuery(std::int64_t row_count) {
@@ -366,6 +341,7 @@ void BenchQuery(std::int64_t row_count) {
       similarity.At(0) / read.At(0));
   std::printf("  whole query         p50 %8.2f ms  (clusters and scores included)\n",
               query.At(0.5));
+  BenchCompact(memory, text, read.At(0.5));
   BenchFile(memory);
 }
 

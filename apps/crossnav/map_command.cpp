@@ -94,10 +94,11 @@ Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Con
   const geometry::MapStats stats = loaded->map.Stats();
   console.Print(fmt::format(
       "{}: revision {}, voxels of {:.2f} m\n  {} known, {} occupied, {} traversable\n"
-      "  {} feature rows of {} ({})\n  frame: {}\n",
+      "  {} feature rows of {} ({}), {} of them int8, {} dropped; {:.1f} MB\n  frame: {}\n",
       options.file, header.revision, header.voxel_m, stats.known, stats.occupied, stats.traversable,
       header.feature_rows, header.feature_dim,
-      header.encoder_name.empty() ? "unknown encoder" : header.encoder_name, header.frame));
+      header.encoder_name.empty() ? "unknown encoder" : header.encoder_name, header.compacted_rows,
+      header.dropped_rows, static_cast<double>(loaded->memory.Bytes()) / 1e6, header.frame));
   console.Document(Json({{"file", options.file},
                          {"format", header.format},
                          {"revision", header.revision},
@@ -107,6 +108,9 @@ Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Con
                          {"traversable", stats.traversable},
                          {"feature_rows", header.feature_rows},
                          {"feature_dim", header.feature_dim},
+                         {"compacted_rows", header.compacted_rows},
+                         {"dropped_rows", header.dropped_rows},
+                         {"memory_bytes", loaded->memory.Bytes()},
                          {"encoder_name", header.encoder_name},
                          {"encoder_hash", bench::HexHash(header.encoder_hash)},
                          {"frame", header.frame},

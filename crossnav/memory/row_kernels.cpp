@@ -152,6 +152,52 @@ void DotFloat(const float* rows, int stride, std::size_t count, const float* tex
   DotRowsT(rows, stride, count, text, out);
 }
 
+// Products of neighbours meet in 32 bits; integers add up to the same in any order.
+void DotCompact(const std::int8_t* HWY_RESTRICT rows, int stride, std::size_t count,
+                const std::int16_t* HWY_RESTRICT text, std::int32_t* HWY_RESTRICT out) {
+  const hn::CappedTag<std::int16_t, kRowPad> d16;
+  const hn::RepartitionToWide<decltype(d16)> d32;
+  const hn::Rebind<std::int8_t, decltype(d16)> d8;
+  const int lanes = static_cast<int>(hn::Lanes(d16));
+  for (std::size_t r = 0; r < count; ++r, rows += stride) {
+    auto sum0 = hn::Zero(d32), sum1 = hn::Zero(d32);
+    for (int i = 0; i < stride; i += kRowPad) {
+      PrefetchAhead(rows + i);
+      for (int k = i; k < i + kRowPad; k += lanes)
+        sum0 = hn::ReorderWidenMulAccumulate(d32, hn::PromoteTo(d16, hn::LoadU(d8, rows + k)),
+                                             hn::LoadU(d16, text + k), sum0, sum1);
+    }
+    out[r] = hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1)));
+  }
+}
+
+template <class D>
+HWY_INLINE void QuantizeAt(D d, const float* in, float inverse, std::int8_t* out) {
+  const hn::Rebind<std::int8_t, D> d8;
+  const auto whole = hn::NearestInt(hn::Mul(hn::LoadU(d, in), hn::Set(d, inverse)));
+  hn::StoreU(hn::DemoteTo(d8, whole), d8, out);
+}
+
+void ConvertToCompact(std::span<const float> in, float inverse, std::int8_t* out) {
+  std::size_t i = 0;
+  for (; i + kLanes <= in.size(); i += kLanes) QuantizeAt(Wide(), &in[i], inverse, out + i);
+  for (; i < in.size(); ++i) QuantizeAt(Single(), &in[i], inverse, out + i);
+}
+
+template <class D>
+HWY_INLINE void DequantizeAt(D d, const std::int8_t* in, float scale, float* out) {
+  const hn::Rebind<std::int8_t, D> d8;
+  const hn::Rebind<std::int32_t, D> d32;
+  const auto whole = hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, in)));
+  hn::StoreU(hn::Mul(whole, hn::Set(d, scale)), d, out);
+}
+
+void ConvertFromCompact(std::span<const std::int8_t> in, float scale, float* out) {
+  std::size_t i = 0;
+  for (; i + kLanes <= in.size(); i += kLanes) DequantizeAt(Wide(), &in[i], scale, out + i);
+  for (; i < in.size(); ++i) DequantizeAt(Single(), &in[i], scale, out + i);
+}
+
 void ConvertToHalf(std::span<const float> in, std::uint16_t* out) {
   const Wide d;
   const Single d1;
@@ -233,6 +279,9 @@ HWY_EXPORT(FuseHalf);
 HWY_EXPORT(FuseFloat);
 HWY_EXPORT(DotHalf);
 HWY_EXPORT(DotFloat);
+HWY_EXPORT(DotCompact);
+HWY_EXPORT(ConvertToCompact);
+HWY_EXPORT(ConvertFromCompact);
 HWY_EXPORT(ConvertToHalf);
 HWY_EXPORT(ConvertFromHalf);
 HWY_EXPORT(CheckFinite);
@@ -253,6 +302,22 @@ void DotRows(const std::uint16_t* rows, int stride, std::size_t count, const flo
 }
 void DotRows(const float* rows, int stride, std::size_t count, const float* text, float* out) {
   HWY_DYNAMIC_DISPATCH(DotFloat)(rows, stride, count, text, out);
+}
+void DotRows(const std::int8_t* rows, int stride, std::size_t count, const std::int16_t* text,
+             std::int32_t* out) {
+  HWY_DYNAMIC_DISPATCH(DotCompact)(rows, stride, count, text, out);
+}
+float ToCompact(std::span<const float> in, std::int8_t* out) {
+  float largest = 0;
+  for (float x : in) largest = std::max(largest, std::abs(x));
+  // Below this nothing is left of a feature, and 127 / largest would overflow.
+  constexpr float kNothing = 1e-30f;
+  const bool is_zero = largest <= kNothing;
+  HWY_DYNAMIC_DISPATCH(ConvertToCompact)(in, is_zero ? 0 : 127 / largest, out);
+  return is_zero ? 1 : largest / 127;
+}
+void FromCompact(std::span<const std::int8_t> in, float scale, float* out) {
+  HWY_DYNAMIC_DISPATCH(ConvertFromCompact)(in, scale, out);
 }
 void ToHalf(std::span<const float> in, std::uint16_t* out) {
   HWY_DYNAMIC_DISPATCH(ConvertToHalf)(in, out);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The three inner loops of the memory, compiled for several instruction sets and chosen at run time
 // (Highway). Sums run over 32 fixed virtual lanes, so that AVX2 and AVX-512 give the same bytes.
-// Rows are half precision (bit patterns) or float32, padded with zeros to a multiple of kRowPad.
+// Rows are half precision (bit patterns), float32 or int8, padded with zeros to a multiple of
+// kRowPad. int8 arithmetic is in whole numbers and therefore exact everywhere.
 #pragma once
 
 #include <cstddef>
@@ -34,6 +35,17 @@ float FuseRow(float* row, int dim, float keep, const float* grid,
 void DotRows(const std::uint16_t* rows, int stride, std::size_t count, const float* text,
              float* out);
 void DotRows(const float* rows, int stride, std::size_t count, const float* text, float* out);
+
+/// The same of int8 rows with a text in whole numbers. Exact if sum |text_i| <= kMaxCompactText, so
+/// that no partial sum overflows.
+void DotRows(const std::int8_t* rows, int stride, std::size_t count, const std::int16_t* text,
+             std::int32_t* out);
+inline constexpr std::int32_t kMaxCompactText = 0x7fffffff / 127;
+
+/// A row as whole numbers: value_i is scale * out_i to half a scale, |out_i| <= 127. Returns the
+/// scale: the largest absolute value / 127, or 1 for a row of zeros.
+float ToCompact(std::span<const float> in, std::int8_t* out);
+void FromCompact(std::span<const std::int8_t> in, float scale, float* out);
 
 /// Bit patterns of the nearest half-precision numbers and back; finite values stay finite.
 void ToHalf(std::span<const float> in, std::uint16_t* out);

@@ -1,35 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Feature rows in chunks that never move: growing costs no copy and no second buffer. Rows are half
-// precision by default (float32 for comparison), with the inverse norm of what is stored kept
-// beside them. Readers may share it while nobody writes.
+// The feature rows of a memory. A row is full (half precision by default, float32 for comparison)
+// or compact: int8 with one factor, half the bytes, 1 - cosine to what it was at most dim / 125000
+// and in practice a hundred times less. A compact row that is fused becomes full again. The inverse
+// norm of what is stored is kept beside each. Readers may share it while nobody writes.
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <span>
 #include <vector>
 
 #include "crossnav/memory/row_kernels.h"
+#include "crossnav/memory/row_pool.h"
 
 namespace crossnav::memory {
-
-/// Asks the system to back `bytes` at `begin` with huge pages, where it can: a query reads every
-/// row once, and small pages cost it a third. No effect on results.
-void AdviseHugePages(void* begin, std::size_t bytes);
 
 class RowStore {
  public:
   explicit RowStore(bool is_half, int dim = 0);
 
-  bool is_half() const { return is_half_; }
   int dim() const { return dim_; }
   void SetDim(int dim);  ///< only while empty
 
-  std::int64_t size() const { return static_cast<std::int64_t>(inverse_norms_.size()); }
+  std::int64_t size() const {
+    return IsPlain() ? full_.size() : static_cast<std::int64_t>(places_.size());
+  }
+  std::int64_t CompactCount() const { return compact_.size(); }
   std::int64_t Bytes() const;
 
-  std::int64_t Append();  ///< a row of zeros; returns its index
+  std::int64_t Append();  ///< a full row of zeros; returns its index
 
   /// row = keep * row + sum of shares (see FuseRow).
   void Fuse(std::int64_t row, float keep, const float* grid, std::span<const CellShare> shares);
@@ -38,6 +36,12 @@ class RowStore {
   /// Half-precision bit patterns, `dim` of them; float rows are rounded.
   void ReadHalf(std::int64_t row, std::span<std::uint16_t> out) const;
   void WriteHalf(std::int64_t row, std::span<const std::uint16_t> values);
+
+  bool IsCompact(std::int64_t row) const { return !IsPlain() && places_[row] < 0; }
+  void Compact(std::int64_t row);  ///< no effect on a compact row
+  /// The whole numbers of a compact row; returns its factor.
+  float ReadCompact(std::int64_t row, std::span<std::int8_t> out) const;
+  void WriteCompact(std::int64_t row, std::span<const std::int8_t> values, float scale);
 
   /// Cosine of every row with `text`; rows or texts of norm 0 give 0.
   std::vector<float> Cosines(std::span<const float> text) const;
@@ -48,28 +52,28 @@ class RowStore {
   void Reorder(std::span<const std::int64_t> order);
 
  private:
-  static constexpr std::int64_t kChunkRows = 4096;  // chosen: three huge pages at 768 features
-  static constexpr std::size_t kAlignment = std::size_t{2} << 20;  // a huge page
-  struct Free {
-    void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t(kAlignment)); }
-  };
-  using Chunk = std::unique_ptr<std::byte[], Free>;
+  // Until the first row is compacted, row i is number i of full_ and the tables below are empty.
+  bool IsPlain() const { return places_.empty(); }
+  void LeavePlain();
 
-  std::size_t RowBytes() const {
-    return static_cast<std::size_t>(RowStride(dim_)) * (is_half_ ? 2 : 4);
-  }
-  std::byte* At(std::int64_t row) const {
-    return chunks_[row / kChunkRows].get() + (row % kChunkRows) * RowBytes();
-  }
-  std::uint16_t* HalfAt(std::int64_t row) const {
-    return reinterpret_cast<std::uint16_t*>(At(row));
-  }
-  float* FloatAt(std::int64_t row) const { return reinterpret_cast<float*>(At(row)); }
+  std::int32_t AppendFull(std::int32_t row);
+  std::int32_t AppendCompact(std::int32_t row, float scale);
+  void Remove(std::int32_t place);  // the last of its pool takes its place
+  void Expand(std::int64_t row);
+
+  std::int64_t FullAt(std::int64_t row) const { return IsPlain() ? row : places_[row]; }
+  std::int64_t CompactAt(std::int64_t row) const { return ~places_[row]; }
+  void ReadFull(std::int64_t at, std::span<float> out) const;
+  void WriteFull(std::int64_t at, std::span<const float> values);
+  void FullCosines(std::span<const float> unit, std::span<float> cosines) const;
+  void CompactCosines(std::span<const float> unit, std::span<float> cosines) const;
 
   bool is_half_;
   int dim_;
-  std::vector<Chunk> chunks_;
-  std::vector<float> inverse_norms_;  // 0 for a row of zeros
+  RowPool full_, compact_;
+  std::vector<float> scales_;         // of compact_
+  std::vector<std::int32_t> places_;  // per row: number in full_, or ~ in compact_
+  std::vector<std::int32_t> full_rows_, compact_rows_;  // the row at each number
 };
 
 }  // namespace crossnav::memory

@@ -75,7 +75,15 @@ struct SemanticMemory::Impl {
   void GatherWeights(const std::vector<PixelVoxel>& pixels, int width);
   void FuseSlot(std::int32_t slot, const float* grid, const Vector3f& p_camera_world);
   void EnforceLimit();
+  void KeepMostConfident(std::int64_t count);
+  void CompactLeastConfident(std::int64_t count);
   void Reindex();
+
+  // Ties go by key, so that the order in which rows came does not matter.
+  bool IsMoreConfident(std::int64_t a, std::int64_t b) const {
+    return facts[a].weight != facts[b].weight ? facts[a].weight > facts[b].weight
+                                              : keys[a] < keys[b];
+  }
 };
 
 // Walks the pixels once, cutting them into runs of one image row, voxel and cell interval.
@@ -130,29 +138,45 @@ void SemanticMemory::Impl::FuseSlot(std::int32_t slot, const float* grid,
   }
 }
 
-// Drops the least confident rows, a tenth more than needed so that it is rare. Ties go by key.
+// A compact row costs half a row. A tenth more is freed than needed, so that it is rare.
 void SemanticMemory::Impl::EnforceLimit() {
-  const auto size = static_cast<std::int64_t>(keys.size());
-  if (config.max_rows <= 0 || size <= config.max_rows) return;
-  const std::int64_t kept = std::max<std::int64_t>(1, config.max_rows - config.max_rows / 10);
-  std::vector<std::int64_t> order(size);
+  const std::int64_t limit = config.max_rows;
+  if (limit <= 0 || 2 * rows.size() - rows.CompactCount() <= 2 * limit) return;
+  const std::int64_t aim = std::max<std::int64_t>(1, limit - limit / 10);
+  if (rows.size() > 2 * aim) KeepMostConfident(2 * aim);
+  CompactLeastConfident(2 * (rows.size() - aim) - rows.CompactCount());
+}
+
+void SemanticMemory::Impl::KeepMostConfident(std::int64_t count) {
+  std::vector<std::int64_t> order(rows.size());
   std::iota(order.begin(), order.end(), 0);
-  std::nth_element(order.begin(), order.begin() + kept, order.end(), [&](auto a, auto b) {
-    if (facts[a].weight != facts[b].weight) return facts[a].weight > facts[b].weight;
-    return keys[a] < keys[b];
-  });
-  order.resize(kept);
+  std::nth_element(order.begin(), order.begin() + count, order.end(),
+                   [&](auto a, auto b) { return IsMoreConfident(a, b); });
+  counters.dropped_rows += rows.size() - count;
+  order.resize(count);
   std::sort(order.begin(), order.end());
   rows.Keep(order);
-  for (std::int64_t to = 0; to < kept; ++to) {
+  for (std::int64_t to = 0; to < count; ++to) {
     keys[to] = keys[order[to]];
     facts[to] = facts[order[to]];
   }
-  keys.resize(kept);
-  facts.resize(kept);
-  slot_of_row.resize(kept);
+  keys.resize(count);
+  facts.resize(count);
+  slot_of_row.resize(count);
   Reindex();
-  counters.dropped_rows += size - kept;
+}
+
+// `count` more rows of those that are full.
+void SemanticMemory::Impl::CompactLeastConfident(std::int64_t count) {
+  if (count <= 0) return;
+  std::vector<std::int64_t> full;
+  for (std::int64_t row = 0; row < rows.size(); ++row)
+    if (!rows.IsCompact(row)) full.push_back(row);
+  CROSSNAV_CHECK(count <= static_cast<std::int64_t>(full.size()), "enough rows are left");
+  std::nth_element(full.begin(), full.end() - count, full.end(),
+                   [&](auto a, auto b) { return IsMoreConfident(a, b); });
+  std::sort(full.end() - count, full.end());
+  for (auto row = full.end() - count; row != full.end(); ++row) rows.Compact(*row);
 }
 
 void SemanticMemory::Impl::Reindex() {
@@ -232,7 +256,9 @@ std::int64_t SemanticMemory::Bytes() const {
 }
 
 MemoryCounters SemanticMemory::Counters() const {
-  return impl_->counters;
+  MemoryCounters counters = impl_->counters;
+  counters.compacted_rows = impl_->rows.CompactCount();
+  return counters;
 }
 const FusionConfig& SemanticMemory::config() const {
   return impl_->config;
@@ -243,20 +269,34 @@ double SemanticMemory::VoxelSize() const {
 
 MemoryRow SemanticMemory::RowAt(std::int64_t row) const {
   const RowFacts& fact = impl_->facts[row];
-  MemoryRow out{impl_->keys[row], fact.weight, fact.best_confidence, fact.p_best_view_world, {}};
-  out.half.resize(impl_->rows.dim());
-  impl_->rows.ReadHalf(row, out.half);
+  MemoryRow out;
+  out.key = impl_->keys[row];
+  out.weight = fact.weight;
+  out.best_confidence = fact.best_confidence;
+  out.p_best_view_world = fact.p_best_view_world;
+  if (impl_->rows.IsCompact(row)) {
+    out.compact.resize(impl_->rows.dim());
+    out.scale = impl_->rows.ReadCompact(row, out.compact);
+  } else {
+    out.half.resize(impl_->rows.dim());
+    impl_->rows.ReadHalf(row, out.half);
+  }
   return out;
 }
 
 void SemanticMemory::AppendRow(const MemoryRow& row) {
   Impl& m = *impl_;
-  if (m.rows.dim() == 0) m.rows.SetDim(static_cast<int>(row.half.size()));
+  const bool is_compact = !row.compact.empty();
+  const std::size_t dim = is_compact ? row.compact.size() : row.half.size();
+  if (m.rows.dim() == 0) m.rows.SetDim(static_cast<int>(dim));
   std::int32_t& cell =
       m.index.Touch(geometry::BlockKeyOf(row.key)).row[geometry::CellIndexOf(row.key)];
   CROSSNAV_CHECK(cell < 0, "each voxel has one row");
   m.AppendKey(row.key, cell);
-  m.rows.WriteHalf(cell, row.half);
+  if (is_compact)
+    m.rows.WriteCompact(cell, row.compact, row.scale);
+  else
+    m.rows.WriteHalf(cell, row.half);
   m.facts.back() = {row.weight, row.best_confidence, row.p_best_view_world};
 }
 
@@ -273,6 +313,10 @@ void SemanticMemory::ReorderRows(std::span<const std::int64_t> order) {
   m.keys = std::move(keys);
   m.facts = std::move(facts);
   m.Reindex();
+}
+
+void SemanticMemory::AddDropped(std::int64_t rows) {
+  impl_->counters.dropped_rows += rows;
 }
 
 std::vector<float> SemanticMemory::Similarity(std::span<const float> text) const {

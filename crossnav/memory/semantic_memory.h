@@ -30,8 +30,10 @@ struct FusionConfig {
   double depth_scale_m = 1.5;      ///< sigma_d
   double gradient_scale = 0;       ///< 0 = width / fx, which is independent of resolution
   double epsilon = 1e-6;           ///< eq:intra_frame_fusion
-  int max_rows = 0;                ///< 0 = unbounded; above it the least confident rows go
-  std::string storage = "half";    ///< half | float; float doubles the memory, for comparison
+  /// Budget of feature rows, 0 = unbounded. Above it the least confident rows become int8, which
+  /// count half; when that is not enough, they are dropped.
+  int max_rows = 0;
+  std::string storage = "half";  ///< half | float; float doubles the memory, for comparison
 };
 
 template <class V>
@@ -65,12 +67,17 @@ struct MemoryRow {
   float weight = 0;           ///< cumulative confidence
   float best_confidence = 0;  ///< of the best single frame
   Vector3f p_best_view_world = Vector3f::Zero();
-  std::vector<std::uint16_t> half;  ///< Dim() half-precision bit patterns
+  std::vector<std::uint16_t> half{};   ///< Dim() half-precision bit patterns, or
+  std::vector<std::int8_t> compact{};  ///< of a compacted row, Dim() numbers ...
+  float scale = 0;                     ///< ... that are multiples of this, > 0
+
+  friend bool operator==(const MemoryRow&, const MemoryRow&) = default;
 };
 
 /// What the memory had to give up.
 struct MemoryCounters {
-  std::int64_t dropped_rows = 0;     ///< by max_rows
+  std::int64_t compacted_rows = 0;   ///< int8 by max_rows, now
+  std::int64_t dropped_rows = 0;     ///< by max_rows, ever
   std::int64_t rejected_frames = 0;  ///< features that were not finite
 };
 
@@ -107,11 +114,13 @@ class SemanticMemory {
   double VoxelSize() const;  ///< [m]
 
   /// For saving: everything about a row, and a row put back as the last one. The key must be new
-  /// and `half` of Dim() numbers, none of them infinite or NaN.
+  /// and the feature of Dim() numbers, none of them infinite or NaN.
   MemoryRow RowAt(std::int64_t row) const;
   void AppendRow(const MemoryRow& row);
   /// Row i becomes what row order[i] was; `order` is a permutation of all rows.
   void ReorderRows(std::span<const std::int64_t> order);
+  /// Goes on counting from what a saved memory had dropped.
+  void AddDropped(std::int64_t rows);
 
   /// Cosine of every row with `text` (any norm > 0), in row order (eq:supp_similarity).
   std::vector<float> Similarity(std::span<const float> text) const;

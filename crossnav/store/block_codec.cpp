@@ -19,6 +19,7 @@ static_assert(std::endian::native == std::endian::little, "the file is little-en
 
 constexpr std::uint8_t kInflated = 8;                  // bit of a state byte
 constexpr std::size_t kRowFacts = 2 + 4 + 4 + 4 + 12;  // cell, row, weight, confidence, view
+constexpr std::uint16_t kHasCompact = 0x8000;          // bit of the number of rows
 
 class Writer {
  public:
@@ -77,7 +78,47 @@ bool IsSound(const PlacedRow& row) {
   const memory::MemoryRow& r = row.data;
   return std::isfinite(r.weight) && r.weight > 0 && std::isfinite(r.best_confidence) &&
          r.p_best_view_world.allFinite() && row.row >= 0 &&
-         std::all_of(r.half.begin(), r.half.end(), IsFiniteHalf);
+         std::all_of(r.half.begin(), r.half.end(), IsFiniteHalf) &&
+         std::count(r.compact.begin(), r.compact.end(), std::int8_t{-128}) == 0;
+}
+
+// The feature numbers that follow the facts: scales, halves, then compact rows.
+struct FeatureParts {
+  std::size_t rows = 0, halves = 0, compact = 0;  // numbers of the latter two
+  bool has_compact = false;
+
+  std::size_t Bytes() const { return (has_compact ? 4 * rows : 0) + 2 * halves + compact; }
+};
+
+// A scale for each row, 0 where it is of halves. False if one is no scale.
+bool ReadScales(std::size_t dim, Reader r, std::vector<PlacedRow>& rows, FeatureParts& parts) {
+  for (PlacedRow& row : rows) {
+    const float scale = parts.has_compact ? r.Get<float>() : 0.0f;
+    if (!std::isfinite(scale) || scale < 0) return false;
+    row.data.scale = scale;
+    (scale > 0 ? parts.compact : parts.halves) += dim;
+  }
+  return r.ok();
+}
+
+void ReadNumbers(std::size_t dim, ByteView raw, const FeatureParts& parts,
+                 std::vector<PlacedRow>& rows) {
+  const ByteView numbers = raw.last(2 * parts.halves + parts.compact);
+  const ByteView low = numbers.first(parts.halves), high = numbers.subspan(parts.halves);
+  std::size_t half = 0, compact = 2 * parts.halves;
+  for (PlacedRow& row : rows) {
+    if (row.data.scale > 0) {
+      row.data.compact.resize(dim);
+      std::memcpy(row.data.compact.data(), &numbers[compact], dim);
+      compact += dim;
+      continue;
+    }
+    row.data.half.resize(dim);
+    for (std::uint16_t& value : row.data.half) {
+      value = static_cast<std::uint16_t>(low[half] | high[half] << 8);
+      ++half;
+    }
+  }
 }
 
 }  // namespace
@@ -122,9 +163,11 @@ std::optional<geometry::MapBlock> DecodeMapBlock(const VoxelKey& key, ByteView r
 Bytes EncodeFeatureBlock(const memory::SemanticMemory& memory,
                          const std::vector<std::int64_t>& rows) {
   Writer w;
-  w.Put(static_cast<std::uint16_t>(rows.size()));
   std::vector<std::uint16_t> halves;
+  std::vector<std::int8_t> compact;
+  std::vector<float> scales;
   halves.reserve(rows.size() * memory.Dim());
+  w.Put(std::uint16_t{0});  // the number of rows, below
   for (std::int64_t row : rows) {
     const memory::MemoryRow data = memory.RowAt(row);
     w.Put(static_cast<std::uint16_t>(geometry::CellIndexOf(data.key)));
@@ -133,42 +176,48 @@ Bytes EncodeFeatureBlock(const memory::SemanticMemory& memory,
     w.Put(data.best_confidence);
     for (int axis = 0; axis < 3; ++axis) w.Put(data.p_best_view_world[axis]);
     halves.insert(halves.end(), data.half.begin(), data.half.end());
+    compact.insert(compact.end(), data.compact.begin(), data.compact.end());
+    scales.push_back(data.compact.empty() ? 0.0f : data.scale);
   }
+  const auto count = static_cast<std::uint16_t>(rows.size() | (compact.empty() ? 0 : kHasCompact));
+  std::memcpy(w.bytes().data(), &count, sizeof(count));
+  if (!compact.empty())
+    for (float scale : scales) w.Put(scale);
   PutHalves(halves, w.bytes());
+  for (std::int8_t value : compact) w.Put(value);
   return std::move(w.bytes());
 }
 
 std::optional<std::vector<PlacedRow>> DecodeFeatureBlock(const VoxelKey& key, int dim,
                                                          ByteView raw) {
   Reader r(raw);
-  const std::size_t count = r.Get<std::uint16_t>();
-  const std::size_t halves = count * static_cast<std::size_t>(dim);
-  if (count == 0 || count > kBlockVoxels || r.left() != count * kRowFacts + 2 * halves)
+  const auto flagged = r.Get<std::uint16_t>();
+  FeatureParts parts;
+  parts.rows = flagged & ~kHasCompact;
+  parts.has_compact = (flagged & kHasCompact) != 0;
+  if (parts.rows == 0 || parts.rows > kBlockVoxels || r.left() < parts.rows * kRowFacts)
     return std::nullopt;
-  const ByteView low = raw.last(2 * halves).first(halves), high = raw.last(halves);
   std::bitset<kBlockVoxels> seen;
-  std::vector<PlacedRow> rows(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  std::vector<PlacedRow> rows(parts.rows);
+  for (PlacedRow& row : rows) {
     const auto cell = r.Get<std::uint16_t>();
     if (cell >= kBlockVoxels || seen[cell]) return std::nullopt;
     seen.set(cell);
-    memory::MemoryRow& data = rows[i].data;
-    data.key = geometry::KeyInBlock(key, cell);
-    rows[i].row = r.Get<std::uint32_t>();
-    data.weight = r.Get<float>();
-    data.best_confidence = r.Get<float>();
-    for (int axis = 0; axis < 3; ++axis) data.p_best_view_world[axis] = r.Get<float>();
-    data.half.resize(dim);
-    const std::size_t begin = i * static_cast<std::size_t>(dim);
-    for (int k = 0; k < dim; ++k)
-      data.half[k] = static_cast<std::uint16_t>(low[begin + k] | high[begin + k] << 8);
-    if (!IsSound(rows[i])) return std::nullopt;
+    row.data.key = geometry::KeyInBlock(key, cell);
+    row.row = r.Get<std::uint32_t>();
+    row.data.weight = r.Get<float>();
+    row.data.best_confidence = r.Get<float>();
+    for (int axis = 0; axis < 3; ++axis) row.data.p_best_view_world[axis] = r.Get<float>();
   }
+  const auto numbers = static_cast<std::size_t>(dim);
+  if (!ReadScales(numbers, r, rows, parts) || r.left() != parts.Bytes()) return std::nullopt;
+  ReadNumbers(numbers, raw, parts, rows);
+  if (!std::all_of(rows.begin(), rows.end(), IsSound)) return std::nullopt;
   return rows;
 }
 
 std::size_t MaxFeatureBlockBytes(int dim) {
-  return 2 + kBlockVoxels * (kRowFacts + 2 * static_cast<std::size_t>(dim));
+  return 2 + kBlockVoxels * (kRowFacts + 4 + 2 * static_cast<std::size_t>(dim));
 }
 
 }  // namespace crossnav::store

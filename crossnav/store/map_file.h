@@ -27,7 +27,9 @@
 
 namespace crossnav::store {
 
-inline constexpr int kMapFormat = 1;  ///< reaches disk (user_version); raise it with the layout
+/// Reaches disk (user_version); raise it with the layout. Format 1, without compacted rows, is read
+/// and brought up to date by the next save.
+inline constexpr int kMapFormat = 2;
 
 /// What a user says about a map when saving it.
 struct SaveInfo {
@@ -49,7 +51,8 @@ struct MapHeader {
   std::int64_t map_blocks = 0;  ///< 8 x 8 x 8 voxels each
   std::int64_t feature_blocks = 0;
   std::int64_t feature_rows = 0;
-  std::int64_t dropped_rows = 0;  ///< given up under `fusion.max_rows` before the save
+  std::int64_t compacted_rows = 0;  ///< of feature_rows, those that `fusion.max_rows` made int8
+  std::int64_t dropped_rows = 0;    ///< given up under `fusion.max_rows` before the save
 };
 
 struct SaveReport {

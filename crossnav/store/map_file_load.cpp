@@ -111,6 +111,7 @@ Result<void> ReadFeatures(Database& db, const MapHeader& header, memory::Semanti
   std::stable_sort(order.begin(), order.end(),
                    [&](auto a, auto b) { return saved_row[a] < saved_row[b]; });
   memory.ReorderRows(order);
+  memory.AddDropped(header.dropped_rows);
   return {};
 }
 

@@ -120,6 +120,8 @@ Result<std::int64_t> PrepareTables(Database& db) {
   }
   const auto header = ReadHeader(db);
   if (!header) return tl::unexpected(header.error());
+  if (header->header.format < kMapFormat)
+    if (auto done = UpgradeTables(db); !done) return tl::unexpected(done.error());
   return header->header.revision;
 }
 
@@ -144,6 +146,7 @@ Result<SaveReport> SaveInTransaction(Database& db, const geometry::VoxelMap& map
   header.map_blocks = *map_blocks;
   header.feature_blocks = *feature_blocks;
   header.feature_rows = memory.Size();
+  header.compacted_rows = memory.Counters().compacted_rows;
   header.dropped_rows = memory.Counters().dropped_rows;
   if (auto done = WriteHeader(db, header); !done) return tl::unexpected(done.error());
   return report;

@@ -13,7 +13,11 @@ constexpr std::array<const char*, 2> kHeaderTables = {"header", "header_copy"};
 
 constexpr const char* kHeaderColumns =
     "format, revision, voxel_m, clearing, feature_dim, encoder_name, encoder_hash, frame, "
-    "map_blocks, feature_blocks, feature_rows, dropped_rows, hash";
+    "map_blocks, feature_blocks, feature_rows, dropped_rows, hash, compacted_rows";
+// Format 1 knew no compacted rows.
+constexpr const char* kFormat1Columns =
+    "format, revision, voxel_m, clearing, feature_dim, encoder_name, encoder_hash, frame, "
+    "map_blocks, feature_blocks, feature_rows, dropped_rows, hash, 0";
 
 // Every field, with its length where that varies, so that no two headers share bytes.
 std::int64_t HashOf(const MapHeader& h) {
@@ -37,18 +41,21 @@ std::int64_t HashOf(const MapHeader& h) {
   put(h.feature_blocks);
   put(h.feature_rows);
   put(h.dropped_rows);
+  if (h.format > 1) put(h.compacted_rows);
   return HashBytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 bool IsSound(const MapHeader& h) {
-  return h.format == kMapFormat && h.revision > 0 && std::isfinite(h.voxel_m) && h.voxel_m > 0 &&
-         h.feature_dim >= 0 && h.feature_dim <= (1 << 20) && h.map_blocks >= 0 &&
-         h.feature_blocks >= 0 && h.feature_rows >= 0;
+  return h.format >= 1 && h.format <= kMapFormat && h.revision > 0 && std::isfinite(h.voxel_m) &&
+         h.voxel_m > 0 && h.feature_dim >= 0 && h.feature_dim <= (1 << 20) && h.map_blocks >= 0 &&
+         h.feature_blocks >= 0 && h.feature_rows >= 0 && h.compacted_rows >= 0 &&
+         h.dropped_rows >= 0;
 }
 
 // Empty if the copy is missing or damaged.
 std::optional<MapHeader> ReadCopy(Database& db, const char* table) {
   auto s = db.Prepare(std::string("SELECT ") + kHeaderColumns + " FROM " + table);
+  if (!s) s = db.Prepare(std::string("SELECT ") + kFormat1Columns + " FROM " + table);
   if (!s) return std::nullopt;
   const auto row = s->Step();
   if (!row || !*row) return std::nullopt;
@@ -65,21 +72,26 @@ std::optional<MapHeader> ReadCopy(Database& db, const char* table) {
   h.feature_blocks = s->Int(9);
   h.feature_rows = s->Int(10);
   h.dropped_rows = s->Int(11);
+  h.compacted_rows = s->Int(13);
   if (s->Int(12) != HashOf(h) || !IsSound(h)) return std::nullopt;
   return h;
+}
+
+std::string IdentificationSql() {
+  return "PRAGMA application_id=" + std::to_string(kApplicationId) +
+         ";PRAGMA user_version=" + std::to_string(kMapFormat) + ";";
 }
 
 }  // namespace
 
 Result<void> CreateTables(Database& db) {
-  std::string sql = "PRAGMA application_id=" + std::to_string(kApplicationId) +
-                    ";PRAGMA user_version=" + std::to_string(kMapFormat) + ";";
+  std::string sql = IdentificationSql();
   for (const char* table : kHeaderTables)
     sql += std::string("CREATE TABLE ") + table +
            "(format INTEGER, revision INTEGER, voxel_m REAL, clearing TEXT, feature_dim INTEGER,"
            " encoder_name TEXT, encoder_hash INTEGER, frame TEXT, map_blocks INTEGER,"
-           " feature_blocks INTEGER, feature_rows INTEGER, dropped_rows INTEGER, hash INTEGER)"
-           " STRICT;";
+           " feature_blocks INTEGER, feature_rows INTEGER, dropped_rows INTEGER, hash INTEGER,"
+           " compacted_rows INTEGER) STRICT;";
   for (const char* table : {kMapTable, kFeatureTable})
     sql += std::string("CREATE TABLE ") + table +
            "(id INTEGER PRIMARY KEY, x INTEGER, y INTEGER, z INTEGER, raw_hash INTEGER,"
@@ -87,17 +99,24 @@ Result<void> CreateTables(Database& db) {
   return db.Exec(sql);
 }
 
+Result<void> UpgradeTables(Database& db) {
+  std::string sql = IdentificationSql();
+  for (const char* table : kHeaderTables)
+    sql += std::string("ALTER TABLE ") + table + " ADD COLUMN compacted_rows INTEGER;";
+  return db.Exec(sql);
+}
+
 Result<void> WriteHeader(Database& db, const MapHeader& h) {
   for (const char* table : kHeaderTables) {
     if (auto done = db.Exec(std::string("DELETE FROM ") + table); !done) return done;
     auto s = db.Prepare(std::string("INSERT INTO ") + table + "(" + kHeaderColumns +
-                        ") VALUES(?1,?2,?3,?4,?5,?6,?7,?8,?9,?10,?11,?12,?13)");
+                        ") VALUES(?1,?2,?3,?4,?5,?6,?7,?8,?9,?10,?11,?12,?13,?14)");
     if (!s) return tl::unexpected(s.error());
     s->Bind(1, std::int64_t{h.format}).Bind(2, h.revision).Bind(3, h.voxel_m).Bind(4, h.clearing);
     s->Bind(5, std::int64_t{h.feature_dim}).Bind(6, h.encoder_name);
     s->Bind(7, std::bit_cast<std::int64_t>(h.encoder_hash)).Bind(8, h.frame);
     s->Bind(9, h.map_blocks).Bind(10, h.feature_blocks).Bind(11, h.feature_rows);
-    s->Bind(12, h.dropped_rows).Bind(13, HashOf(h));
+    s->Bind(12, h.dropped_rows).Bind(13, HashOf(h)).Bind(14, h.compacted_rows);
     if (auto done = s->Run(); !done) return done;
   }
   return {};
@@ -109,10 +128,13 @@ Result<HeaderRead> ReadHeader(Database& db) {
   const auto version = db.IntOf("PRAGMA user_version");
   if (!version) return tl::unexpected(version.error());
   std::string damage;
-  if (*id != kApplicationId || *version != kMapFormat) damage = "file header: identification";
   for (const char* table : kHeaderTables) {
-    if (auto header = ReadCopy(db, table)) return HeaderRead{*header, damage};
-    if (damage.empty()) damage = "header: checksum differs (its copy is intact)";
+    if (auto header = ReadCopy(db, table)) {
+      if (*id != kApplicationId || *version != header->format)
+        damage = "file header: identification";
+      return HeaderRead{*header, damage};
+    }
+    damage = "header: checksum differs (its copy is intact)";
   }
   if (*id != kApplicationId) return Fail(ErrorCode::kMalformed, "not a map file", db.file());
   if (*version > kMapFormat)

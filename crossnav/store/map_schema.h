@@ -17,6 +17,10 @@ inline constexpr const char* kFeatureTable = "feature_block";
 /// Makes the tables in an empty file. Inside a transaction.
 Result<void> CreateTables(Database& db);
 
+/// Makes an older file's tables those of this format; the header is to be written next. Inside a
+/// transaction.
+Result<void> UpgradeTables(Database& db);
+
 /// Both copies. Inside a transaction.
 Result<void> WriteHeader(Database& db, const MapHeader& header);
 

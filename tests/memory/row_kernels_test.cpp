@@ -16,6 +16,9 @@ namespace {
 struct KernelResult {
   std::vector<std::uint16_t> row;
   std::vector<float> dots, quality;
+  std::vector<std::int8_t> compact;
+  std::vector<std::int32_t> compact_dots;
+  std::vector<float> expanded;
   float squared_norm = 0;
 };
 
@@ -35,6 +38,16 @@ KernelResult RunAll(int dim) {
   }
   out.dots.resize(7);
   DotRows(out.row.data(), stride, 7, text.data(), out.dots.data());
+  out.compact.resize(out.row.size());
+  out.expanded.resize(out.row.size());
+  std::vector<float> values(out.row.size());
+  FromHalf(out.row, values.data());
+  const float scale = ToCompact(values, out.compact.data());
+  FromCompact(out.compact, scale, out.expanded.data());
+  std::vector<std::int16_t> whole(stride, 0);
+  for (int i = 0; i < dim; ++i) whole[i] = static_cast<std::int16_t>(1000 * text[i]);
+  out.compact_dots.resize(7);
+  DotRows(out.compact.data(), stride, 7, whole.data(), out.compact_dots.data());
   std::vector<float> depth(static_cast<std::size_t>(dim) + 2, 0.0f);
   for (int i = 1; i <= dim; ++i) depth[i] = static_cast<float>(rng.Uniform(0.5, 5));
   out.quality.resize(dim);
@@ -61,6 +74,9 @@ TEST(RowKernelsTest, InstructionSetsWithFusedMultiplyAddGiveTheSameBytes) {
       EXPECT_EQ(other.row, expected.row);
       EXPECT_EQ(other.dots, expected.dots);
       EXPECT_EQ(other.quality, expected.quality);
+      EXPECT_EQ(other.compact, expected.compact);
+      EXPECT_EQ(other.compact_dots, expected.compact_dots);
+      EXPECT_EQ(other.expanded, expected.expanded);
       EXPECT_EQ(other.squared_norm, expected.squared_norm);
       ++compared;
     }
@@ -69,6 +85,30 @@ TEST(RowKernelsTest, InstructionSetsWithFusedMultiplyAddGiveTheSameBytes) {
 #else
   GTEST_SKIP() << "x86 only";
 #endif
+}
+
+TEST(RowKernelsTest, WholeNumberProductsAreExactUpToTheLargestText) {
+  Rng rng(4);
+  for (int dim : {1, 31, 32, 100, 768, 4096}) {
+    const int stride = RowStride(dim);
+    std::vector<std::int8_t> rows(static_cast<std::size_t>(3) * stride, 0);
+    std::vector<std::int16_t> text(stride, 0);
+    // Row 0 takes the sum to its limit, row 1 to minus that, row 2 anywhere.
+    const int largest = std::min(32767, kMaxCompactText / dim);
+    for (int i = 0; i < dim; ++i) {
+      text[i] = static_cast<std::int16_t>(i % 2 == 0 ? largest : -largest);
+      rows[i] = static_cast<std::int8_t>(i % 2 == 0 ? 127 : -127);
+      rows[stride + i] = static_cast<std::int8_t>(-rows[i]);
+      rows[2 * stride + i] = static_cast<std::int8_t>(rng.Int(-127, 127));
+    }
+    std::vector<std::int32_t> dots(3);
+    DotRows(rows.data(), stride, 3, text.data(), dots.data());
+    for (int r = 0; r < 3; ++r) {
+      std::int64_t expected = 0;
+      for (int i = 0; i < stride; ++i) expected += std::int64_t{rows[r * stride + i]} * text[i];
+      EXPECT_EQ(dots[r], expected) << dim;
+    }
+  }
 }
 
 TEST(RowKernelsTest, HalfRoundTripIsExactForHalvesAndSaturatesAtTheLargest) {

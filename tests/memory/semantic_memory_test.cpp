@@ -9,50 +9,15 @@
 #include "crossnav/core/rng.h"
 #include "memory/golden_file.h"
 #include "memory/literal_memory.h"
+#include "memory/test_frames.h"
 
 namespace crossnav::memory {
 namespace {
 
-struct TestFrame {
-  DepthImage depth;
-  CameraIntrinsics camera;
-  Pose T_world_camera = Pose::Identity();
-  FeatureGridView grid;
-  std::vector<float> data;
-  std::vector<PixelVoxel> pixels;
-};
-
-// A wavy surface with holes, seen from a random pose; random features.
-TestFrame MakeFrame(int width, int height, int rows, int cols, int dim, Rng& rng) {
-  TestFrame f;
-  f.camera = IntrinsicsFromHfov(width, height, 1.4);
-  f.depth = DepthImage(width, height);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u) {
-      f.depth.At(u, v) = static_cast<float>(1.4 + 0.8 * std::sin(u / 5.0) * std::cos(v / 4.0) +
-                                            1.5 * ((u / 7 + v / 6) % 2));
-      if (rng.Chance(0.06)) f.depth.At(u, v) = 0;
-    }
-  f.depth.At(0, 0) = std::numeric_limits<float>::quiet_NaN();
-  f.T_world_camera = CameraPose(
-      {{rng.Uniform(-1, 1), rng.Uniform(-1, 1), 0}, rng.Uniform(-3, 3), rng.Uniform(-0.5, 0.5)},
-      0.9);
-  f.data.resize(static_cast<std::size_t>(rows) * cols * dim);
-  for (float& x : f.data) x = static_cast<float>(rng.Normal());
-  f.grid = {rows, cols, dim, f.data};
-  f.pixels = testing::EndVoxels(f.depth, f.camera, f.T_world_camera, 0.1);
-  return f;
-}
-
-void FuseFrame(SemanticMemory& memory, const TestFrame& f) {
-  memory.Fuse(f.pixels, f.depth, f.camera, f.T_world_camera, f.grid);
-}
-
-FusionConfig FloatRows() {
-  FusionConfig config;
-  config.storage = "float";
-  return config;
-}
+using testing::FloatRows;
+using testing::FuseFrame;
+using testing::MakeFrame;
+using testing::TestFrame;
 
 testing::LiteralFactors FactorsOf(const TestFrame& f) {
   testing::LiteralFactors factors;
@@ -227,36 +192,6 @@ TEST(SemanticMemoryTest, GridWithNanIsLeftOutAndCounted) {
   FuseFrame(memory, f);
   EXPECT_EQ(memory.Size(), 0);
   EXPECT_EQ(memory.Counters().rejected_frames, 1);
-}
-
-TEST(SemanticMemoryTest, LimitDropsTheLeastConfidentRowsAndSaysHowMany) {
-  Rng rng(6);
-  std::vector<TestFrame> frames;
-  for (int i = 0; i < 4; ++i) frames.push_back(MakeFrame(40, 30, 4, 4, 16, rng));
-  FusionConfig bounded;
-  bounded.max_rows = 500;
-  SemanticMemory all, few(bounded);
-  FuseFrame(all, frames[0]);
-  FuseFrame(few, frames[0]);
-  ASSERT_GT(all.Size(), 500);
-  EXPECT_EQ(few.Size(), 450);
-  EXPECT_EQ(few.Counters().dropped_rows, all.Size() - 450);
-  float weakest_kept = 1e9f;
-  for (std::int64_t row = 0; row < few.Size(); ++row) {
-    weakest_kept = std::min(weakest_kept, few.WeightAt(row));
-    const auto same = all.RowOf(few.Keys()[row]);
-    ASSERT_TRUE(same.has_value());
-    EXPECT_EQ(few.FeatureAt(row), all.FeatureAt(*same));
-    EXPECT_EQ(few.RowOf(few.Keys()[row]), row);
-  }
-  for (std::int64_t row = 0; row < all.Size(); ++row)
-    if (!few.RowOf(all.Keys()[row])) {
-      EXPECT_LE(all.WeightAt(row), weakest_kept);
-    }
-  for (const TestFrame& f : frames) {
-    FuseFrame(few, f);
-    EXPECT_LE(few.Size(), 500);
-  }
 }
 
 TEST(SemanticMemoryTest, RowsTakenOutAndPutBackAreTheSame) {

@@ -34,8 +34,7 @@ bool IsLong() {
     const memory::MemoryRow a = part.memory.RowAt(row);
     const auto other = whole.memory.RowOf(a.key);
     if (!other) return ::testing::AssertionFailure() << "a row that was never saved";
-    const memory::MemoryRow b = whole.memory.RowAt(*other);
-    if (a.half != b.half || a.weight != b.weight || a.p_best_view_world != b.p_best_view_world)
+    if (!(a == whole.memory.RowAt(*other)))
       return ::testing::AssertionFailure() << "a row with other content";
   }
   return ::testing::AssertionSuccess();
