@@ -74,7 +74,7 @@ void ComputeRowLanes(const float* depth_m, int width, const RowRays& rays, RowEn
   ends->special_count = 0;
   int u = 0;
   for (; u + lanes <= width; u += lanes) ComputeLanes(depth_m, u, rays, ends, reach_m);
-  if (u == width) return;
+  if (u >= width) return;
   // The rest through a padded copy.
   std::array<float, 64> depth_rest{}, reach_rest{};
   RowEnds& rest = *ends->rest;

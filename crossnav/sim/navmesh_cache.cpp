@@ -20,8 +20,8 @@ struct Head {
 };
 
 void Append(std::vector<std::uint8_t>& out, const void* bytes, std::size_t size) {
-  const auto* begin = static_cast<const std::uint8_t*>(bytes);
-  out.insert(out.end(), begin, begin + size);
+  out.resize(out.size() + size);
+  std::memcpy(out.data() + out.size() - size, bytes, size);
 }
 
 }  // namespace

@@ -99,8 +99,9 @@ class WalkSearch {
     Vector2d p;
   };
   struct Node {
-    Vector2d root, left, right;  // the interval, as seen when entering `polygon`
-    double g = 0;                // length up to the root [m]
+    Vector2d root = Vector2d::Zero();
+    Vector2d left = Vector2d::Zero(), right = Vector2d::Zero();  // as seen when entering `polygon`
+    double g = 0;                                                // length up to the root [m]
     int root_id = kStartId, left_id = 0, right_id = 0;
     bool left_is_corner = false, right_is_corner = false;
     bool sees_all = false;  // the root lies on the polygon: every point of it is in sight
@@ -108,7 +109,7 @@ class WalkSearch {
     int parent = -1;
     int entry = -1;        // portal of `polygon` that leads back
     bool has_via = false;  // the way to the root turns once more, at `via`
-    Vector2d via;
+    Vector2d via = Vector2d::Zero();
   };
 
   int IslandOf(int polygon) const {

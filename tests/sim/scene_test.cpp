@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 
 #include "crossnav/sim/scene_reader.h"
@@ -40,8 +41,10 @@ std::vector<std::uint8_t> RenderGlb() {
 std::vector<std::uint8_t> SemanticGlb(float shift) {
   GlbMaker maker;
   std::vector<std::uint8_t> colours;
-  for (int v = 0; v < 3; ++v) colours.insert(colours.end(), {0x59, 0x3A, 0x3A, 255});
-  for (int v = 0; v < 3; ++v) colours.insert(colours.end(), {0x1F, 0x3D, 0x87, 255});
+  for (int v = 0; v < 6; ++v)
+    for (const int channel :
+         v < 3 ? std::array{0x59, 0x3A, 0x3A, 255} : std::array{0x1F, 0x3D, 0x87, 255})
+      colours.push_back(static_cast<std::uint8_t>(channel));
   const int position = maker.Positions(TwoTriangles(shift));
   const int colour = maker.Accessor(colours, GlbMaker::kByte, "VEC4", 4, true);
   maker.AddMesh({{"attributes", {{"POSITION", position}, {"COLOR_0", colour}}}});
