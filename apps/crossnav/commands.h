@@ -64,6 +64,13 @@ Result<void> SceneInfo(const SceneOptions& options, const CommonOptions& common,
 Result<void> SceneRender(const SceneOptions& options, const CommonOptions& common,
                          Console& console);
 
+struct ViewsOptions {
+  std::string scene;  ///< folder
+  std::string out;    ///< folder for views.json and the pictures
+  int per_object = 4;
+};
+Result<void> SceneViews(const ViewsOptions& options, const CommonOptions& common, Console& console);
+
 struct EpisodesOptions {
   std::string scenes, file, out;
   int count = 10, goals = 0;

@@ -17,6 +17,7 @@ struct Options {
   WorldOptions world;
   AssetsOptions assets;
   SceneOptions scene;
+  ViewsOptions views;
   EpisodesOptions episodes;
   RunOptions run;
   DemoOptions demo;
@@ -104,6 +105,13 @@ void AddScene(CLI::App& app, Options& o) {
   render->add_option("--px-per-m", o.scene.px_per_m, "Scale of --top-down")
       ->check(CLI::Range(1.0, 1000.0));
   render->add_option("--out", o.scene.out, "PNG to write")->required();
+  CLI::App* views = AddVerb(*scene, o, "views", "Pictures of the goal objects from good places",
+                            "crossnav scene views scenes/00001-House --out views",
+                            [&o](Console& c) { return SceneViews(o.views, o.common, c); });
+  views->add_option("SCENE", o.views.scene, "Scene folder")->required();
+  views->add_option("--per-object", o.views.per_object, "Views of an object at most")
+      ->check(CLI::Range(1, 1000));
+  views->add_option("--out", o.views.out, "Folder for views.json and the pictures")->required();
 }
 
 void AddEpisodes(CLI::App& app, Options& o) {

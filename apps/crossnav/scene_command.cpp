@@ -10,6 +10,7 @@
 #include "crossnav/bench/result_records.h"
 #include "crossnav/sim/picture.h"
 #include "crossnav/sim/scene_info.h"
+#include "open_scene.h"
 
 namespace crossnav::app {
 namespace {
@@ -93,26 +94,6 @@ std::string InfoText(const sim::SceneInfo& info) {
   return text;
 }
 
-struct OpenScene {
-  std::unique_ptr<sim::Scene> scene;
-  std::unique_ptr<sim::NavMesh> navmesh;
-  std::unique_ptr<sim::RayCaster> caster;
-};
-
-Result<OpenScene> Open(const std::string& folder, const bench::RunConfig& config,
-                       Console& console) {
-  auto scene = sim::LoadScene(folder);
-  if (!scene) return tl::unexpected(scene.error());
-  OpenScene open;
-  open.scene = std::make_unique<sim::Scene>(std::move(*scene));
-  for (const std::string& note : open.scene->notes) console.Log(open.scene->id + ": " + note);
-  auto navmesh = sim::NavMesh::BuildCached(*open.scene, config.navmesh);
-  if (!navmesh) return tl::unexpected(navmesh.error());
-  open.navmesh = std::make_unique<sim::NavMesh>(std::move(*navmesh));
-  open.caster = std::make_unique<sim::RayCaster>(*open.scene);
-  return open;
-}
-
 /// "x,y,z,yaw,pitch", angles in degrees; the last two may be left out.
 Result<AgentPose> ParsePose(const std::string& text) {
   std::vector<double> numbers;
@@ -175,7 +156,7 @@ Result<RgbImage> RenderFloor(const OpenScene& open, const SceneOptions& options)
 Result<void> SceneInfo(const SceneOptions& options, const CommonOptions& common, Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  const auto open = Open(options.scene, *config, console);
+  const auto open = OpenSceneFolder(options.scene, *config, console);
   if (!open) return tl::unexpected(open.error());
   const auto info =
       sim::DescribeScene(*open->scene, *open->navmesh, *open->caster, config->agent.sensor);
@@ -188,7 +169,7 @@ Result<void> SceneRender(const SceneOptions& options, const CommonOptions& commo
                          Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  const auto open = Open(options.scene, *config, console);
+  const auto open = OpenSceneFolder(options.scene, *config, console);
   if (!open) return tl::unexpected(open.error());
   const auto image =
       options.top_down ? RenderFloor(*open, options) : RenderView(*open, options, *config);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "crossnav/sim/instance_scene.h"
+
 namespace crossnav::sim {
 namespace {
 
@@ -15,25 +17,6 @@ constexpr double kPitchStep_deg = 30;  // three pitches: -30, 0, +30
 constexpr double kBelowFoot_m = 0.3;   // chosen: what is wholly under the ground is another floor's
 constexpr double kAboveFoot_m = 2.2;   // chosen: and so is what hangs above every wall cabinet
 constexpr int kRaysAcross = 24;        // chosen: 576 rays over the instance's angular extent
-
-/// The instance alone, as a scene for rays of its own.
-Scene OnlyInstance(const Scene& scene, int id) {
-  Scene alone;
-  alone.materials = scene.materials;
-  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    if (scene.mesh.triangle_instance[t] != id) continue;
-    std::array<std::uint32_t, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = static_cast<std::uint32_t>(alone.mesh.vertices.size());
-      alone.mesh.vertices.push_back(scene.mesh.vertices[scene.mesh.triangles[t][k]]);
-    }
-    alone.mesh.triangles.push_back(corners);
-    alone.mesh.triangle_material.push_back(0);
-    alone.mesh.triangle_instance.push_back(id);
-  }
-  alone.materials.assign(1, Material{});
-  return alone;
-}
 
 /// Directions to the box as seen from `eye`: azimuth relative to `towards`, tangent of elevation.
 struct Extent {
@@ -74,7 +57,7 @@ class CoverageMeter {
  public:
   CoverageMeter(const Scene& scene, const RayCaster& caster, const SceneInstance& instance,
                 const SensorConfig& sensor)
-      : alone_(OnlyInstance(scene, instance.id)),
+      : alone_(ExtractInstance(scene, instance.id)),
         alone_caster_(alone_),
         caster_(caster),
         instance_(instance) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "support/temp_folder.h"
@@ -108,7 +109,7 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
 
 TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
   for (const char* verb :
-       {"doctor", "assets import", "world generate", "scene info", "scene render",
+       {"doctor", "assets import", "world generate", "scene info", "scene render", "scene views",
         "episodes generate", "episodes check", "run", "eval", "report", "metrics", "replay export",
         "map info", "map query", "map export", "bench", "demo"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
@@ -140,6 +141,36 @@ TEST_F(Cli, SceneInfoFollowsTheContract) {
   for (const char* key : {"id", "name", "floor", "box_min", "box_max", "viewpoints"}) {
     EXPECT_TRUE(bed.contains(key)) << key;
   }
+}
+
+TEST_F(Cli, SceneViewsShowsGoalObjectsAndIsTheSameEachTime) {
+  const std::string views = "scene views scenes/00001-CrossnavHouse --quiet --per-object 1 --json";
+  const Outcome outcome = Run(views + " --out a");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json document = Json::parse(outcome.out);
+  EXPECT_EQ(document, Json::parse(ReadText(At("a/views.json"))));
+  std::set<std::string> categories;
+  for (const Json& view : document["views"]) {
+    categories.insert(view["category"]);
+    EXPECT_GT(fs::file_size(At("a") / view["file"].get<std::string>()), 1000u);
+    EXPECT_GE(view["visible_fraction"], 0.7);
+    EXPECT_GE(view["distance_m"], 1.0);
+    EXPECT_LE(view["distance_m"], 3.0);
+    int itself = 0;
+    for (const Json& object : view["objects"]) {
+      if (object["instance"] != view["instance"]) continue;
+      ++itself;
+      EXPECT_EQ(object["box"], view["box"]);
+    }
+    EXPECT_EQ(itself, 1);
+  }
+  EXPECT_EQ(categories.size(), 6u);
+  ASSERT_EQ(Run(views + " --out b").exit_code, 0);
+  for (const auto& entry : fs::directory_iterator(At("a"))) {
+    EXPECT_EQ(ReadText(entry.path()), ReadText(At("b") / entry.path().filename())) << entry.path();
+  }
+  WriteText(At("file"), "in the way");
+  ExpectFailure("scene views scenes/00001-CrossnavHouse --out file/views", {"file/views"});
 }
 
 TEST_F(Cli, EvalIsTheSameForAnyNumberOfJobsAndShards) {
