@@ -54,6 +54,7 @@ crossnav_find(CLI11 CLI11::CLI11 HEADER CLI/CLI.hpp)
 crossnav_find(hwy hwy::hwy HEADER hwy/highway.h LIBRARY hwy)
 crossnav_find(meshoptimizer meshoptimizer::meshoptimizer
   HEADER meshoptimizer.h LIBRARY meshoptimizer)
+crossnav_find(pugixml pugixml::pugixml HEADER pugixml.hpp LIBRARY pugixml)
 crossnav_find(zstd zstd::libzstd_shared HEADER zstd.h LIBRARY zstd)
 find_package(RecastNavigation REQUIRED)
 find_package(ZLIB REQUIRED)

@@ -26,8 +26,9 @@ ROOMS = {
     "agent": _AGENT - {"agent"},
     "sim": {"core", "geometry", "perception"},
     "world": {"core", "sim"},
+    "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory"},
-    "bench": _AGENT | {"sim", "world", "store"},
+    "bench": _AGENT | {"sim", "world", "homes", "store"},
 }
 
 # Third-party headers that any file may include: they are part of our own vocabulary.
@@ -63,6 +64,8 @@ ADAPTERS = {
                                       "crossnav/world/furniture_pack.cpp",
                                       "crossnav/world/glb_writer.cpp",
                                       "crossnav/world/house_file.cpp", "apps/crossnav/*.cpp"]),
+    "pugixml": (r"^pugixml", ["crossnav/homes/home_xml.cpp"]),
+    "Assimp": (r"^assimp/", ["crossnav/homes/assimp_reader.cpp"]),
     "toml++": (r"^toml", ["crossnav/bench/config_file.cpp"]),
     "CLI11": (r"^CLI/", ["apps/crossnav/*"]),
 }

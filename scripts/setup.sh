@@ -11,7 +11,7 @@ declare -A PACKAGES=(
     libeigen3-dev libexpected-dev libfmt-dev libembree-dev libtbb-dev libtinygltf-dev \
     librecast-dev nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
     zlib1g-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
-    protobuf-compiler libmeshoptimizer-dev libgtest-dev"
+    protobuf-compiler libmeshoptimizer-dev libpugixml-dev libgtest-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
   [lint]="clang clang-format clang-tidy"
   [docs]="doxygen"

@@ -71,6 +71,12 @@ struct ViewsOptions {
 };
 Result<void> SceneViews(const ViewsOptions& options, const CommonOptions& common, Console& console);
 
+struct SceneImportOptions {
+  std::string input, out, name, home;
+};
+Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
+                         Console& console);
+
 struct EpisodesOptions {
   std::string scenes, file, out;
   int count = 10, goals = 0;

@@ -18,6 +18,7 @@ struct Options {
   AssetsOptions assets;
   SceneOptions scene;
   ViewsOptions views;
+  SceneImportOptions scene_import;
   EpisodesOptions episodes;
   RunOptions run;
   DemoOptions demo;
@@ -86,7 +87,7 @@ void AddAssets(CLI::App& app, Options& o) {
 }
 
 void AddScene(CLI::App& app, Options& o) {
-  CLI::App* scene = app.add_subcommand("scene", "Look at a scene");
+  CLI::App* scene = app.add_subcommand("scene", "Look at a scene, import a home");
   scene->require_subcommand(1);
   CLI::App* info = AddVerb(*scene, o, "info", "Floors, stairs, instances and navmesh of a scene",
                            "crossnav scene info scenes/00001-House --json",
@@ -112,6 +113,15 @@ void AddScene(CLI::App& app, Options& o) {
   views->add_option("--per-object", o.views.per_object, "Views of an object at most")
       ->check(CLI::Range(1, 1000));
   views->add_option("--out", o.views.out, "Folder for views.json and the pictures")->required();
+  CLI::App* import =
+      AddVerb(*scene, o, "import", "A home of Sweet Home 3D becomes a scene in HM3D layout",
+              "crossnav scene import MyHome.sh3d --out scenes",
+              [&o](Console& c) { return SceneImport(o.scene_import, o.common, c); });
+  import->add_option("INPUT", o.scene_import.input, "Home (.sh3d), or an archive of homes (.jar)")
+      ->required();
+  import->add_option("--out", o.scene_import.out, "Folder to write the scene to")->required();
+  import->add_option("--name", o.scene_import.name, "Name of the scene; default: the input's");
+  import->add_option("--home", o.scene_import.home, "Which home of an archive that holds several");
 }
 
 void AddEpisodes(CLI::App& app, Options& o) {

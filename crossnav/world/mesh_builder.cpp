@@ -25,7 +25,8 @@ std::uint32_t MeshBuilder::AddVertex(const Vector3d& p_part, const Vector3d& nor
   Eigen::Vector2d uv(p_part.x(), p_part.y());
   if (n.x() > n.y() && n.x() > n.z()) uv = {p_part.y(), p_part.z()};
   if (n.y() >= n.x() && n.y() > n.z()) uv = {p_part.x(), p_part.z()};
-  uv /= texture_m;
+  uv.x() /= texture_m;
+  uv.y() /= texture_height_m > 0 ? texture_height_m : texture_m;
   mesh_.uvs.push_back({static_cast<float>(uv.x()), static_cast<float>(uv.y())});
   return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
 }

@@ -20,6 +20,7 @@ class MeshBuilder {
   int material = 0;
   int instance = 0;
   double texture_m = 1.0;                ///< length of one texture repeat
+  double texture_height_m = 0;           ///< of one repeat across; 0 = texture_m, square
   Pose T_world_part = Pose::Identity();  ///< applied to everything that is added
 
   void AddTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "crossnav/sim/image_codec.h"
+#include "crossnav/world/face_triangles.h"
 
 namespace crossnav::world {
 namespace {
@@ -61,14 +62,17 @@ void ParseMtl(const std::string& text, std::map<std::string, ObjMaterial>& out) 
 struct ObjParser {
   const FileLookup& lookup;
   const std::string& where;
+  int most_px = kMaxTexture_px;
   ObjectModel model;
+  NamedObj names;  // its model stays empty until the end
   std::vector<Vector3f> points;
   std::vector<std::array<float, 2>> uvs;
   std::map<std::string, ObjMaterial> library;
   std::map<std::string, int> material_of_name;
   std::map<std::string, int> texture_of_picture;
   std::map<std::pair<int, int>, std::uint32_t> vertex_of;
-  int material = -1;
+  std::map<std::string, int> group_of_name;
+  int material = -1, group = -1;
 
   /// Index of the material in the model, -1 where it is as good as invisible.
   int UseMaterial(const std::string& name) {
@@ -80,6 +84,8 @@ struct ObjParser {
     sim::Material out{m.colour, TextureOf(m.picture)};
     if (out.texture >= 0) out.colour = {255, 255, 255};  // exporters leave grey beside a picture
     model.materials.push_back(out);
+    names.material_names.push_back(name);
+    names.is_material_defined.push_back(found != library.end());
     return material_of_name[name] = static_cast<int>(model.materials.size()) - 1;
   }
 
@@ -92,7 +98,7 @@ struct ObjParser {
     const auto* data = reinterpret_cast<const std::uint8_t*>(bytes->data());
     auto decoded = sim::DecodeImage({data, bytes->size()}, where + ": " + picture);
     if (!decoded) return -1;
-    model.textures.push_back(Reduced(*decoded, kMaxTexture_px));
+    model.textures.push_back(Reduced(*decoded, most_px));
     return it->second = static_cast<int>(model.textures.size()) - 1;
   }
 
@@ -124,14 +130,24 @@ struct ObjParser {
       corners.push_back(it->second);
     }
     if (material < 0) return true;
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-      const std::array<std::uint32_t, 3> t = {corners[0], corners[i], corners[i + 1]};
-      const auto& p = model.mesh.vertices;
+    const auto& p = model.mesh.vertices;
+    std::vector<Vector3f> at;
+    for (const auto v : corners) at.push_back(p[v]);
+    for (const auto& [i, j, k] : FaceTriangles(at)) {
+      const std::array<std::uint32_t, 3> t = {corners[i], corners[j], corners[k]};
       if ((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).squaredNorm() <= 0) continue;
       model.mesh.triangles.push_back(t);
       model.mesh.triangle_material.push_back(static_cast<std::uint16_t>(material));
+      names.triangle_group.push_back(group);
     }
     return true;
+  }
+
+  void UseGroup(const std::string& name) {
+    const auto [it, is_new] =
+        group_of_name.try_emplace(name, static_cast<int>(names.group_names.size()));
+    if (is_new) names.group_names.push_back(name);
+    group = it->second;
   }
 
   Result<void> Parse(const std::string& text) {
@@ -155,6 +171,9 @@ struct ObjParser {
         if (!AddFace(in)) return Bad(number, "a face names a vertex that is not there");
       } else if (key == "usemtl") {
         material = UseMaterial(Rest(in));
+        if (model.materials.size() > 65535) return Bad(number, "more than 65535 materials");
+      } else if (key == "g" || key == "o") {
+        UseGroup(Rest(in));
       } else if (key == "mtllib") {
         if (const auto mtl = lookup(Rest(in))) ParseMtl(*mtl, library);
       }
@@ -201,15 +220,23 @@ sim::Texture Reduced(const sim::Texture& texture, int most_px) {
   return out;
 }
 
-Result<ObjectModel> ParseObj(const std::string& text, const FileLookup& lookup,
-                             const std::string& where) {
-  ObjParser parser{lookup, where, {}, {}, {}, {}, {}, {}, {}, -1};
+Result<NamedObj> ParseNamedObj(const std::string& text, const FileLookup& lookup,
+                               const std::string& where, int most_px) {
+  ObjParser parser{lookup, where, most_px, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   if (auto ok = parser.Parse(text); !ok) return tl::unexpected(ok.error());
   if (parser.model.mesh.triangles.empty()) {
     return Fail(ErrorCode::kMalformed, "holds no triangles", where);
   }
   parser.model.mesh.triangle_instance.assign(parser.model.mesh.triangles.size(), 0);
-  return std::move(parser.model);
+  parser.names.model = std::move(parser.model);
+  return std::move(parser.names);
+}
+
+Result<ObjectModel> ParseObj(const std::string& text, const FileLookup& lookup,
+                             const std::string& where) {
+  auto named = ParseNamedObj(text, lookup, where, kMaxTexture_px);
+  if (!named) return tl::unexpected(named.error());
+  return std::move(named->model);
 }
 
 }  // namespace crossnav::world

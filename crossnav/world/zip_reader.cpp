@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -65,6 +66,11 @@ std::vector<std::string> ZipReader::Names() const {
   std::vector<std::string> names;
   for (const auto& [name, entry] : entries_) names.push_back(name);
   return names;
+}
+
+std::uint32_t ZipReader::SizeOf(const std::string& name) const {
+  const auto it = entries_.find(name);
+  return it == entries_.end() ? 0 : std::max(it->second.size, it->second.packed);
 }
 
 Result<std::string> ZipReader::Read(const std::string& name) const {

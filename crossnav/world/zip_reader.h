@@ -20,6 +20,8 @@ class ZipReader {
 
   std::vector<std::string> Names() const;  ///< sorted
   bool Has(const std::string& name) const { return entries_.count(name) != 0; }
+  /// Unpacked size that the directory states, 0 where there is no such entry [bytes].
+  std::uint32_t SizeOf(const std::string& name) const;
   Result<std::string> Read(const std::string& name) const;
 
  private:

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "crossnav/homes/scene_import.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string ReportText(const homes::ImportReport& report) {
+  std::string text = fmt::format(
+      "{}: {} levels, {} rooms; {} floors, {:.0f} m2 walkable, {} instances, {:.1f} MB\n",
+      report.folder.string(), report.levels, report.rooms, report.floors.size(), report.area_m2,
+      report.instances, static_cast<double>(report.bytes) / 1e6);
+  for (const auto& floor : report.floors) {
+    text +=
+        fmt::format("  floor {}  {:7.2f} m  {:7.1f} m2\n", floor.id, floor.height_m, floor.area_m2);
+  }
+  for (const auto& link : report.connections) {
+    text += fmt::format("  stairs {} - {}, rise {:.2f} m\n", link.lower, link.upper, link.rise_m);
+  }
+  std::string goals;
+  for (const auto& [category, count] : report.goals) {
+    goals += fmt::format("{}{} {}", goals.empty() ? "" : ", ", count, category);
+  }
+  return text + "  " + (goals.empty() ? "no goal objects" : goals) + "\n";
+}
+
+Json ReportJson(const homes::ImportReport& report) {
+  Json floors = Json::array(), connections = Json::array(), storeys = Json::array();
+  for (const auto& storey : report.storeys) {
+    storeys.push_back({{"name", storey.name},
+                       {"height_m", storey.floor_m},
+                       {"area_m2", storey.area_m2},
+                       {"reached", storey.is_reached}});
+  }
+  for (const auto& floor : report.floors) {
+    floors.push_back({{"id", floor.id}, {"height_m", floor.height_m}, {"area_m2", floor.area_m2}});
+  }
+  for (const auto& link : report.connections) {
+    connections.push_back({{"floors", {link.lower, link.upper}}, {"rise_m", link.rise_m}});
+  }
+  return {{"scene", report.scene_id},
+          {"folder", report.folder.string()},
+          {"levels", report.levels},
+          {"rooms", report.rooms},
+          {"storeys", std::move(storeys)},
+          {"floors", std::move(floors)},
+          {"connections", std::move(connections)},
+          {"cut_off", report.cut_off},
+          {"area_m2", report.area_m2},
+          {"instances", report.instances},
+          {"goals", report.goals},
+          {"bytes", report.bytes},
+          {"notes", report.notes}};
+}
+
+}  // namespace
+
+Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
+                         Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  homes::ImportOptions import;
+  import.input = options.input;
+  import.out_dir = options.out;
+  import.name = options.name;
+  import.home = options.home;
+  import.navmesh = config->navmesh;
+  const auto report = homes::ImportScene(import);
+  if (!report) return tl::unexpected(report.error());
+  for (const std::string& note : report->notes) console.Log(report->scene_id + ": " + note);
+  for (const homes::Storey& storey : report->storeys) {
+    if (storey.is_reached) continue;
+    console.Log(fmt::format(
+        "{}: warning: no way leads to '{}' at {:.2f} m; look at its staircase and doors",
+        report->scene_id, storey.name, storey.floor_m));
+  }
+  console.Print(ReportText(*report));
+  console.Document(ReportJson(*report).dump(1));
+  return {};
+}
+
+}  // namespace crossnav::app

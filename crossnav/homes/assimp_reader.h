@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Models in formats other than OBJ and glTF, through Assimp where the program is built with it.
+#pragma once
+
+#include <string>
+
+#include "crossnav/core/result.h"
+#include "crossnav/world/obj_reader.h"
+
+namespace crossnav::homes {
+
+/// `extension` ("3ds", "dae") says what the bytes are. kUnsupported without Assimp.
+Result<world::NamedObj> ParseWithAssimp(const std::string& bytes, const std::string& extension,
+                                        const world::FileLookup& lookup, const std::string& where);
+
+}  // namespace crossnav::homes

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/homes/contents.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace crossnav::homes {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uintmax_t kMaxArchive = 1U << 30;    // chosen: real homes have up to 200 MB
+constexpr std::uint32_t kMaxXml = 64U << 20;        // chosen: real ones have up to 5 MB
+constexpr std::uint32_t kMaxEntry = 256U << 20;     // chosen: one model or picture
+constexpr std::uint64_t kMaxUnpacked = 4ULL << 30;  // chosen: all that is read of one home
+constexpr const char* kSaveAgain = "; open it in Sweet Home 3D 5.3 or newer and save it again";
+
+bool IsNamed(const std::string& entry, const std::string& home) {
+  const fs::path path(entry);
+  return path.extension() == ".xml" && (path.stem() == home || path.filename() == home);
+}
+
+}  // namespace
+
+Result<Contents> Contents::Open(const fs::path& file) {
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  if (error) return Fail(ErrorCode::kNotFound, "cannot be opened", file.string());
+  if (size > kMaxArchive) {
+    return Fail(ErrorCode::kUnsupported, "homes above 1 GiB are not read", file.string());
+  }
+  auto zip = world::ZipReader::Open(file);
+  if (!zip) {
+    Error broken = zip.error();
+    broken.what += kSaveAgain;
+    return tl::unexpected(broken);
+  }
+  Contents contents(std::move(*zip));
+  contents.where_ = file.string();
+  return contents;
+}
+
+Result<Contents::Xml> Contents::HomeXml(const std::string& home) const {
+  std::string entry = "Home.xml";
+  if (!home.empty() || !zip_.Has(entry)) {
+    std::vector<std::string> found;
+    std::string known;
+    for (const std::string& name : zip_.Names()) {
+      if (!home.empty() && IsNamed(name, home)) found.push_back(name);
+      const fs::path path(name);
+      if (path.extension() != ".xml" || path.parent_path().filename() != "examples") continue;
+      known += (known.empty() ? "" : ", ") + path.stem().string();
+    }
+    if (found.empty() && home.empty() && known.empty()) {
+      return Fail(ErrorCode::kMalformed, std::string("holds no Home.xml") + kSaveAgain, where_);
+    }
+    if (found.empty()) {
+      const std::string list = known.empty() ? "" : ": " + known;
+      return Fail(ErrorCode::kNotFound,
+                  (home.empty() ? "holds several homes; choose one with --home"
+                                : "holds no home called '" + home + "'; see --home") +
+                      list,
+                  where_);
+    }
+    entry = *std::min_element(found.begin(), found.end());
+  }
+  const std::string where = where_ + ": " + entry;
+  if (zip_.SizeOf(entry) > kMaxXml) {
+    return Fail(ErrorCode::kUnsupported, "a description above 64 MiB is not read", where);
+  }
+  auto text = zip_.Read(entry);
+  if (!text) {
+    Error broken = text.error();
+    broken.what += kSaveAgain;
+    return tl::unexpected(broken);
+  }
+  return Xml{std::move(*text), entry};
+}
+
+std::optional<std::string> Contents::Read(const std::string& entry) const {
+  const std::uint32_t size = zip_.SizeOf(entry);
+  if (!zip_.Has(entry) || size > kMaxEntry) return std::nullopt;
+  if (unpacked_bytes_ + size > kMaxUnpacked) return std::nullopt;
+  unpacked_bytes_ += size;
+  auto bytes = zip_.Read(entry);
+  if (!bytes) return std::nullopt;
+  return std::move(*bytes);
+}
+
+}  // namespace crossnav::homes

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// A home's plan and models -> a scene in the world frame.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "crossnav/homes/home_plan.h"
+#include "crossnav/homes/model_store.h"
+#include "crossnav/sim/scene.h"
+
+namespace crossnav::homes {
+
+/// Models that stand in for those of the plan, by index of the piece, in the piece's own frame.
+using Substitutes = std::map<std::size_t, world::NamedObj>;
+
+/// What could not be shown as drawn is added to `notes`.
+sim::Scene BuildHome(const HomePlan& plan, ModelStore& models, const Substitutes& substitutes,
+                     std::vector<std::string>& notes);
+
+}  // namespace crossnav::homes

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A model fitted to its piece: the model's rotation, then its box scaled to width x depth x height,
+// mirrored, tilted. The result's own frame: x to the right, y to the back, z up, metres, origin
+// under the middle of the footprint.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "crossnav/homes/home_plan.h"
+#include "crossnav/world/obj_reader.h"
+
+namespace crossnav::homes {
+
+/// `obj` with the piece's size and colours.
+world::NamedObj Fitted(const world::NamedObj& obj, const HomePiece& piece);
+
+/// A box of the piece's size, where there is no model.
+world::NamedObj BoxFor(const HomePiece& piece);
+
+/// Where a fitted model stands in the world.
+Pose PoseOf(const HomePlan& plan, const HomePiece& piece);
+
+/// Whether nothing of `model` (at `T_door_model` in the frame of the door's piece) is in the way of
+/// those who walk through the door, up to `reach_m` before and behind the wall.
+bool IsFree(const world::ObjectModel& model, const Pose& T_door_model, const HomePiece& door,
+            double reach_m);
+
+/// Opens a door that one cannot walk through, so that `is_free` holds: turns the leaves that the
+/// model names to either side or takes them out, parks sliding ones, else puts a plain frame in its
+/// place. Returns what was done, for people; empty = it was open already.
+std::string OpenDoor(world::NamedObj& obj, const HomePiece& piece,
+                     const std::function<bool(const world::ObjectModel&)>& is_free);
+
+}  // namespace crossnav::homes
