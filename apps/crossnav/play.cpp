@@ -196,7 +196,7 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   if (!files.memory.empty()) observers.push_back(&memory);
   MapLog map(files.map, context.scene().id);
   if (!files.map.empty()) observers.push_back(&map);
-  const auto record = bench::RunEpisode(context, episode, config, observers);
+  auto record = bench::RunEpisode(context, episode, config, observers);
   console.EndProgress();
   if (!record) return record;
   if (*replay) {

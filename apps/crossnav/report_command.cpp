@@ -71,7 +71,8 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs) {
   }
   pages[0].second += "\n## Plots\n\n";
   for (const auto& [name, content] : pages) {
-    if (name.ends_with(".svg")) pages[0].second += "![" + name + "](" + name + ")\n";
+    if (name.ends_with(".svg"))
+      pages[0].second.append("![").append(name).append("](").append(name).append(")\n");
   }
   return pages;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 
 #include "crossnav/bench/metrics.h"
 #include "crossnav/core/check.h"
@@ -23,7 +24,7 @@ Statistic StageField(std::vector<T> Metrics::*field, int k) {
 /// Value at `share` of the sorted sample, nearest rank.
 double Percentile(const std::vector<double>& sorted, double share) {
   const double position = share * static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(position + 0.5)];
+  return sorted[static_cast<std::size_t>(std::lround(position))];
 }
 
 std::optional<Interval> IntervalOf(std::vector<double> sample) {

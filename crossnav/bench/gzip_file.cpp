@@ -67,8 +67,7 @@ Result<void> WriteTextFile(const std::filesystem::path& path, std::string_view t
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   std::filesystem::path temporary = path;
   temporary += ".part" + std::to_string(::getpid());
-  const auto ok =
-      path.extension() == ".gz" ? WriteGzip(temporary, text) : WritePlain(temporary, text);
+  auto ok = path.extension() == ".gz" ? WriteGzip(temporary, text) : WritePlain(temporary, text);
   if (ok) std::filesystem::rename(temporary, path, error);
   if (!ok || error) {
     std::error_code ignored;

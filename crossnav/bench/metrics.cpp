@@ -132,7 +132,7 @@ Metrics ComputeOver(int count, const Access& episode_at) {
   sums.m.sr_global.resize(sums.m.goals);
   sums.m.spl_global.resize(sums.m.goals);
   for (int i = 0; i < count; ++i) AddEpisode(episode_at(i), sums);
-  const Metrics metrics = Finish(std::move(sums));
+  Metrics metrics = Finish(std::move(sums));
   CheckIdentities(metrics, has_uniform_goals);
   return metrics;
 }

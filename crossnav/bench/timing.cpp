@@ -2,13 +2,13 @@
 #include "crossnav/bench/timing.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace crossnav::bench {
 
 double PercentileOf(std::vector<double> sample, double share) {
   if (sample.empty()) return 0;
-  const auto rank =
-      static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1) + 0.5);
+  const std::ptrdiff_t rank = std::lround(share * static_cast<double>(sample.size() - 1));
   std::nth_element(sample.begin(), sample.begin() + rank, sample.end());
   return sample[static_cast<std::size_t>(rank)];
 }

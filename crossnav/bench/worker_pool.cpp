@@ -167,6 +167,7 @@ Result<void> Serve(const PoolTask& task, std::vector<Worker>& workers, InOrder& 
   for (Worker& worker : workers) GiveItem(worker, next, task.count);
   for (int left = task.count; left > 0;) {
     std::vector<pollfd> polled;
+    polled.reserve(workers.size());
     for (const Worker& worker : workers) {
       polled.push_back({worker.item >= 0 ? worker.descriptor : -1, POLLIN, 0});
     }

@@ -13,7 +13,7 @@ namespace crossnav::geometry {
 
 struct VoxelKey {
   std::int32_t x = 0, y = 0, z = 0;
-  friend auto operator<=>(const VoxelKey&, const VoxelKey&) = default;
+  friend auto operator<=>(const VoxelKey&, const VoxelKey&) = default;  // NOLINT: takes 0 for null
   friend VoxelKey operator+(const VoxelKey& a, const VoxelKey& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }

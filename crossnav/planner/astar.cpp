@@ -114,7 +114,7 @@ class Search {
   struct Goal {
     VoxelKey key;
     std::size_t index;
-    friend auto operator<=>(const Goal&, const Goal&) = default;
+    friend auto operator<=>(const Goal&, const Goal&) = default;  // NOLINT: takes 0 for null
   };
 
   std::optional<std::size_t> GoalIndex(const VoxelKey& key) const {

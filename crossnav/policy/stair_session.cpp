@@ -136,52 +136,83 @@ SessionStatus AdvanceSession(StairSession& session, const VoxelMap& map,
   return SessionStatus::kClimbing;
 }
 
+namespace {
+
+/// What a session's cluster spans, and its voxels next to the far end.
+struct ClusterSpan {
+  VoxelKey lo, hi;
+  double extreme_m = -1e9;  ///< rise of the farthest voxel
+  std::vector<VoxelKey> extreme;
+};
+
+ClusterSpan SpanOf(const StairSession& session, double voxel_m) {
+  ClusterSpan span;
+  const auto rise_m = [&](const VoxelKey& key) {
+    return RiseOf(session, CenterOf(key, voxel_m).z());
+  };
+  span.lo = span.hi = *session.cluster.begin();
+  for (const VoxelKey& key : session.cluster) {
+    span.lo = {std::min(span.lo.x, key.x), std::min(span.lo.y, key.y), std::min(span.lo.z, key.z)};
+    span.hi = {std::max(span.hi.x, key.x), std::max(span.hi.y, key.y), std::max(span.hi.z, key.z)};
+    span.extreme_m = std::max(span.extreme_m, rise_m(key));
+  }
+  for (const VoxelKey& key : session.cluster) {
+    if (rise_m(key) > span.extreme_m - 0.25) span.extreme.push_back(key);
+  }
+  return span;
+}
+
+/// Beyond the last step, far enough from every step to stand on flat ground.
+bool IsLanding(const StairSession& session, const ClusterSpan& span, const VoxelKey& key,
+               double voxel_m) {
+  const auto is_within = [&](double reach_m) {
+    return [&, reach_m](const VoxelKey& stair) {
+      return VoxelDistance(key, stair) * voxel_m <= reach_m;
+    };
+  };
+  if (std::none_of(span.extreme.begin(), span.extreme.end(), is_within(kLandingReach_m)))
+    return false;
+  return std::all_of(session.cluster.begin(), session.cluster.end(), [&](const VoxelKey& stair) {
+    return VoxelDistance(key, stair) * voxel_m >= kLandingStart_m;
+  });
+}
+
+/// A place to stand on the flight or on the landing beyond it.
+struct StairPlace {
+  VoxelKey key;
+  double rise_m;
+  bool is_landing;
+};
+
+std::vector<StairPlace> PlacesOn(const StairSession& session, const ClusterSpan& span,
+                                 const VoxelMap& map) {
+  const double voxel_m = map.config().voxel_m;
+  const int reach = CellsCeil(kLandingReach_m, voxel_m);
+  std::vector<StairPlace> places;
+  VoxelMap::Cursor cursor(map);
+  map.ForEachInBox(
+      span.lo - VoxelKey{reach, reach, 2}, span.hi + VoxelKey{reach, reach, 4},
+      [&](const VoxelKey& key, const Voxel& voxel) {
+        if (!IsPathable(voxel.state) || IsSurface(voxel.state) || voxel.is_inflated) return;
+        if (!IsSurface(cursor.At({key.x, key.y, key.z - 1}).state)) return;
+        const double rise_m = RiseOf(session, geometry::MinCornerOf(key, voxel_m).z());
+        if (voxel.state == VoxelState::kTraversableStair)
+          places.push_back({key, rise_m, false});
+        else if (std::abs(rise_m - span.extreme_m) <= 0.3 && IsLanding(session, span, key, voxel_m))
+          places.push_back({key, rise_m, true});
+      });
+  return places;
+}
+
+}  // namespace
+
 std::vector<Candidate> StairFrontiers(const StairSession& session, const VoxelMap& map,
                                       const Vector3d& p_world_foot) {
-  const double voxel_m = map.config().voxel_m;
-  struct Place {
-    VoxelKey key;
-    double rise_m;
-    bool is_landing;
-  };
-  std::vector<Place> places;
-  VoxelKey lo{1 << 20, 1 << 20, 1 << 20}, hi{-(1 << 20), -(1 << 20), -(1 << 20)};
-  double extreme_m = -1e9;
-  for (const VoxelKey& key : session.cluster) {
-    lo = {std::min(lo.x, key.x), std::min(lo.y, key.y), std::min(lo.z, key.z)};
-    hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), std::max(hi.z, key.z)};
-    extreme_m = std::max(extreme_m, RiseOf(session, CenterOf(key, voxel_m).z()));
-  }
   if (session.cluster.empty()) return {};
-  std::vector<VoxelKey> extreme;
-  for (const VoxelKey& key : session.cluster) {
-    if (RiseOf(session, CenterOf(key, voxel_m).z()) > extreme_m - 0.25) extreme.push_back(key);
-  }
-  const int reach = CellsCeil(kLandingReach_m, voxel_m);
-  VoxelMap::Cursor cursor(map);
-  map.ForEachInBox({lo.x - reach, lo.y - reach, lo.z - 2}, {hi.x + reach, hi.y + reach, hi.z + 4},
-                   [&](const VoxelKey& key, const Voxel& voxel) {
-                     if (!IsPathable(voxel.state) || IsSurface(voxel.state) || voxel.is_inflated)
-                       return;
-                     if (!IsSurface(cursor.At({key.x, key.y, key.z - 1}).state)) return;
-                     const double rise_m = RiseOf(session, geometry::MinCornerOf(key, voxel_m).z());
-                     if (voxel.state == VoxelState::kTraversableStair) {
-                       places.push_back({key, rise_m, false});
-                     } else if (std::abs(rise_m - extreme_m) <= 0.3) {
-                       // Beyond the last step, far enough from every step to stand on flat ground.
-                       double nearest = 1e9, nearest_extreme = 1e9;
-                       for (const VoxelKey& stair : extreme)
-                         nearest_extreme = std::min(nearest_extreme, VoxelDistance(key, stair));
-                       if (nearest_extreme * voxel_m > kLandingReach_m) return;
-                       for (const VoxelKey& stair : session.cluster)
-                         nearest = std::min(nearest, VoxelDistance(key, stair));
-                       if (nearest * voxel_m >= kLandingStart_m)
-                         places.push_back({key, rise_m, true});
-                     }
-                   });
-  // Bands of one voxel of progress; a landing counts as half a metre beyond its steps.
+  const double voxel_m = map.config().voxel_m;
+  // Bands of two voxels of progress; a landing counts as half a metre beyond its steps.
   std::map<int, std::vector<VoxelKey>> bands;
-  for (const Place& place : places) {
+  for (const StairPlace& place : PlacesOn(session, SpanOf(session, voxel_m), map)) {
     if (place.rise_m < 0.05) continue;
     const double progress = place.rise_m + (place.is_landing ? 0.5 : 0.0);
     bands[-CellsFloor(progress, 2 * voxel_m)].push_back(place.key);

@@ -247,20 +247,25 @@ class Reader {
     return {};
   }
 
+  /// Empty where the primitive has none.
+  Result<AccessorView> IndicesOf(const tinygltf::Primitive& p, const std::string& at) {
+    if (p.indices < 0) return AccessorView();
+    auto view = ViewAccessor(gltf_, p.indices, where_ + ": " + at);
+    if (!view) return view;
+    const int type = view->component_type;
+    if (view->components != 1 || (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+                                  type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+                                  type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
+      return Bad("indices are not unsigned integers", at);
+    }
+    return view;
+  }
+
   Result<void> AddTriangles(const tinygltf::Primitive& p, int mode, std::size_t base,
                             std::size_t vertex_count, const std::string& at) {
-    AccessorView indices;
-    if (p.indices >= 0) {
-      auto view = ViewAccessor(gltf_, p.indices, where_ + ": " + at);
-      if (!view) return tl::unexpected(view.error());
-      const int type = view->component_type;
-      if (view->components != 1 || (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-                                    type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-                                    type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
-        return Bad("indices are not unsigned integers", at);
-      }
-      indices = *view;
-    }
+    const auto read = IndicesOf(p, at);
+    if (!read) return tl::unexpected(read.error());
+    const AccessorView& indices = *read;
     const std::size_t corners = p.indices >= 0 ? indices.count : vertex_count;
     const bool separate = mode == TINYGLTF_MODE_TRIANGLES;
     const std::size_t count = separate ? corners / 3 : (corners < 3 ? 0 : corners - 2);

@@ -130,7 +130,7 @@ class TextSpace {
   /// The name under which `text` is known.
   std::string Resolve(std::string_view text) const {
     if (!has_known_) return CanonicalName(text);
-    const std::string name = SpacedName(text), category = CanonicalName(text);
+    std::string name = SpacedName(text), category = CanonicalName(text);
     if (vectors_.count(name) > 0) return name;
     for (const auto& [from, to] : kClipNames)
       if (from == category && vectors_.count(std::string(to)) > 0) return std::string(to);
@@ -139,7 +139,7 @@ class TextSpace {
 
   /// What an object is called: its raw name where that has a vector, else its category.
   std::string NameOf(const SceneInstance& instance) const {
-    const std::string raw = SpacedName(instance.name);
+    std::string raw = SpacedName(instance.name);
     if (has_known_ && vectors_.count(raw) > 0) return raw;
     return Resolve(instance.category.empty() ? instance.name : instance.category);
   }

@@ -103,7 +103,7 @@ struct TileBuilder {
     std::vector<unsigned char> area;
     for (const int t : triangles) {
       for (int k = 0; k < 3; ++k)
-        corners.push_back(soup.triangles[static_cast<std::size_t>(3 * t + k)]);
+        corners.push_back(soup.triangles[3 * static_cast<std::size_t>(t) + k]);
       area.push_back(soup.area[static_cast<std::size_t>(t)]);
     }
     if (!rcRasterizeTriangles(&context, soup.vertices.data(),
@@ -204,7 +204,7 @@ std::vector<std::vector<int>> BinTriangles(const Soup& soup, const rcConfig& c, 
     };
     for (int z = cell(low[1] - border_m, nz); z <= cell(high[1] + border_m, nz); ++z) {
       for (int x = cell(low[0] - border_m, nx); x <= cell(high[0] + border_m, nx); ++x) {
-        bins[static_cast<std::size_t>(x + nx * z)].push_back(static_cast<int>(t));
+        bins[x + static_cast<std::size_t>(nx) * z].push_back(static_cast<int>(t));
       }
     }
   }
@@ -252,7 +252,7 @@ Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settin
   const auto bins = BinTriangles(soup, config, nx, nz);
   for (int z = 0; z < nz; ++z) {
     for (int x = 0; x < nx; ++x) {
-      const auto& triangles = bins[static_cast<std::size_t>(x + nx * z)];
+      const auto& triangles = bins[x + static_cast<std::size_t>(nx) * z];
       if (triangles.empty()) continue;
       TileBuilder builder{soup, config};
       const float border_m = static_cast<float>(config.borderSize) * config.cs;

@@ -165,33 +165,22 @@ int NearestLevel(const std::vector<Floor>& floors, double z) {
   return best;
 }
 
-}  // namespace
+/// Floors without their areas, from the lowest up.
+std::vector<Floor> FloorsOf(const std::vector<Sample>& samples) {
+  std::vector<Floor> floors;
+  for (const Level& level : FindLevels(samples))
+    floors.push_back({static_cast<int>(floors.size()), level.z, 0});
+  if (!floors.empty() || samples.empty()) return floors;
+  double z = 0;  // less walkable ground than a floor needs: all of it is one
+  for (const Sample& s : samples) z += s.z / static_cast<double>(samples.size());
+  floors.push_back({0, z, 0});
+  return floors;
+}
 
-FloorPlan FindFloors(const dtNavMesh& mesh) {
-  FloorPlan plan;
-  ForEachDetailTriangle(mesh, [&](dtPolyRef, const WorldTriangle& t) {
-    plan.area_m2 += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-  });
-  std::vector<Sample> samples = SampleSurface(mesh);
-  LinkNeighbours(samples);
-  for (const Level& level : FindLevels(samples)) {
-    plan.floors.push_back({static_cast<int>(plan.floors.size()), level.z, 0});
-  }
-  if (plan.floors.empty()) {  // less walkable ground than a floor needs: all of it is one
-    if (samples.empty()) return plan;
-    double z = 0;
-    for (const Sample& s : samples) z += s.z / static_cast<double>(samples.size());
-    plan.floors.push_back({0, z, 0});
-  }
-  std::vector<int> on_floor(samples.size(), -1);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const int nearest = NearestLevel(plan.floors, samples[i].z);
-    Floor& floor = plan.floors[static_cast<std::size_t>(nearest)];
-    if (std::abs(floor.height_m - samples[i].z) > kOnFloor_m) continue;
-    floor.area_m2 += kGrid_m * kGrid_m;
-    on_floor[i] = nearest;
-  }
-  // Connected pieces of flight; each joins the floors it touches.
+/// Pairs of floors, the lower first, that meet or that a connected piece of flight touches both.
+/// `on_floor`: of each sample, -1 on a flight.
+std::set<std::pair<int, int>> JoinedFloors(const std::vector<Sample>& samples,
+                                           const std::vector<int>& on_floor) {
   int count = 0;
   const auto flight = Components(samples, count, [&](std::size_t i) { return on_floor[i] < 0; });
   std::vector<std::set<int>> touches(static_cast<std::size_t>(count));
@@ -204,14 +193,32 @@ FloorPlan FindFloors(const dtNavMesh& mesh) {
       if (on_floor[i] >= 0 && other > on_floor[i]) joined.emplace(on_floor[i], other);
     }
   }
-  for (const auto& floors : touches) {
-    for (const int a : floors) {
-      for (const int b : floors) {
-        if (a < b) joined.emplace(a, b);
-      }
-    }
+  for (const std::set<int>& floors : touches)
+    for (auto a = floors.begin(); a != floors.end(); ++a)
+      for (auto b = std::next(a); b != floors.end(); ++b) joined.emplace(*a, *b);
+  return joined;
+}
+
+}  // namespace
+
+FloorPlan FindFloors(const dtNavMesh& mesh) {
+  FloorPlan plan;
+  ForEachDetailTriangle(mesh, [&](dtPolyRef, const WorldTriangle& t) {
+    plan.area_m2 += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+  });
+  std::vector<Sample> samples = SampleSurface(mesh);
+  LinkNeighbours(samples);
+  plan.floors = FloorsOf(samples);
+  if (plan.floors.empty()) return plan;
+  std::vector<int> on_floor(samples.size(), -1);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const int nearest = NearestLevel(plan.floors, samples[i].z);
+    Floor& floor = plan.floors[static_cast<std::size_t>(nearest)];
+    if (std::abs(floor.height_m - samples[i].z) > kOnFloor_m) continue;
+    floor.area_m2 += kGrid_m * kGrid_m;
+    on_floor[i] = nearest;
   }
-  for (const auto& [a, b] : joined) {
+  for (const auto& [a, b] : JoinedFloors(samples, on_floor)) {
     plan.connections.push_back({a, b,
                                 plan.floors[static_cast<std::size_t>(b)].height_m -
                                     plan.floors[static_cast<std::size_t>(a)].height_m});

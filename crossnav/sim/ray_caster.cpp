@@ -122,7 +122,8 @@ struct RayCaster::Impl {
             ? Colour3f{float(look.colour.r), float(look.colour.g), float(look.colour.b)}
             : SurfaceColour(scene, triangles[hit.geometry][hit.primitive], hit.s, hit.t);
     const auto byte = [light](float x) {
-      return static_cast<std::uint8_t>(static_cast<int>(x * light + 0.5F));
+      return static_cast<std::uint8_t>(
+          static_cast<int>(x * light + 0.5F));  // NOLINT: never negative
     };
     return {byte(base.r), byte(base.g), byte(base.b)};
   }
@@ -171,8 +172,9 @@ struct RayGenerator {
 
   void Fill(int u0, int v0, RTCRayHit16& packet) const {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const float x = (static_cast<float>(u0 + lane % kTileWidth) - cx) / fx;
-      const float y = (static_cast<float>(v0 + lane / kTileWidth) - cy) / fy;
+      const int u = u0 + lane % kTileWidth, v = v0 + lane / kTileWidth;
+      const float x = (static_cast<float>(u) - cx) / fx;
+      const float y = (static_cast<float>(v) - cy) / fy;
       packet.ray.dir_x[lane] = forward.x() + x * right.x() + y * down.x();
       packet.ray.dir_y[lane] = forward.y() + x * right.y() + y * down.y();
       packet.ray.dir_z[lane] = forward.z() + x * right.z() + y * down.z();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 
 #include "crossnav/sim/walk_graph.h"
@@ -211,20 +212,8 @@ class WalkSearch {
     node.entry = portal.back;
     const double to_interval = DistanceToSegment(node.root, node.left, node.right);
     node.sees_all = to_interval < kEpsilon_m;
-    if (!node.sees_all && LeftOf(node.root, node.left, node.right) > -kEpsilon_m) {
-      // The interval is seen end-on: only its nearer end can be turned around.
-      const bool left_is_nearer =
-          (node.left - node.root).squaredNorm() < (node.right - node.root).squaredNorm();
-      if (!(left_is_nearer ? node.left_is_corner : node.right_is_corner)) return;
-      const Vector2d root = left_is_nearer ? node.left : node.right;
-      node.has_via = turn != Turn::kNone;
-      node.via = node.root;
-      node.root_id = left_is_nearer ? node.left_id : node.right_id;
-      node.g += (root - node.root).norm();
-      node.root = root;
-      node.sees_all = true;
-      if (IsWorseRoot(node.root_id, node.g)) return;
-    }
+    const bool is_end_on = !node.sees_all && LeftOf(node.root, node.left, node.right) > -kEpsilon_m;
+    if (is_end_on && !TurnAtNearerEnd(node, turn)) return;
     if (node.sees_all && !IsNewAround(node)) return;
     PlanBox interval;
     interval.Add(node.left);
@@ -236,27 +225,49 @@ class WalkSearch {
     queue_.emplace(bound, static_cast<int>(nodes_.size()) - 1);
   }
 
+  /// An interval seen end-on: only its nearer end can be turned around. False: it leads nowhere.
+  bool TurnAtNearerEnd(Node& node, Turn turn) {
+    const bool left_is_nearer =
+        (node.left - node.root).squaredNorm() < (node.right - node.root).squaredNorm();
+    if (!(left_is_nearer ? node.left_is_corner : node.right_is_corner)) return false;
+    const Vector2d root = left_is_nearer ? node.left : node.right;
+    node.has_via = turn != Turn::kNone;
+    node.via = node.root;
+    node.root_id = left_is_nearer ? node.left_id : node.right_id;
+    node.g += (root - node.root).norm();
+    node.root = root;
+    node.sees_all = true;
+    return !IsWorseRoot(node.root_id, node.g);
+  }
+
+  struct LastLeg {
+    Turn turn = Turn::kNone;
+    double length_m = 0;  ///< of the whole way
+  };
+
+  /// How `p`, in the node's polygon, is reached: straight or around an end of the interval.
+  static std::optional<LastLeg> LegTo(const Node& node, const Vector2d& p) {
+    const LastLeg straight{Turn::kNone, node.g + (p - node.root).norm()};
+    if (node.sees_all) return straight;
+    const bool is_left = LeftOf(node.root, node.left, p) > kEpsilon_m;
+    const bool is_right = LeftOf(node.root, node.right, p) < -kEpsilon_m;
+    if (!is_left && !is_right) return straight;
+    if (!(is_left ? node.left_is_corner : node.right_is_corner)) return std::nullopt;
+    const Vector2d& corner = is_left ? node.left : node.right;
+    return LastLeg{is_left ? Turn::kLeft : Turn::kRight,
+                   node.g + (corner - node.root).norm() + (p - corner).norm()};
+  }
+
   void ReachGoals(const Node& node, int index) {
     const auto in_polygon =
         std::lower_bound(goals_.begin(), goals_.end(), node.polygon,
                          [](const Goal& g, int polygon) { return g.polygon < polygon; });
     for (auto it = in_polygon; it != goals_.end() && it->polygon == node.polygon; ++it) {
-      Turn turn = Turn::kNone;
-      double length = node.g + (it->p - node.root).norm();
-      if (!node.sees_all) {
-        const bool is_left = LeftOf(node.root, node.left, it->p) > kEpsilon_m;
-        const bool is_right = LeftOf(node.root, node.right, it->p) < -kEpsilon_m;
-        if (is_left || is_right) {
-          if (!(is_left ? node.left_is_corner : node.right_is_corner)) continue;
-          turn = is_left ? Turn::kLeft : Turn::kRight;
-          const Vector2d& corner = is_left ? node.left : node.right;
-          length = node.g + (corner - node.root).norm() + (it->p - corner).norm();
-        }
-      }
-      if (length >= best_m_) continue;
-      best_m_ = length;
+      const auto leg = LegTo(node, it->p);
+      if (!leg || leg->length_m >= best_m_) continue;
+      best_m_ = leg->length_m;
       best_node_ = index;
-      best_turn_ = turn;
+      best_turn_ = leg->turn;
       best_goal_ = *it;
     }
   }
