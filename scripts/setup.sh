@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Installs what the build and the tests need, from the distribution's own packages.
-#   scripts/setup.sh [GROUP...]      groups: build (default), bench, lint, docs
+#   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, docs
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -12,6 +12,7 @@ declare -A PACKAGES=(
     librecast-dev nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
     zlib1g-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
     protobuf-compiler libmeshoptimizer-dev libpugixml-dev libgtest-dev"
+  [homes]="libassimp-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
   [lint]="clang clang-format clang-tidy"
   [docs]="doxygen"

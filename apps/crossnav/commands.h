@@ -72,7 +72,7 @@ struct ViewsOptions {
 Result<void> SceneViews(const ViewsOptions& options, const CommonOptions& common, Console& console);
 
 struct SceneImportOptions {
-  std::string input, out, name, home;
+  std::string input, out, name, home, objects;
 };
 Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
                          Console& console);

@@ -114,12 +114,17 @@ void AddScene(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 1000));
   views->add_option("--out", o.views.out, "Folder for views.json and the pictures")->required();
   CLI::App* import =
-      AddVerb(*scene, o, "import", "A home of Sweet Home 3D becomes a scene in HM3D layout",
+      AddVerb(*scene, o, "import", "A home or a 3D model becomes a scene in HM3D layout",
               "crossnav scene import MyHome.sh3d --out scenes",
               [&o](Console& c) { return SceneImport(o.scene_import, o.common, c); });
-  import->add_option("INPUT", o.scene_import.input, "Home (.sh3d), or an archive of homes (.jar)")
+  import
+      ->add_option(
+          "INPUT", o.scene_import.input,
+          "Home of Sweet Home 3D (.sh3d), archive of homes (.jar), or 3D model (.obj, .glb, .gltf)")
       ->required();
   import->add_option("--out", o.scene_import.out, "Folder to write the scene to")->required();
+  import->add_option("--objects", o.scene_import.objects,
+                     "File that names the objects of a 3D model (JSON)");
   import->add_option("--name", o.scene_import.name, "Name of the scene; default: the input's");
   import->add_option("--home", o.scene_import.home, "Which home of an archive that holds several");
 }

@@ -70,6 +70,7 @@ Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions&
   import.out_dir = options.out;
   import.name = options.name;
   import.home = options.home;
+  import.objects = options.objects;
   import.navmesh = config->navmesh;
   const auto report = homes::ImportScene(import);
   if (!report) return tl::unexpected(report.error());

@@ -42,8 +42,8 @@ std::string Joined(const std::string& folder, std::string name) {
 
 Result<world::NamedObj> FromGlb(const std::string& bytes, const std::string& where) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  // No folder: a model in an archive cannot name files outside it.
-  auto gltf = sim::ParseGlb({data, bytes.size()}, where, {});
+  // A folder that cannot exist: a model in an archive names no files outside it.
+  auto gltf = sim::ParseGlb({data, bytes.size()}, where, "/dev/null");
   if (!gltf) return tl::unexpected(gltf.error());
   world::NamedObj out;
   out.model.mesh = std::move(gltf->mesh);

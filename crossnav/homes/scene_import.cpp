@@ -6,11 +6,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "crossnav/homes/contents.h"
 #include "crossnav/homes/flights.h"
 #include "crossnav/homes/home_builder.h"
 #include "crossnav/homes/home_xml.h"
+#include "crossnav/homes/mesh_scene.h"
 #include "crossnav/world/scene_writer.h"
 
 namespace crossnav::homes {
@@ -162,6 +165,30 @@ Result<sim::Scene> ReadHome(const ImportOptions& options, ImportReport& report) 
   return scene;
 }
 
+bool IsModel(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".obj" || extension == ".glb" || extension == ".gltf";
+}
+
+Result<sim::Scene> ReadModel(const ImportOptions& options, ImportReport& report) {
+  if (options.objects.empty()) {
+    return Fail(ErrorCode::kInvalid, "needs --objects, the file that names its objects",
+                options.input.string());
+  }
+  std::ifstream file(options.objects, std::ios::binary);
+  if (!file) return Fail(ErrorCode::kNotFound, "cannot be opened", options.objects.string());
+  std::ostringstream text;
+  text << file.rdbuf();
+  const auto objects = ParseObjectsFile(text.str(), options.objects.string());
+  if (!objects) return tl::unexpected(objects.error());
+  auto model = ReadPartedModel(options.input);
+  if (!model) return tl::unexpected(model.error());
+  auto scene = NameObjects(std::move(*model), *objects, options.objects.string());
+  if (scene) report.notes = scene->notes;
+  return scene;
+}
+
 }  // namespace
 
 std::vector<int> CutOffFloors(const std::vector<sim::Floor>& floors,
@@ -197,7 +224,7 @@ Result<ImportReport> ImportScene(const ImportOptions& options) {
   }
   const auto checked = CheckedName(name);
   if (!checked) return tl::unexpected(checked.error());
-  auto built = ReadHome(options, report);
+  auto built = IsModel(options.input) ? ReadModel(options, report) : ReadHome(options, report);
   if (!built) return tl::unexpected(built.error());
   built->id = report.scene_id = SceneIdFor(*checked, options.out_dir);
   const auto folder = WriteWholeScene(*built, options.out_dir);

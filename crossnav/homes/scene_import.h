@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Imports a home into a scene folder in HM3D's layout: homes of Sweet Home 3D (.sh3d, and the
-// example homes in its .jar). The folder is written whole or not at all, and what is reported about
-// it comes from reading it back as any other scene.
+// example homes in its .jar), 3D models (.obj, .glb, .gltf) with a file that names their objects.
+// The folder is written whole or not at all, and what is reported about it comes from reading it
+// back as any other scene.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +17,9 @@ namespace crossnav::homes {
 
 struct ImportOptions {
   std::filesystem::path input, out_dir;
-  std::string name;  ///< of the scene; empty = the input's
-  std::string home;  ///< which home of an archive that holds several
+  std::string name;               ///< of the scene; empty = the input's
+  std::filesystem::path objects;  ///< names the objects of a 3D model
+  std::string home;               ///< which home of an archive that holds several
   sim::NavMeshSettings navmesh;
 };
 

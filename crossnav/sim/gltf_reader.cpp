@@ -44,7 +44,7 @@ class Reader {
       roots = gltf_.scenes[scene].nodes;
     }
     for (const int root : roots) {
-      if (auto ok = AddNode(root, Eigen::Matrix4d::Identity(), 0); !ok) {
+      if (auto ok = AddNode(root, Eigen::Matrix4d::Identity(), {0, -1}); !ok) {
         return tl::unexpected(ok.error());
       }
     }
@@ -151,25 +151,34 @@ class Reader {
     return T.matrix();
   }
 
+  struct Place {
+    int depth = 0, parent = -1;  ///< index into GltfModel::parts
+  };
+
   // NOLINTNEXTLINE(misc-no-recursion): depth and total are limited
-  Result<void> AddNode(int index, const Eigen::Matrix4d& T_file_parent, int depth) {
+  Result<void> AddNode(int index, const Eigen::Matrix4d& T_file_parent, Place place) {
     const std::string at = "node " + std::to_string(index);
     if (index < 0 || index >= static_cast<int>(gltf_.nodes.size()))
       return Bad("does not exist", at);
-    if (depth > kMaxNodeDepth) return Bad("is nested deeper than 64 levels (a cycle?)", at);
+    if (place.depth > kMaxNodeDepth) return Bad("is nested deeper than 64 levels (a cycle?)", at);
     if (++nodes_visited_ > 1'000'000) return Bad("more than a million nodes (a cycle?)", at);
     const tinygltf::Node& node = gltf_.nodes[static_cast<std::size_t>(index)];
     const Eigen::Matrix4d T_file_node = T_file_parent * LocalTransform(node);
     if (!T_file_node.allFinite()) return Bad("has a transform that is not finite", at);
     if (node.mesh >= static_cast<int>(gltf_.meshes.size()))
       return Bad("its mesh does not exist", at);
+    const int part = static_cast<int>(model_.parts.size());
+    model_.parts.push_back({node.name, place.parent});
     if (node.mesh >= 0) {
-      for (const auto& primitive : gltf_.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      const tinygltf::Mesh& mesh = gltf_.meshes[static_cast<std::size_t>(node.mesh)];
+      if (node.name.empty()) model_.parts.back().name = mesh.name;
+      for (const auto& primitive : mesh.primitives) {
         if (auto ok = AddPrimitive(primitive, T_file_node, at); !ok) return ok;
       }
+      model_.triangle_part.resize(model_.mesh.triangles.size(), part);
     }
     for (const int child : node.children) {
-      if (auto ok = AddNode(child, T_file_node, depth + 1); !ok) return ok;
+      if (auto ok = AddNode(child, T_file_node, {place.depth + 1, part}); !ok) return ok;
     }
     return {};
   }
@@ -328,8 +337,15 @@ Result<GltfModel> ParseGlb(std::span<const std::uint8_t> bytes, const std::strin
   tinygltf::Model gltf;
   std::string error, warning;
   try {
-    if (!loader.LoadBinaryFromMemory(&gltf, &error, &warning, bytes.data(),
-                                     static_cast<unsigned int>(bytes.size()), folder.string())) {
+    const auto size = static_cast<unsigned int>(bytes.size());
+    const bool is_json = !bytes.empty() && bytes[0] != 'g';
+    const bool is_read =
+        is_json ? loader.LoadASCIIFromString(&gltf, &error, &warning,
+                                             reinterpret_cast<const char*>(bytes.data()), size,
+                                             folder.string())
+                : loader.LoadBinaryFromMemory(&gltf, &error, &warning, bytes.data(), size,
+                                              folder.string());
+    if (!is_read) {
       while (!error.empty() && error.back() == '\n') error.pop_back();
       return Fail(ErrorCode::kMalformed, "not a readable GLB file: " + error, where);
     }

@@ -17,11 +17,19 @@
 
 namespace crossnav::sim {
 
+/// A node that holds triangles, or one above it.
+struct GltfPart {
+  std::string name;  ///< the node's, else its mesh's; may be empty
+  int parent = -1;   ///< index of the part above it
+};
+
 struct GltfModel {
   TriangleMesh mesh;  ///< file frame; uvs and vertex_colours are empty or one per vertex
   std::vector<Material> materials;  ///< never empty
   std::vector<Texture> textures;
   std::vector<std::string> notes;  ///< what was left out, for people
+  std::vector<GltfPart> parts;     ///< every node that was visited
+  std::vector<int> triangle_part;  ///< per triangle
 };
 
 struct GltfOptions {
@@ -30,7 +38,8 @@ struct GltfOptions {
   bool raw_vertex_colours = false;
 };
 
-/// `where` (a file name) prefixes errors; `folder` holds external images and buffers, if any.
+/// Binary glTF, or its JSON. `where` (a file name) prefixes errors; `folder` holds external images
+/// and buffers, if any.
 Result<GltfModel> ParseGlb(std::span<const std::uint8_t> bytes, const std::string& where,
                            const std::filesystem::path& folder, const GltfOptions& options = {});
 

@@ -109,9 +109,9 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
 
 TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
   for (const char* verb :
-       {"doctor", "assets import", "world generate", "scene info", "scene render", "scene views",
-        "episodes generate", "episodes check", "run", "eval", "report", "metrics", "replay export",
-        "map info", "map query", "map export", "bench", "demo"}) {
+       {"doctor", "assets import", "world generate", "scene info", "scene render", "scene import",
+        "scene views", "episodes generate", "episodes check", "run", "eval", "report", "metrics",
+        "replay export", "map info", "map query", "map export", "bench", "demo"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;

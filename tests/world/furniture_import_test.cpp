@@ -50,6 +50,24 @@ TEST(ObjReader, ReadsFacesMaterialsAndLeavesGlassOut) {
   EXPECT_EQ(bad.error().where, "bad.obj: line 2");
 }
 
+TEST(ObjReader, ConcaveFacesKeepTheirHole) {
+  // A door frame: one face with eight corners around an opening.
+  const std::string frame =
+      "v 0 0 0\nv 0 3 0\nv 3 3 0\nv 3 0 0\nv 2 0 0\nv 2 2 0\nv 1 2 0\nv 1 0 0\n"
+      "f 1 2 3 4 5 6 7 8\n";
+  const auto none = [](const std::string&) { return std::optional<std::string>(); };
+  const auto model = ParseObj(frame, none, "frame.obj");
+  ASSERT_TRUE(model.has_value()) << model.error().Message();
+  double area = 0;
+  for (const auto& t : model->mesh.triangles) {
+    const auto& p = model->mesh.vertices;
+    area += 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
+    const Vector3f center = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
+    EXPECT_FALSE(center.x() > 1 && center.x() < 2 && center.y() < 2) << center.transpose();
+  }
+  EXPECT_NEAR(area, 7, 1e-5);
+}
+
 TEST(FurnitureImport, FitsTheCatalogueSizeAndKeepsTheCredits) {
   const TempDir dir;
   const std::string catalogue =
