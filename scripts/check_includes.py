@@ -39,7 +39,7 @@ COMMON = re.compile(r"^(Eigen/|fmt/|gtest/|gmock/|benchmark/)")
 ADAPTERS = {
     "tl-expected": (r"^tl/", ["crossnav/core/result.h"]),
     "Embree": (r"^embree[34]/", ["crossnav/sim/embree_shim.h"]),
-    "meshoptimizer": (r"^meshoptimizer", ["crossnav/world/furniture_import.cpp"]),
+    "meshoptimizer": (r"^meshoptimizer", ["crossnav/world/simplify.cpp"]),
     "tinygltf": (r"^tiny_gltf", ["crossnav/sim/gltf_accessor.h"]),
     "Recast and Detour": (r"^recastnavigation/", ["crossnav/sim/navmesh*",
                                                   "crossnav/sim/walk_graph.cpp"]),

@@ -59,6 +59,7 @@ class HomeReader {
     JoinWalls(home);
     for (const Node& node : home.children("room")) ReadRoom(node);
     ReadPieces(home, "", 0);
+    if (plan_.rooms.empty()) DrawRooms();
     if (error_) return tl::unexpected(*error_);
     return std::move(plan_);
   }
@@ -124,6 +125,9 @@ class HomeReader {
       level.slab_m = std::max(0.01, Extent(node, "floorThickness", 0.12));
       // "visible" only says which level the plan showed last.
       level.is_viewable = IsTrue(node, "viewable", true);
+      if (!level.is_viewable) {
+        plan_.notes.push_back("level '" + level.name + "' is hidden in the plan and left out");
+      }
       plan_.levels.push_back(level);
     }
     std::stable_sort(plan_.levels.begin(), plan_.levels.end(),
@@ -145,6 +149,29 @@ class HomeReader {
     const auto found = level_of_id_.find(id);
     if (found == level_of_id_.end()) Bad(node, "its level '" + id + "' does not exist");
     return found == level_of_id_.end() ? 0 : found->second;
+  }
+
+  bool IsHidden(int level) const {
+    return !plan_.levels[static_cast<std::size_t>(level)].is_viewable;
+  }
+
+  /// Many plans have walls and no rooms: the ground inside the walls is then the floor.
+  void DrawRooms() {
+    for (std::size_t i = 0; i < plan_.levels.size(); ++i) {
+      HomeRoom room;
+      std::vector<Vector2d> corners;
+      room.level = static_cast<int>(i);
+      for (const HomeWall& wall : plan_.walls) {
+        if (wall.level != room.level) continue;
+        corners.push_back(wall.a);
+        corners.push_back(wall.b);
+      }
+      room.outline = Hull(corners);
+      if (room.outline.empty()) continue;
+      plan_.notes.push_back("'" + plan_.levels[i].name +
+                            "' has walls and no rooms; all that they enclose gets a floor");
+      plan_.rooms.push_back(room);
+    }
   }
 
   Finish FinishOf(const Node& node, const char* colour, const char* texture) {
@@ -174,7 +201,7 @@ class HomeReader {
     if (std::abs(wall.arc_rad) > 6.28) wall.arc_rad = 0;
     wall.left = FinishOf(node, "leftSideColor", "leftSideTexture");
     wall.right = FinishOf(node, "rightSideColor", "rightSideTexture");
-    if ((wall.b - wall.a).norm() < 1e-3) return;  // as good as nothing
+    if ((wall.b - wall.a).norm() < 1e-3 || IsHidden(wall.level)) return;
     wall_of_id_[wall.id] = static_cast<int>(plan_.walls.size());
     plan_.walls.push_back(wall);
   }
@@ -207,7 +234,7 @@ class HomeReader {
     room.has_floor = IsTrue(node, "floorVisible", true);
     room.has_ceiling = IsTrue(node, "ceilingVisible", true);
     room.outline = Cleaned(room.outline);
-    if (!room.outline.empty()) plan_.rooms.push_back(std::move(room));
+    if (!room.outline.empty() && !IsHidden(room.level)) plan_.rooms.push_back(std::move(room));
   }
 
   // NOLINTNEXTLINE(misc-no-recursion): the depth is limited
@@ -233,6 +260,7 @@ class HomeReader {
     piece.catalog_id = node.attribute("catalogId").value();
     piece.model = node.attribute("model").value();
     piece.level = LevelOf(node, inherited);
+    if (IsHidden(piece.level)) return;
     piece.center = Point(node, "x", "y");
     piece.bottom_m = Length(node, "elevation", 0.0);
     piece.angle_rad = -Number(node, "angle", 0.0);

@@ -7,12 +7,14 @@
 #include "crossnav/homes/assimp_reader.h"
 #include "crossnav/sim/gltf_reader.h"
 #include "crossnav/sim/image_codec.h"
+#include "crossnav/world/simplify.h"
 
 namespace crossnav::homes {
 namespace {
 
 constexpr int kMaxModelPicture_px = 256;  // chosen: furniture fills a part of a 640 px picture
 constexpr int kMaxWallPicture_px = 512;
+constexpr std::size_t kBudget = 20'000;           // chosen: as the largest kept in furniture packs
 constexpr std::size_t kMaxTriangles = 2'000'000;  // chosen: of one model
 
 std::string ExtensionOf(const std::string& name) {
@@ -81,6 +83,17 @@ Result<world::NamedObj> FromZip(const std::string& bytes, const std::string& whe
   return Fail(ErrorCode::kUnsupported, "holds no model that is read", where);
 }
 
+/// Doors need their named parts; of other models the triangles may become fewer.
+void Lighten(world::NamedObj& obj) {
+  const bool is_moving =
+      std::any_of(obj.group_names.begin(), obj.group_names.end(),
+                  [](const std::string& name) { return name.rfind("sweethome3d_", 0) == 0; });
+  if (is_moving || obj.model.mesh.triangles.size() <= kBudget) return;
+  world::Simplify(obj.model, static_cast<int>(kBudget));
+  world::Compact(obj.model);
+  obj.triangle_group.assign(obj.model.mesh.triangles.size(), -1);
+}
+
 void UseBuiltInColours(world::NamedObj& obj) {
   for (std::size_t i = 0; i < obj.model.materials.size(); ++i) {
     if (obj.is_material_defined[i]) continue;
@@ -120,6 +133,7 @@ const world::NamedObj* ModelStore::Find(const std::string& entry, std::string& w
       loaded.why = entry + ": has more than two million triangles";
     } else {
       loaded.model = std::move(*model);
+      Lighten(*loaded.model);
     }
   }
   why = loaded.why;

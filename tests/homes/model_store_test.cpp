@@ -54,6 +54,36 @@ TEST(ModelStore, ReadsColladaWhereAssimpIsBuiltIn) {
   EXPECT_FALSE(broken.has_value());
 }
 
+TEST(ModelStore, HeavyModelsGetFewerTrianglesAndKeepTheirShape) {
+  std::string heavy;
+  const int n = 150;  // a grid of 150 x 150 squares
+  for (int i = 0; i <= n; ++i) {
+    for (int k = 0; k <= n; ++k) {
+      heavy += "v " + std::to_string(i) + " 0 " + std::to_string(k) + "\n";
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < n; ++k) {
+      const int a = i * (n + 1) + k + 1, b = a + n + 1;
+      heavy += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + 1) +
+               " " + std::to_string(a + 1) + "\n";
+    }
+  }
+  const crossnav::test::TempFolder folder;
+  const auto file = test::WriteArchive(folder.path() / "a.zip", {{"0", heavy}});
+  const auto contents = Contents::Open(file);
+  ASSERT_TRUE(contents.has_value());
+  ModelStore models(*contents);
+  std::string why;
+  const auto* model = models.Find("0", why);
+  ASSERT_NE(model, nullptr) << why;
+  EXPECT_LE(model->model.mesh.triangles.size(), 20'000U);
+  EXPECT_EQ(model->triangle_group.size(), model->model.mesh.triangles.size());
+  EXPECT_NEAR(model->model.Bounds().max.x(), n, 1e-3);
+  EXPECT_EQ(models.Find("absent", why), nullptr);
+  EXPECT_NE(why.find("not in the archive"), why.npos);
+}
+
 TEST(ModelStore, MaterialsWithoutAFileHaveColours) {
   const auto model =
       ParseModel("usemtl flblonde\n" + test::ObjBox(1, 0, 0, 0, 1, 1, 1), Nothing, "0");

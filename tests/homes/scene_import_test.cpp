@@ -159,6 +159,27 @@ TEST_F(SceneImport, AFloorThatNoWayLeadsToIsReportedAndStillImported) {
   EXPECT_TRUE(HasNote(*too_small, "no flight in its box leads up"));
 }
 
+TEST_F(SceneImport, HiddenLevelsAndPiecesAreLeftOut) {
+  Entries hidden = With(TwoStoreyHome(), "visible='false'", "viewable='false'");
+  const auto report = Import(With(hidden, "name='Door' model='1'", "name='Door' visible='false'"));
+  ASSERT_TRUE(report.has_value()) << report.error().Message();
+  EXPECT_EQ(report->rooms, 2);
+  EXPECT_EQ(report->goals.count("bed"), 0U);
+  EXPECT_TRUE(HasNote(*report, "level 'Upper' is hidden"));
+  EXPECT_FALSE(HasNote(*report, "inner 'Door'"));
+}
+
+TEST_F(SceneImport, WallsWithoutRoomsStillHaveAFloor) {
+  Entries entries = TwoStoreyHome();
+  std::string& xml = entries["Home.xml"];
+  xml = xml.substr(0, xml.find("<room")) + "</home>";
+  const auto report = Import(entries);
+  ASSERT_TRUE(report.has_value()) << report.error().Message();
+  EXPECT_TRUE(HasNote(*report, "'Ground' has walls and no rooms"));
+  EXPECT_EQ(report->floors.size(), 2U);
+  EXPECT_EQ(report->connections.size(), 1U);
+}
+
 TEST_F(SceneImport, ImportingAgainReplacesTheSceneAndOthersGetTheNextNumber) {
   ASSERT_TRUE(Import(TwoStoreyHome()).has_value());
   const auto again = Import(TwoStoreyHome());
