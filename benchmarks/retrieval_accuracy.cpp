@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How often the memory, fully explored, knows where things are: every category of every scene is
 // queried with the noisy ground-truth encoder, and the Top-4 clusters are held against the true
-// instances. Usage: retrieval_accuracy [--seeds N] [--noise X] [--confusion X] [SCENE_FOLDER...]
+// instances. Usage: retrieval_accuracy [--seeds N] [--noise X] [--confusion X] [--clip DIR]
+// [SCENE_FOLDER...]
 // Without folders: the embedded house and the two homes that lie beside the project, if they do.
 #include <algorithm>
 #include <cstdio>
@@ -125,7 +126,12 @@ bool RunScene(const std::filesystem::path& folder, const sim::GroundTruthConfig&
   }
   const sim::RayCaster caster(*scene);
   sim::Simulator simulator(*scene, *navmesh, caster, {}, {});
-  const auto encoder = sim::MakeGroundTruthEncoder(simulator, config);
+  const auto made = sim::MakeGroundTruthEncoder(simulator, config);
+  if (!made) {
+    std::fprintf(stderr, "%s\n", made.error().Message().c_str());
+    return false;
+  }
+  const auto& encoder = *made;
   geometry::VoxelMap map;
   memory::SemanticMemory memory;
   int frames = 0;
@@ -173,6 +179,8 @@ int main(int argc, char** argv) {
       seeds = std::max(1, static_cast<int>(value));
     else if (word == "--noise")
       config.feature_noise = value;
+    else if (word == "--clip" && i + 1 < argc)
+      config.clip_dir = argv[i + 1];
     else if (word == "--confusion")
       config.confusion = value;
     else

@@ -138,6 +138,8 @@ Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& com
 struct MapOptions {
   std::string file, text, out;
   int top = 4;
+  std::vector<double> from;  ///< foot point of who asks, world [m]; empty = where it was seen from
+  bool with_voxels = false;
   bool surfaces_only = false, skip_damaged = false;
 };
 Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Console& console);

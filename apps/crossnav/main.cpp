@@ -236,6 +236,13 @@ void AddMap(CLI::App& app, Options& o) {
   }
   query->add_option("TEXT", o.map.text, "What to look for")->required();
   query->add_option("--top", o.map.top, "Places at most")->check(CLI::Range(1, 1000));
+  query
+      ->add_option("--from", o.map.from,
+                   "Where you stand (foot point [m]); default: where each place was seen best")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  query->add_flag("--voxels", o.map.with_voxels, "List the voxels of each place under --json");
   points->add_option("--out", o.map.out, "PLY to write")->required();
   points->add_option("--query", o.map.text, "Colour by similarity to this text");
   points->add_flag("--surfaces", o.map.surfaces_only, "Leave out the air");

@@ -4,12 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossnav/agent/observation_place.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/memory/history_poi.h"
-#include "crossnav/sim/ground_truth.h"
+#include "crossnav/sim/ground_truth_encoder.h"
 #include "crossnav/sim/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "session.h"
 
 namespace crossnav::app {
 namespace {
@@ -48,39 +50,75 @@ sim::Scene TileScene() {
   return scene;
 }
 
-/// Vector of a text in the space of the map's features.
-Result<std::vector<float>> EncodeText(const std::string& text, const store::MapHeader& header,
-                                      const bench::RunConfig& config) {
+/// What is looked for, in the space of the map's features.
+struct TextVectors {
+  std::vector<float> text;
+  std::vector<std::vector<float>> background;  ///< for query.relevancy = contrastive
+};
+
+Result<TextVectors> EncodeText(const MapOptions& options, const store::MapHeader& header,
+                               const bench::RunConfig& config) {
+  if (header.feature_dim == 0)
+    return Fail(ErrorCode::kInvalid, "this map holds no features to query", options.file);
+  if (auto ok = CheckEncoder(header, config, options.file); !ok) return tl::unexpected(ok.error());
   const sim::Scene scene = TileScene();
   const auto navmesh = sim::NavMesh::Build(scene, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
   const sim::RayCaster caster(scene);
   const sim::Simulator simulator(scene, *navmesh, caster, config.agent.sensor, config.agent.action);
-  auto suite = sim::GroundTruthPerception(simulator, config.ground_truth);
-  if (!header.encoder_name.empty() && header.encoder_name != suite.encoder->Name()) {
+  sim::GroundTruthConfig texts = config.ground_truth;
+  texts.feature_dim = header.feature_dim;  // the map knows
+  const auto encoder = sim::MakeGroundTruthEncoder(simulator, texts);
+  if (!encoder) return tl::unexpected(encoder.error());
+  if ((*encoder)->Dim() != header.feature_dim) {
     return Fail(ErrorCode::kMismatch,
-                "its features are of encoder \"" + header.encoder_name + "\", this one has \"" +
-                    suite.encoder->Name() + "\"",
-                "map query");
+                fmt::format("its features have {} numbers, the vectors of ground_truth.clip_dir {}",
+                            header.feature_dim, (*encoder)->Dim()),
+                options.file);
   }
-  auto vector = suite.encoder->EncodeText(text);
-  if (vector && static_cast<int>(vector->size()) != header.feature_dim) {
-    return Fail(ErrorCode::kMismatch,
-                fmt::format("its features have {} numbers, texts have {}; set "
-                            "ground_truth.feature_dim",
-                            header.feature_dim, vector->size()),
-                "map query");
-  }
-  return vector;
+  auto text = (*encoder)->EncodeText(options.text);
+  if (!text) return tl::unexpected(text.error());
+  auto background = perception::EncodeTexts(**encoder, memory::kBackgroundPrompts);
+  if (!background) return tl::unexpected(background.error());
+  return TextVectors{std::move(*text), std::move(*background)};
 }
 
-Json ClusterJson(const memory::MemoryCluster& cluster) {
-  return {{"score", cluster.score},
-          {"center", PointJson(cluster.p_center_world)},
-          {"box_min", PointJson(cluster.box.min)},
-          {"box_max", PointJson(cluster.box.max)},
-          {"voxels", cluster.voxels.size()},
-          {"best_view", PointJson(cluster.p_best_view_world)}};
+/// From `options.from`, else from where the place was seen best: the agent stood there once.
+std::optional<agent::ObservationPlace> PlaceToStand(const MapOptions& options,
+                                                    const geometry::VoxelMap& map,
+                                                    const memory::MemoryCluster& cluster,
+                                                    const agent::Config& config) {
+  Vector3d p_from_world = cluster.p_best_view_world;
+  p_from_world.z() -= config.sensor.camera_height_m;
+  if (options.from.size() == 3) p_from_world = Vector3d(options.from.data());
+  return agent::FindObservationPlace(map, cluster, p_from_world, config);
+}
+
+Json ClusterJson(const memory::MemoryCluster& cluster,
+                 const std::optional<agent::ObservationPlace>& place, double voxel_m,
+                 bool with_voxels) {
+  Json json = {{"score", cluster.score},
+               {"similarity", cluster.similarity},
+               {"center", PointJson(cluster.p_center_world)},
+               {"box_min", PointJson(cluster.box.min)},
+               {"box_max", PointJson(cluster.box.max)},
+               {"voxels", cluster.voxels.size()},
+               {"best_view", PointJson(cluster.p_best_view_world)},
+               {"best_view_yaw_deg", RadToDeg(cluster.best_view_yaw_rad)},
+               {"best_view_pitch_deg", RadToDeg(cluster.best_view_pitch_rad)},
+               {"observation", nullptr}};
+  if (place) {
+    json["observation"] = {{"position", PointJson(place->p_foot_world)},
+                           {"yaw_deg", RadToDeg(place->yaw_rad)},
+                           {"path_m", place->path_m}};
+  }
+  if (with_voxels) {
+    Json centers = Json::array();
+    for (const auto& key : cluster.voxels)
+      centers.push_back(PointJson(geometry::CenterOf(key, voxel_m)));
+    json["voxel_centers"] = std::move(centers);
+  }
+  return json;
 }
 
 }  // namespace
@@ -124,16 +162,24 @@ Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Co
   if (!config) return tl::unexpected(config.error());
   const auto loaded = Load(options, *config, console);
   if (!loaded) return tl::unexpected(loaded.error());
-  const auto text = EncodeText(options.text, loaded->header, *config);
-  if (!text) return tl::unexpected(text.error());
+  const auto vectors = EncodeText(options, loaded->header, *config);
+  if (!vectors) return tl::unexpected(vectors.error());
   memory::QueryConfig query = config->agent.query;
   query.top_k = options.top;
   Json places = Json::array();
-  for (const auto& cluster : memory::Query(loaded->memory, *text, query)) {
+  for (const auto& cluster :
+       memory::Query(loaded->memory, vectors->text, query, vectors->background)) {
     const Vector3d& p = cluster.p_center_world;
-    console.Print(fmt::format("  {:6.3f}  ({:.2f}, {:.2f}, {:.2f})  {} voxels\n", cluster.score,
-                              p.x(), p.y(), p.z(), cluster.voxels.size()));
-    places.push_back(ClusterJson(cluster));
+    const auto place = PlaceToStand(options, loaded->map, cluster, config->agent);
+    const std::string where = place
+                                  ? fmt::format("stand at ({:.2f}, {:.2f}, {:.2f}), {:.1f} m away",
+                                                place->p_foot_world.x(), place->p_foot_world.y(),
+                                                place->p_foot_world.z(), place->path_m)
+                                  : "no reachable place to see it from";
+    console.Print(fmt::format("  {:6.3f}  ({:.2f}, {:.2f}, {:.2f})  {} voxels, {}\n", cluster.score,
+                              p.x(), p.y(), p.z(), cluster.voxels.size(), where));
+    places.push_back(
+        ClusterJson(cluster, place, loaded->map.config().voxel_m, options.with_voxels));
   }
   if (places.empty())
     console.Print("nothing in this map stands out for \"" + options.text + "\"\n");
@@ -150,9 +196,11 @@ Result<void> MapExport(const MapOptions& options, const CommonOptions& common, C
   if (options.text.empty()) {
     points = store::StatePoints(loaded->map, options.surfaces_only);
   } else {
-    const auto text = EncodeText(options.text, loaded->header, *config);
-    if (!text) return tl::unexpected(text.error());
-    points = store::FieldPoints(loaded->memory, loaded->memory.Similarity(*text));
+    const auto vectors = EncodeText(options, loaded->header, *config);
+    if (!vectors) return tl::unexpected(vectors.error());
+    points = store::FieldPoints(
+        loaded->memory, memory::RelevancyField(loaded->memory, vectors->text, config->agent.query,
+                                               vectors->background));
   }
   if (auto ok = store::WritePly(options.out, points); !ok) return ok;
   console.Print(fmt::format("{}: {} points\n", options.out, points.size()));

@@ -61,10 +61,12 @@ class MemoryLoader : public bench::RunObserver {
       : path_(std::move(path)), config_(config) {}
 
   Result<void> OnStart(agent::Agent& state) override {
+    const auto header = store::ReadMapHeader(path_);
+    if (!header) return tl::unexpected(header.error());
+    if (auto ok = CheckEncoder(*header, config_, path_.string()); !ok) return ok;
     store::LoadOptions options;
     options.map = config_.agent.map;
     options.fusion = config_.agent.fusion;
-    options.encoder_name = "ground-truth";
     auto loaded = store::LoadMemory(path_, options);
     if (!loaded) return tl::unexpected(loaded.error());
     return state.Restore(std::move(loaded->map), std::move(loaded->memory));
@@ -75,24 +77,34 @@ class MemoryLoader : public bench::RunObserver {
   const bench::RunConfig& config_;
 };
 
-/// Saves the memory when the episode is over.
+struct MemorySummary {
+  std::int64_t rows = 0, compacted_rows = 0, dropped_rows = 0, bytes = 0;
+};
+
+/// Looks at the memory when the episode is over, and saves it where that was asked for.
 class MapLog : public bench::RunObserver {
  public:
-  MapLog(std::filesystem::path path, std::string frame)
-      : path_(std::move(path)), frame_(std::move(frame)) {}
+  MapLog(std::filesystem::path path, std::string frame, std::string encoder)
+      : path_(std::move(path)), frame_(std::move(frame)), encoder_(std::move(encoder)) {}
 
   Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord&) override {
+    const memory::MemoryCounters counters = state.memory().Counters();
+    summary_ = {state.memory().Size(), counters.compacted_rows, counters.dropped_rows,
+                state.memory().Bytes()};
+    if (path_.empty()) return {};
     store::SaveInfo info;
-    info.encoder_name = "ground-truth";
+    info.encoder_name = encoder_;
     info.frame = frame_;
     const auto saved = store::SaveMemory(path_, state.map(), state.memory(), info);
     if (!saved) return tl::unexpected(saved.error());
     return {};
   }
+  const MemorySummary& summary() const { return summary_; }
 
  private:
   std::filesystem::path path_;
-  std::string frame_;
+  std::string frame_, encoder_;
+  MemorySummary summary_;
 };
 
 trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episode& episode,
@@ -159,8 +171,12 @@ Result<Written> WriteFiles(const bench::EpisodeRecord& record, const bench::RunH
   return written;
 }
 
-void Announce(const bench::EpisodeRecord& record, const Written& written, Console& console) {
+void Announce(const bench::EpisodeRecord& record, const MemorySummary& memory,
+              const Written& written, Console& console) {
   std::string text = bench::EpisodeText(record);
+  text += fmt::format("  memory   {} feature rows, {} of them int8, {} dropped; {:.1f} MB\n",
+                      memory.rows, memory.compacted_rows, memory.dropped_rows,
+                      static_cast<double>(memory.bytes) / 1e6);
   Json paths = Json::object();
   for (const auto& [what, path] : written) {
     text += fmt::format("  {:<8} {}\n", what, path);
@@ -172,9 +188,14 @@ void Announce(const bench::EpisodeRecord& record, const Written& written, Consol
   }
   console.Print(text);
   if (!console.json()) return;
-  console.Document(
-      Json({{"record", Json::parse(bench::ToJsonLine(record))}, {"files", std::move(paths)}})
-          .dump(1));
+  console.Document(Json({{"record", Json::parse(bench::ToJsonLine(record))},
+                         {"memory",
+                          {{"feature_rows", memory.rows},
+                           {"compacted_rows", memory.compacted_rows},
+                           {"dropped_rows", memory.dropped_rows},
+                           {"bytes", memory.bytes}}},
+                         {"files", std::move(paths)}})
+                       .dump(1));
 }
 
 }  // namespace
@@ -194,8 +215,8 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   if (*replay) observers.push_back(replay->get());
   MemoryLoader memory(files.memory, config);
   if (!files.memory.empty()) observers.push_back(&memory);
-  MapLog map(files.map, context.scene().id);
-  if (!files.map.empty()) observers.push_back(&map);
+  MapLog map(files.map, context.scene().id, sim::EncoderName(config.ground_truth));
+  observers.push_back(&map);
   auto record = bench::RunEpisode(context, episode, config, observers);
   console.EndProgress();
   if (!record) return record;
@@ -204,7 +225,7 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   }
   const auto written = WriteFiles(*record, header, files, picture, trace);
   if (!written) return tl::unexpected(written.error());
-  Announce(*record, *written, console);
+  Announce(*record, map.summary(), *written, console);
   return record;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crossnav/bench/config_file.h"
+#include "crossnav/sim/ground_truth_encoder.h"
 
 namespace crossnav::app {
 
@@ -13,7 +14,11 @@ Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protoc
   if (!protocol.budget_scope.empty()) {
     all.overrides.push_back("eval.budget_scope=" + protocol.budget_scope);
   }
-  return LoadConfig(all, protocol.variant);
+  auto config = LoadConfig(all, protocol.variant);
+  if (!config) return config;
+  if (auto ok = sim::CheckGroundTruthEncoder(config->ground_truth); !ok)
+    return tl::unexpected(ok.error());
+  return config;
 }
 
 Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) {
@@ -43,6 +48,20 @@ bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& v
 
 bench::SceneHashes HashesOf(const bench::SceneContext& context) {
   return {bench::HexHash(context.scene().mesh_hash), bench::HexHash(context.navmesh().Hash())};
+}
+
+Result<void> CheckEncoder(const store::MapHeader& header, const bench::RunConfig& config,
+                          const std::string& path) {
+  const std::string wanted = sim::EncoderName(config.ground_truth);
+  if (header.feature_dim == 0 || header.encoder_name.empty() || header.encoder_name == wanted)
+    return {};
+  const char* remedy = header.encoder_name == "ground-truth-clip"
+                           ? "; set ground_truth.clip_dir to the folder of CLIP vectors"
+                           : "; leave ground_truth.clip_dir empty";
+  return Fail(ErrorCode::kMismatch,
+              "its features are of encoder \"" + header.encoder_name + "\", not \"" + wanted +
+                  "\"" + remedy,
+              path);
 }
 
 Result<bench::Episode> FindEpisode(const bench::EpisodeFile& file, const std::string& id,

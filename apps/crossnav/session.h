@@ -12,6 +12,7 @@
 #include "crossnav/bench/episodes.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/bench/scene_context.h"
+#include "crossnav/store/map_file.h"
 
 namespace crossnav::app {
 
@@ -45,6 +46,11 @@ bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& v
                             const bench::EpisodeFile& file);
 
 bench::SceneHashes HashesOf(const bench::SceneContext& context);
+
+/// Features of one encoder mean nothing to another: fails unless the map is of the one that the
+/// settings ask for, or holds no features.
+Result<void> CheckEncoder(const store::MapHeader& header, const bench::RunConfig& config,
+                          const std::string& path);
 
 /// Episode `id` of the file.
 Result<bench::Episode> FindEpisode(const bench::EpisodeFile& file, const std::string& id,

@@ -254,11 +254,10 @@ Result<void> Agent::SetGoal(const std::string& name) {
   fresh.index = impl_->goal.index + 1;
   fresh.text = std::move(*text);
   if (impl_->config.query.relevancy == "contrastive") {
-    for (const char* prompt : {"wall", "floor", "ceiling", "furniture", "thing"}) {  // chosen
-      auto background = impl_->perception.encoder->EncodeText(prompt);
-      if (!background) return tl::unexpected(background.error());
-      fresh.background.push_back(std::move(*background));
-    }
+    auto background =
+        perception::EncodeTexts(*impl_->perception.encoder, memory::kBackgroundPrompts);
+    if (!background) return tl::unexpected(background.error());
+    fresh.background = std::move(*background);
   }
   fresh.events.push_back("goal activated: " + name);
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
@@ -283,8 +282,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
 
 /// Everything that one frame adds to the world, in the paper's order.
 Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, StageClock& clock) {
-  // Boxes, masks, stair pixels, dense features.
-  auto percept = perception.Look(obs, goal.goal);
+  auto percept = perception.Look(obs, goal.goal);  // boxes, masks, stair pixels, dense features
   if (!percept) return tl::unexpected(percept.error());
   clock.Stop("perceive");
 
@@ -394,6 +392,8 @@ void Agent::Impl::Record(StepResult& result, const ModeDecision& next, const Opt
                     verification.visibility, RadToDeg(verification.view_angle_rad),
                     verification.distance_m, next.uses_live_poi ? verification.failed_check : ""};
   t.events = std::exchange(goal.events, {});
+  const memory::MemoryCounters counters = world.memory.Counters();
+  t.memory = {world.memory.Size(), counters.compacted_rows, counters.dropped_rows};
   t.voxel_changes = std::move(changes);
 }
 

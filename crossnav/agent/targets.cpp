@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/agent/observation_place.h"
 #include "crossnav/policy/approach.h"
 #include "crossnav/policy/frontiers.h"
 
@@ -21,7 +22,6 @@ namespace {
 
 constexpr double kLinkReach_m =
     1.6;  // chosen: an entrance this near a walked flight's end is that flight
-constexpr int kBlindRing_vox = 4;      // chosen: what lies under a camera one pitch step down
 constexpr double kSameFocus_m = 0.75;  // chosen: a frontier that shrank is still the same frontier
 
 planner::LevelBand LevelOf(const Situation& now, double level_m) {
@@ -242,16 +242,12 @@ std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
     candidate.p_focus_world = poi.p_center_world;
     candidate.size = static_cast<int>(poi.voxels.size());
     candidate.score = poi.score;
-    const auto& approach = now.config.policy.approach;
-    for (const double range_m : {approach.range_m, 2 * approach.range_m}) {
-      candidate.standing = policy::Viewpoints(now.world.map, poi.voxels, range_m, approach,
-                                              now.config.sensor.camera_height_m);
-      if (auto target = PlanTo(now, candidate, WholeMapRules(now), true)) {
-        *index = i;
-        return target;
-      }
-    }
-    return std::nullopt;
+    if (!now.start) return std::nullopt;
+    auto way = WayToView(now.world.map, *now.start, poi.voxels, WholeMapRules(now), now.config);
+    if (!way) return std::nullopt;
+    candidate.standing = std::move(way->standing);
+    *index = i;
+    return MakeTarget(std::move(candidate), std::move(way->plan), way->rules);
   };
   if (now.goal.active_history >= 0) {
     if (auto target = try_poi(now.goal.active_history)) return target;

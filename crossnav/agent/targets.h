@@ -11,6 +11,8 @@
 
 namespace crossnav::agent {
 
+constexpr int kBlindRing_vox = 4;  // chosen: what lies under a camera one pitch step down
+
 /// What all of them look at.
 struct Situation {
   const Config& config;

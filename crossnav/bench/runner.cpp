@@ -46,16 +46,14 @@ class FloorWatch {
 class EpisodeRun {
  public:
   EpisodeRun(const SceneContext& context, const Episode& episode, const RunConfig& config,
-             std::span<RunObserver* const> observers)
+             sim::Simulator& simulator, agent::Agent& agent)
       : context_(context),
         episode_(episode),
         config_(config),
-        observers_(observers),
-        simulator_(context.scene(), context.navmesh(), context.caster(), config.agent.sensor,
-                   config.agent.action),
-        agent_(config.agent, sim::GroundTruthPerception(simulator_, config.ground_truth)) {}
+        simulator_(simulator),
+        agent_(agent) {}
 
-  Result<EpisodeRecord> Run();
+  Result<EpisodeRecord> Run(std::span<RunObserver* const> observers);
 
  private:
   struct StageState {
@@ -81,15 +79,16 @@ class EpisodeRun {
   const Episode& episode_;
   const RunConfig& config_;
   std::span<RunObserver* const> observers_;
-  sim::Simulator simulator_;
-  agent::Agent agent_;
+  sim::Simulator& simulator_;
+  agent::Agent& agent_;
   std::optional<FloorWatch> floors_;
   std::deque<double> recent_m_;  // displacement of the last eval.stuck_steps steps
   int actions_ = 0;
   TimingLog timing_;
 };
 
-Result<EpisodeRecord> EpisodeRun::Run() {
+Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
+  observers_ = observers;
   const double start_ms = WallMs();
   if (auto ok = CheckPlayable(context_, episode_); !ok) return tl::unexpected(ok.error());
   if (auto ok = simulator_.Reset(episode_.start); !ok) {
@@ -250,7 +249,12 @@ void EpisodeRun::FinishStage(const StageEnd& end, StageState& stage) const {
 
 Result<EpisodeRecord> RunEpisode(const SceneContext& context, const Episode& episode,
                                  const RunConfig& config, std::span<RunObserver* const> observers) {
-  return EpisodeRun(context, episode, config, observers).Run();
+  sim::Simulator simulator(context.scene(), context.navmesh(), context.caster(),
+                           config.agent.sensor, config.agent.action);
+  auto perception = sim::GroundTruthPerception(simulator, config.ground_truth);
+  if (!perception) return tl::unexpected(perception.error());
+  agent::Agent agent(config.agent, std::move(*perception));
+  return EpisodeRun(context, episode, config, simulator, agent).Run(observers);
 }
 
 }  // namespace crossnav::bench

@@ -164,6 +164,9 @@ MemoryCluster MakeCluster(const SemanticMemory& memory, std::vector<std::int64_t
   cluster.score = excess / static_cast<double>(best.size()) *
                   std::log2(1.0 + static_cast<double>(cluster.rows.size()));
   cluster.p_best_view_world = BestView(memory, cluster.rows);
+  const Vector3d to_center = cluster.p_center_world - cluster.p_best_view_world;
+  cluster.best_view_yaw_rad = std::atan2(to_center.y(), to_center.x());
+  cluster.best_view_pitch_rad = std::atan2(to_center.z(), to_center.head<2>().norm());
   return cluster;
 }
 

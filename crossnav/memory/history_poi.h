@@ -8,6 +8,7 @@
 // to a few stray voxels without letting a large look-alike beat a small true one.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ void Visit(V& visit, QueryConfig& c) {
   visit("cluster_radius_vox", c.cluster_radius_vox, 1.0, 20.0);
 }
 
+/// What a goal is held against by the contrastive relevancy.
+inline constexpr std::array<const char*, 5> kBackgroundPrompts = {"wall", "floor", "ceiling",
+                                                                  "furniture", "thing"};  // chosen
+
 /// One place in the memory that answers a query.
 struct MemoryCluster {
   std::vector<std::int64_t> rows;              ///< supporting rows, ascending
@@ -49,6 +54,8 @@ struct MemoryCluster {
   double score = 0;       ///< as described above; comparable within one query only
   double similarity = 0;  ///< mean cosine of the best quarter [-1, 1]
   Vector3d p_best_view_world = Vector3d::Zero();  ///< camera position it was best seen from [m]
+  double best_view_yaw_rad = 0;                   ///< from there to the centre
+  double best_view_pitch_rad = 0;                 ///< the same; positive looks up
 };
 
 /// The field that ranks: cosine, or with `relevancy = contrastive` and at least one background

@@ -6,6 +6,17 @@
 
 namespace crossnav::perception {
 
+Result<std::vector<std::vector<float>>> EncodeTexts(DenseEncoder& encoder,
+                                                    std::span<const char* const> texts) {
+  std::vector<std::vector<float>> vectors;
+  for (const char* text : texts) {
+    auto vector = encoder.EncodeText(text);
+    if (!vector) return tl::unexpected(vector.error());
+    vectors.push_back(std::move(*vector));
+  }
+  return vectors;
+}
+
 Result<Percept> PerceptionSuite::Look(const Observation& obs, std::string_view goal) {
   Percept percept;
   auto detections = detector->Detect(obs, goal);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,10 @@ class DenseEncoder {
   /// Unit vector of `Dim()` numbers.
   virtual Result<std::vector<float>> EncodeText(std::string_view text) = 0;
 };
+
+/// Unit vectors of several texts.
+Result<std::vector<std::vector<float>>> EncodeTexts(DenseEncoder& encoder,
+                                                    std::span<const char* const> texts);
 
 /// All that is known about one frame besides geometry.
 struct Percept {

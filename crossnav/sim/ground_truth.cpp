@@ -197,13 +197,19 @@ class GroundTruthStairs : public perception::StairSegmenter {
 
 }  // namespace
 
-perception::PerceptionSuite GroundTruthPerception(const Simulator& simulator,
-                                                  const GroundTruthConfig& config) {
+std::string EncoderName(const GroundTruthConfig& config) {
+  return config.clip_dir.empty() ? "ground-truth" : "ground-truth-clip";
+}
+
+Result<perception::PerceptionSuite> GroundTruthPerception(const Simulator& simulator,
+                                                          const GroundTruthConfig& config) {
+  auto encoder = MakeGroundTruthEncoder(simulator, config);
+  if (!encoder) return tl::unexpected(encoder.error());
   perception::PerceptionSuite suite;
   suite.detector = std::make_unique<GroundTruthDetector>(simulator, config);
   suite.segmenter = std::make_unique<GroundTruthSegmenter>(simulator);
   suite.stairs = std::make_unique<GroundTruthStairs>(simulator);
-  suite.encoder = MakeGroundTruthEncoder(simulator, config);
+  suite.encoder = std::move(*encoder);
   return suite;
 }
 

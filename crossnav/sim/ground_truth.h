@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "crossnav/perception/perception.h"
 #include "crossnav/sim/simulator.h"
@@ -18,6 +19,9 @@ struct GroundTruthConfig {
   double feature_noise = 0.25;  // chosen: norm of the seeded noise against unit text vectors
   double confusion = 0.35;      // chosen: cosine between look-alikes such as bed and sofa
   std::uint64_t seed = 1;
+  /// Folder of real CLIP text vectors (docs/cli.md, "Words"), which give the dimension and make
+  /// synonyms work; empty = vectors made up from the names.
+  std::string clip_dir;
 };
 
 template <class V>
@@ -30,11 +34,16 @@ void Visit(V& visit, GroundTruthConfig& c) {
   visit("feature_noise", c.feature_noise, 0.0, 10.0);
   visit("confusion", c.confusion, 0.0, 0.99);
   visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
+  visit("clip_dir", c.clip_dir);
 }
 
 /// All four interfaces, answered from `simulator`, which must outlive the suite. Detections of the
 /// goal category are true instances; names that are not one of kCategories match raw names exactly.
-perception::PerceptionSuite GroundTruthPerception(const Simulator& simulator,
-                                                  const GroundTruthConfig& config);
+/// Errors: `clip_dir` without readable vectors.
+Result<perception::PerceptionSuite> GroundTruthPerception(const Simulator& simulator,
+                                                          const GroundTruthConfig& config);
+
+/// Name of the encoder that `config` asks for: features of one mean nothing to the other.
+std::string EncoderName(const GroundTruthConfig& config);
 
 }  // namespace crossnav::sim

@@ -3,12 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cctype>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -16,6 +11,7 @@
 
 #include "crossnav/core/categories.h"
 #include "crossnav/core/rng.h"
+#include "crossnav/sim/clip_vectors.h"
 
 namespace crossnav::sim {
 namespace {
@@ -63,16 +59,6 @@ Feature RandomUnit(std::uint64_t seed, int dim) {
   return v;
 }
 
-// "TV_monitor " -> "tv monitor"
-std::string SpacedName(std::string_view text) {
-  std::string name;
-  for (char c : text)
-    name += c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::size_t first = name.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return {};
-  return name.substr(first, name.find_last_not_of(" \t\r\n") + 1 - first);
-}
-
 // Names of the category table become their category.
 std::string CanonicalName(std::string_view text) {
   const std::string name = SpacedName(text);
@@ -99,8 +85,6 @@ std::vector<std::string> LookAlikesOf(const std::string& name) {
   return out;
 }
 
-using NamedFeatures = std::map<std::string, Feature>;
-
 // Unit vectors of names: known ones as given, others from one common direction plus each name's
 // own, mixed among look-alikes.
 class TextSpace {
@@ -109,7 +93,7 @@ class TextSpace {
       : dim_(dim), seed_(seed), confusion_(confusion), common_(RandomUnit(MixSeed(seed, 7), dim)) {}
 
   /// In the space of the `known` vectors, of which there must be one.
-  TextSpace(NamedFeatures known, std::uint64_t seed, double confusion)
+  TextSpace(NamedVectors known, std::uint64_t seed, double confusion)
       : dim_(static_cast<int>(known.begin()->second.size())),
         seed_(seed),
         confusion_(confusion),
@@ -178,62 +162,8 @@ class TextSpace {
   double common_share_ = kCommonShare;
   Feature common_;
   bool has_known_ = false;
-  NamedFeatures vectors_;
+  NamedVectors vectors_;
 };
-
-float FloatOfHalf(std::uint16_t bits) {
-  const int exponent = bits >> 10 & 31, fraction = bits & 1023;
-  const double size = exponent == 0    ? std::ldexp(fraction, -24)
-                      : exponent == 31 ? HUGE_VAL
-                                       : std::ldexp(1024 + fraction, exponent - 25);
-  return static_cast<float>(bits >> 15 != 0 ? -size : size);
-}
-
-// A two-dimensional little-endian float16 or float32 array of `rows` rows in NumPy's format 1.
-Result<std::vector<Feature>> ReadNpy(const std::filesystem::path& path, std::size_t rows) {
-  const auto bad = [&](auto what) { return Fail(ErrorCode::kMalformed, what, path.string()); };
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail(ErrorCode::kNotFound, "no such file", path.string());
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (bytes.size() < 10 || bytes.compare(0, 8, std::string("\x93NUMPY\x01\x00", 8)) != 0)
-    return bad("not an array in NumPy's format 1");
-  const std::size_t begin =
-      10 + static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]);
-  if (begin > bytes.size()) return bad("ends inside its header");
-  const std::string header = bytes.substr(10, begin - 10);
-  const std::size_t item = header.find("'<f2'") != std::string::npos   ? 2
-                           : header.find("'<f4'") != std::string::npos ? 4
-                                                                       : 0;
-  if (item == 0 || header.find("'fortran_order': False") == std::string::npos)
-    return bad("must hold rows of little-endian float16 or float32");
-  const std::size_t size = bytes.size() - begin;
-  if (rows == 0 || size == 0 || size % (rows * item) != 0)
-    return bad("must hold one row for each name beside it");
-  std::vector<Feature> out(rows, Feature(size / (rows * item)));
-  const char* p = bytes.data() + begin;
-  for (Feature& row : out)
-    for (float& x : row) {
-      std::uint32_t bits = 0;
-      std::memcpy(&bits, p, item);
-      x = item == 2 ? FloatOfHalf(static_cast<std::uint16_t>(bits)) : std::bit_cast<float>(bits);
-      if (!std::isfinite(x)) return bad("holds a number that is not finite");
-      p += item;
-    }
-  return out;
-}
-
-Result<NamedFeatures> ReadClip(const std::filesystem::path& dir) {
-  std::ifstream in(dir / "oid_names.txt");
-  if (!in) return Fail(ErrorCode::kNotFound, "no such file", (dir / "oid_names.txt").string());
-  std::vector<std::string> names;
-  for (std::string line; std::getline(in, line);)
-    if (!SpacedName(line).empty()) names.push_back(SpacedName(line));
-  auto rows = ReadNpy(dir / "oid_clip_a+cname.npy", names.size());
-  if (!rows) return tl::unexpected(rows.error());
-  NamedFeatures out;
-  for (std::size_t i = 0; i < names.size(); ++i) out.emplace(names[i], std::move((*rows)[i]));
-  return out;
-}
 
 std::uint64_t SeedOfPose(std::uint64_t seed, const Pose& pose) {
   for (int i = 0; i < 12; ++i) {
@@ -304,7 +234,7 @@ class GroundTruthEncoder : public perception::DenseEncoder {
   }
 
   int Dim() const override { return config_.feature_dim; }
-  std::string Name() const override { return "ground-truth"; }
+  std::string Name() const override { return EncoderName(config_); }
 
   Result<std::vector<float>> EncodeText(std::string_view text) override {
     return texts_.Of(texts_.Resolve(text));
@@ -380,21 +310,27 @@ class GroundTruthEncoder : public perception::DenseEncoder {
   std::map<std::int32_t, Feature> looks_;
 };
 
-}  // namespace
-
-std::unique_ptr<perception::DenseEncoder> MakeGroundTruthEncoder(const Simulator& simulator,
-                                                                 const GroundTruthConfig& config) {
-  return std::make_unique<GroundTruthEncoder>(
-      simulator, config, TextSpace(config.feature_dim, config.seed, config.confusion));
+Result<TextSpace> MakeTextSpace(const GroundTruthConfig& config) {
+  if (config.clip_dir.empty()) return TextSpace(config.feature_dim, config.seed, config.confusion);
+  auto known = ReadClipVectors(config.clip_dir);
+  if (known) return TextSpace(std::move(*known), config.seed, config.confusion);
+  known.error().what += " (needed by ground_truth.clip_dir)";
+  return tl::unexpected(known.error());
 }
 
+}  // namespace
+
 Result<std::unique_ptr<perception::DenseEncoder>> MakeGroundTruthEncoder(
-    const Simulator& simulator, const GroundTruthConfig& config,
-    const std::filesystem::path& clip_dir) {
-  auto known = ReadClip(clip_dir);
-  if (!known) return tl::unexpected(known.error());
-  return std::make_unique<GroundTruthEncoder>(
-      simulator, config, TextSpace(std::move(*known), config.seed, config.confusion));
+    const Simulator& simulator, const GroundTruthConfig& config) {
+  auto texts = MakeTextSpace(config);
+  if (!texts) return tl::unexpected(texts.error());
+  return std::make_unique<GroundTruthEncoder>(simulator, config, std::move(*texts));
+}
+
+Result<void> CheckGroundTruthEncoder(const GroundTruthConfig& config) {
+  const auto texts = MakeTextSpace(config);
+  if (!texts) return tl::unexpected(texts.error());
+  return {};
 }
 
 }  // namespace crossnav::sim

@@ -62,6 +62,9 @@ class JsonReader {
     }
     out = static_cast<int>(value);
   }
+  void Read(const Element& e, std::int64_t& out) {
+    if (e.get_int64().get(out) != simdjson::SUCCESS) Complain("", "expected a whole number");
+  }
   void Read(const Element& e, std::uint64_t& out) {
     if (e.get_uint64().get(out) != simdjson::SUCCESS) Complain("", "expected a whole number >= 0");
   }

@@ -33,6 +33,13 @@ struct VerificationTrace {
   std::string failed_check;  ///< empty when passed or inactive
 };
 
+/// The semantic memory after the step.
+struct MemoryTrace {
+  std::int64_t rows = 0;            ///< feature-bearing voxels
+  std::int64_t compacted_rows = 0;  ///< of these, int8 under fusion.max_rows
+  std::int64_t dropped_rows = 0;    ///< given up under fusion.max_rows so far
+};
+
 struct StepTrace {
   int step = 0;        ///< within the episode, from 0
   int goal_index = 0;  ///< from 0
@@ -50,6 +57,7 @@ struct StepTrace {
   std::vector<geometry::StateChange> voxel_changes;  ///< sorted by key
   bool all_explored = false;
   int detections = 0;
+  MemoryTrace memory;
 };
 
 /// CPU time of each stage of one step [ms], in order; kept out of StepTrace on purpose.

@@ -32,6 +32,14 @@ void Append(JsonText& json, const VerificationTrace& v) {
       .EndObject();
 }
 
+void Append(JsonText& json, const MemoryTrace& m) {
+  json.BeginObject()
+      .Field("rows", m.rows)
+      .Field("compacted_rows", m.compacted_rows)
+      .Field("dropped_rows", m.dropped_rows)
+      .EndObject();
+}
+
 void Append(JsonText& json, const AgentPose& agent) {
   json.BeginObject()
       .Field("p_world", agent.p_world)
@@ -88,6 +96,7 @@ std::string ToJson(const StepTrace& step, VoxelText voxels) {
   json.Field("level_m", step.level_m)
       .Field("all_explored", step.all_explored)
       .Field("detections", step.detections);
+  Append(json.Key("memory"), step.memory);
   if (voxels == VoxelText::kInclude) AppendAll(json, "voxel_changes", step.voxel_changes);
   json.EndObject();
   return json.Take();

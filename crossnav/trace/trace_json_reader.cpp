@@ -97,6 +97,14 @@ void ReadStep(JsonReader& in, const Element& e, StepTrace& step) {
   in.Field(e, "level_m", step.level_m);
   in.Field(e, "all_explored", step.all_explored);
   in.Field(e, "detections", step.detections);
+  // Records written before the memory was counted lack it.
+  if (e["memory"].error() == simdjson::SUCCESS) {
+    const Element memory = *in.Find(e, "memory");
+    JsonReader below = in.Below("memory");
+    below.Field(memory, "rows", step.memory.rows);
+    below.Field(memory, "compacted_rows", step.memory.compacted_rows);
+    below.Field(memory, "dropped_rows", step.memory.dropped_rows);
+  }
   if (e["voxel_changes"].error() == simdjson::SUCCESS) {
     in.ListField(e, "voxel_changes", step.voxel_changes, ReadChange);
   }

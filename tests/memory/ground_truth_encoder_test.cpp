@@ -57,6 +57,11 @@ class GroundTruthEncoderTest : public ::testing::Test {
     return simulator_.Observe();
   }
 
+  static GroundTruthConfig WithClip(const std::filesystem::path& dir) {
+    GroundTruthConfig config;
+    config.clip_dir = dir.string();
+    return config;
+  }
   static double Cosine(const float* a, const std::vector<float>& b) {
     double dot = 0, aa = 0, bb = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
@@ -77,8 +82,8 @@ class GroundTruthEncoderTest : public ::testing::Test {
 };
 
 TEST_F(GroundTruthEncoderTest, TextsAreUnitVectorsThatDependOnTheNameAlone) {
-  const auto encoder = MakeGroundTruthEncoder(simulator_, {}),
-             another = MakeGroundTruthEncoder(simulator_, {});
+  const auto encoder = *MakeGroundTruthEncoder(simulator_, {}),
+             another = *MakeGroundTruthEncoder(simulator_, {});
   EXPECT_EQ(encoder->Dim(), 768);
   for (const char* text : {"chair", "tv_monitor", "xylophone made of glass", ""}) {
     const auto v = encoder->EncodeText(text);
@@ -95,7 +100,7 @@ TEST_F(GroundTruthEncoderTest, TextsAreUnitVectorsThatDependOnTheNameAlone) {
 
 TEST_F(GroundTruthEncoderTest, LookAlikesLieNearerThanStrangers) {
   GroundTruthConfig config;
-  const auto encoder = MakeGroundTruthEncoder(simulator_, config);
+  const auto encoder = *MakeGroundTruthEncoder(simulator_, config);
   const double stranger = Cosine(*encoder, "bed", "toilet");
   EXPECT_NEAR(stranger, 0.5, 0.06);
   EXPECT_NEAR(Cosine(*encoder, "bed", "sofa"), 0.5 + 0.5 * config.confusion, 0.1);
@@ -104,7 +109,7 @@ TEST_F(GroundTruthEncoderTest, LookAlikesLieNearerThanStrangers) {
 }
 
 TEST_F(GroundTruthEncoderTest, CellsShowWhatIsThereAndRunsRepeat) {
-  const auto encoder = MakeGroundTruthEncoder(simulator_, {});
+  const auto encoder = *MakeGroundTruthEncoder(simulator_, {});
   const Observation obs = LookAt(0);
   const auto grid = encoder->EncodeImage(obs);
   ASSERT_TRUE(grid);
@@ -129,7 +134,7 @@ TEST_F(GroundTruthEncoderTest, CellsShowWhatIsThereAndRunsRepeat) {
     }
   EXPECT_GT(checked, 4);
   EXPECT_EQ(grid->data, encoder->EncodeImage(LookAt(0))->data);
-  EXPECT_EQ(grid->data, MakeGroundTruthEncoder(simulator_, {})->EncodeImage(obs)->data);
+  EXPECT_EQ(grid->data, (*MakeGroundTruthEncoder(simulator_, {}))->EncodeImage(obs)->data);
 }
 
 TEST_F(GroundTruthEncoderTest, NoiseHasTheNormThatWasAskedForAndChangesWithThePose) {
@@ -138,19 +143,19 @@ TEST_F(GroundTruthEncoderTest, NoiseHasTheNormThatWasAskedForAndChangesWithThePo
   clean.feature_noise = 0;
   noisy.confusion = clean.confusion = 0;
   const Observation obs = LookAt(3.0);  // floor only
-  const auto a = MakeGroundTruthEncoder(simulator_, noisy)->EncodeImage(obs);
-  const auto floor = *MakeGroundTruthEncoder(simulator_, clean)->EncodeText("floor");
+  const auto a = (*MakeGroundTruthEncoder(simulator_, noisy))->EncodeImage(obs);
+  const auto floor = *(*MakeGroundTruthEncoder(simulator_, clean))->EncodeText("floor");
   const InstanceImage& truth = simulator_.last_frame().instance;
   ASSERT_EQ(truth.At(48, 90), 1);
   const float* cell = &a->data[(static_cast<std::size_t>(22) * 24 + 12) * 768];
   // Bias of half and frame noise of the whole norm, against a unit vector.
   EXPECT_NEAR(Cosine(cell, floor), 1 / std::sqrt(1 + 0.5 * 0.5 + 0.25 * 0.25), 0.08);
-  const auto b = MakeGroundTruthEncoder(simulator_, noisy)->EncodeImage(LookAt(3.01));
+  const auto b = (*MakeGroundTruthEncoder(simulator_, noisy))->EncodeImage(LookAt(3.01));
   EXPECT_NE(a->data, b->data);
 }
 
 TEST_F(GroundTruthEncoderTest, ObservationOfAnotherSizeIsRefused) {
-  const auto encoder = MakeGroundTruthEncoder(simulator_, {});
+  const auto encoder = *MakeGroundTruthEncoder(simulator_, {});
   Observation obs = LookAt(0);
   obs.rgb = RgbImage(10, 10);
   const auto grid = encoder->EncodeImage(obs);
@@ -161,7 +166,7 @@ TEST_F(GroundTruthEncoderTest, ObservationOfAnotherSizeIsRefused) {
 TEST_F(GroundTruthEncoderTest, RealClipVectorsMakeSynonymsWork) {
   const std::filesystem::path dir = std::string(CROSSNAV_SHARED_DIR) + "/data/clip";
   if (!std::filesystem::exists(dir)) GTEST_SKIP() << "no CLIP vectors beside the project";
-  const auto encoder = MakeGroundTruthEncoder(simulator_, {}, dir);
+  const auto encoder = MakeGroundTruthEncoder(simulator_, WithClip(dir));
   ASSERT_TRUE(encoder) << encoder.error().Message();
   EXPECT_EQ((*encoder)->Dim(), 512);
   for (const char* word : {"couch", "loveseat", "sofa bed", "studio couch"})
@@ -188,10 +193,10 @@ TEST_F(GroundTruthEncoderTest, BrokenVectorFilesAreErrorsWithTheirName) {
   const std::string good = file + std::string(64, '\x3f');
   write("oid_names.txt", "Chair\nBed\n");
   write("oid_clip_a+cname.npy", good);
-  EXPECT_TRUE(MakeGroundTruthEncoder(simulator_, {}, dir));
+  EXPECT_TRUE(MakeGroundTruthEncoder(simulator_, WithClip(dir)));
   for (std::size_t size = 0; size < good.size(); ++size) {
     write("oid_clip_a+cname.npy", good.substr(0, size));
-    const auto encoder = MakeGroundTruthEncoder(simulator_, {}, dir);
+    const auto encoder = MakeGroundTruthEncoder(simulator_, WithClip(dir));
     // Cut at a whole number of columns it reads as a narrower array.
     if (encoder) {
       EXPECT_EQ((size - file.size()) % 8, 0u);
@@ -200,9 +205,9 @@ TEST_F(GroundTruthEncoderTest, BrokenVectorFilesAreErrorsWithTheirName) {
     EXPECT_NE(encoder.error().where.find("oid_clip"), std::string::npos);
   }
   write("oid_clip_a+cname.npy", file + std::string(64, '\xff'));  // NaN
-  EXPECT_FALSE(MakeGroundTruthEncoder(simulator_, {}, dir));
+  EXPECT_FALSE(MakeGroundTruthEncoder(simulator_, WithClip(dir)));
   std::filesystem::remove_all(dir);
-  EXPECT_EQ(MakeGroundTruthEncoder(simulator_, {}, dir).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(MakeGroundTruthEncoder(simulator_, WithClip(dir)).error().code, ErrorCode::kNotFound);
 }
 
 }  // namespace

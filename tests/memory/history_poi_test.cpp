@@ -128,6 +128,14 @@ TEST(HistoryPoiTest, BestViewIsTheCameraThatSawMostOfThePlace) {
   const auto clusters = Query(w.memory, text, {});
   ASSERT_EQ(clusters.size(), 1u);
   EXPECT_EQ(clusters[0].p_best_view_world, Vector3d(1, 2, 3));
+  // A camera turned that way has the centre in its middle.
+  const MemoryCluster& c = clusters[0];
+  const Pose T_world_camera =
+      CameraPose({c.p_best_view_world, c.best_view_yaw_rad, c.best_view_pitch_rad}, 0);
+  const Vector3d p_camera = T_world_camera.inverse() * c.p_center_world;
+  EXPECT_NEAR(p_camera.x(), 0, 1e-9);
+  EXPECT_NEAR(p_camera.y(), 0, 1e-9);
+  EXPECT_GT(p_camera.z(), 0);
 }
 
 TEST(HistoryPoiTest, ContrastiveRelevancySuppressesWhatABackgroundPromptExplainsBetter) {

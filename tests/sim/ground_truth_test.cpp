@@ -52,7 +52,7 @@ TEST(GroundTruth, DetectsTrueInstancesWithTheirTightBoxes) {
   config.max_distance_m = 20;
   config.min_visible_px = 20;
   const Observation obs = w.simulator.Observe();
-  auto suite = GroundTruthPerception(w.simulator, config);
+  auto suite = *GroundTruthPerception(w.simulator, config);
   const auto found = suite.detector->Detect(obs, "chair");
   ASSERT_TRUE(found.has_value());
   ASSERT_EQ(found->size(), 2U);
@@ -87,16 +87,16 @@ TEST(GroundTruth, MissesWhatIsFarOrTiny) {
   GroundTruthConfig near;
   near.max_distance_m = 8;
   near.min_visible_px = 1;
-  EXPECT_EQ(GroundTruthPerception(w.simulator, near).detector->Detect(obs, "chair")->size(), 1U);
+  EXPECT_EQ(GroundTruthPerception(w.simulator, near)->detector->Detect(obs, "chair")->size(), 1U);
   GroundTruthConfig large;
   large.max_distance_m = 50;
   large.min_visible_px = 1000000;
-  EXPECT_TRUE(GroundTruthPerception(w.simulator, large).detector->Detect(obs, "chair")->empty());
+  EXPECT_TRUE(GroundTruthPerception(w.simulator, large)->detector->Detect(obs, "chair")->empty());
 }
 
 TEST(GroundTruth, ConfidenceGrowsOnTheWayThereAndPassesTheStopThreshold) {
   World w;
-  auto suite = GroundTruthPerception(w.simulator, {});
+  auto suite = *GroundTruthPerception(w.simulator, {});
   float last = 0;
   for (int i = 0; i < 8; ++i) {
     const auto found = suite.detector->Detect(w.simulator.Observe(), "chair");
@@ -112,7 +112,7 @@ TEST(GroundTruth, ConfidenceGrowsOnTheWayThereAndPassesTheStopThreshold) {
 TEST(GroundTruth, OtherGoalsMatchRawNamesExactly) {
   World w;
   const Observation obs = w.simulator.Observe();
-  auto suite = GroundTruthPerception(w.simulator, {});
+  auto suite = *GroundTruthPerception(w.simulator, {});
   EXPECT_EQ(suite.detector->Detect(obs, "stool")->size(), 1U);
   EXPECT_TRUE(suite.detector->Detect(obs, "stoo")->empty());
   EXPECT_TRUE(suite.detector->Detect(obs, "bed")->empty());
@@ -121,7 +121,7 @@ TEST(GroundTruth, OtherGoalsMatchRawNamesExactly) {
 TEST(GroundTruth, StairPixelsAreExactlyThoseOfStairs) {
   World w;
   const Observation obs = w.simulator.Observe();
-  auto suite = GroundTruthPerception(w.simulator, {});
+  auto suite = *GroundTruthPerception(w.simulator, {});
   const auto stairs = suite.stairs->SegmentStairs(obs);
   ASSERT_TRUE(stairs.has_value());
   int count = 0;
@@ -136,7 +136,7 @@ TEST(GroundTruth, StairPixelsAreExactlyThoseOfStairs) {
 
 TEST(GroundTruth, AForeignObservationIsAnErrorNotAGuess) {
   World w;
-  auto suite = GroundTruthPerception(w.simulator, {});
+  auto suite = *GroundTruthPerception(w.simulator, {});
   Observation never_rendered;
   EXPECT_EQ(suite.detector->Detect(never_rendered, "chair").error().code, ErrorCode::kMismatch);
   EXPECT_FALSE(suite.stairs->SegmentStairs(never_rendered).has_value());
@@ -147,7 +147,7 @@ TEST(GroundTruth, AForeignObservationIsAnErrorNotAGuess) {
 TEST(GroundTruth, AllPartsWorkTogether) {
   World w;
   const Observation obs = w.simulator.Observe();
-  auto suite = GroundTruthPerception(w.simulator, {});
+  auto suite = *GroundTruthPerception(w.simulator, {});
   const auto percept = suite.Look(obs, "chair");
   ASSERT_TRUE(percept.has_value()) << percept.error().Message();
   ASSERT_EQ(percept->detections.size(), 1U);
