@@ -2,7 +2,7 @@
 // How often the memory, fully explored, knows where things are: every category of every scene is
 // queried with the noisy ground-truth encoder, and the Top-4 clusters are held against the true
 // instances. Usage: retrieval_accuracy [--seeds N] [--noise X] [--confusion X] [--clip DIR]
-// [SCENE_FOLDER...]
+// [--max-rows N] [SCENE_FOLDER...]
 // Without folders: the embedded house and the two homes that lie beside the project, if they do.
 #include <algorithm>
 #include <cstdio>
@@ -113,7 +113,7 @@ void RunQuery(const sim::Scene& scene, const memory::SemanticMemory& memory,
 }
 
 bool RunScene(const std::filesystem::path& folder, const sim::GroundTruthConfig& config,
-              Totals& totals) {
+              const memory::FusionConfig& fusion, Totals& totals) {
   const auto scene = sim::LoadScene(folder);
   if (!scene) {
     std::fprintf(stderr, "%s\n", scene.error().Message().c_str());
@@ -133,7 +133,7 @@ bool RunScene(const std::filesystem::path& folder, const sim::GroundTruthConfig&
   }
   const auto& encoder = *made;
   geometry::VoxelMap map;
-  memory::SemanticMemory memory;
+  memory::SemanticMemory memory(fusion);
   int frames = 0;
   double encode_ms = 0, fuse_ms = 0;
   for (const Vector3d& p : Viewpoints(*navmesh))
@@ -153,10 +153,12 @@ bool RunScene(const std::filesystem::path& folder, const sim::GroundTruthConfig&
     }
   std::printf(
       "%s, seed %llu: %d frames, %lld feature voxels, %.0f MB; encoder %.2f ms, lifting %.2f ms a "
-      "frame\n",
+      "frame; %lld rows int8, %lld dropped\n",
       scene->id.c_str(), static_cast<unsigned long long>(config.seed), frames,
       static_cast<long long>(memory.Size()), static_cast<double>(memory.Bytes()) / 1e6,
-      encode_ms / frames, fuse_ms / frames);
+      encode_ms / frames, fuse_ms / frames,
+      static_cast<long long>(memory.Counters().compacted_rows),
+      static_cast<long long>(memory.Counters().dropped_rows));
   for (std::string_view category : kCategories)
     RunQuery(*scene, memory, *encoder, category, totals);
   return true;
@@ -171,12 +173,15 @@ double Percent(int part, int whole) {
 int main(int argc, char** argv) {
   std::vector<std::filesystem::path> folders;
   sim::GroundTruthConfig config;
+  memory::FusionConfig fusion;
   int seeds = 1;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const double value = i + 1 < argc ? std::atof(argv[i + 1]) : 0;
     if (word == "--seeds")
       seeds = std::max(1, static_cast<int>(value));
+    else if (word == "--max-rows")
+      fusion.max_rows = static_cast<int>(value);
     else if (word == "--noise")
       config.feature_noise = value;
     else if (word == "--clip" && i + 1 < argc)
@@ -198,7 +203,7 @@ int main(int argc, char** argv) {
   for (const auto& folder : folders)
     for (int seed = 1; seed <= seeds; ++seed) {
       config.seed = static_cast<std::uint64_t>(seed);
-      if (!RunScene(folder, config, totals)) return 1;
+      if (!RunScene(folder, config, fusion, totals)) return 1;
     }
   std::printf(
       "\n%d queries: a true instance first in %.1f %%, among the Top-4 in %.1f %%;"
