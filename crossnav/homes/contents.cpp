@@ -39,30 +39,32 @@ Result<Contents> Contents::Open(const fs::path& file) {
   return contents;
 }
 
-Result<Contents::Xml> Contents::HomeXml(const std::string& home) const {
-  std::string entry = "Home.xml";
-  if (!home.empty() || !zip_.Has(entry)) {
-    std::vector<std::string> found;
-    std::string known;
-    for (const std::string& name : zip_.Names()) {
-      if (!home.empty() && IsNamed(name, home)) found.push_back(name);
-      const fs::path path(name);
-      if (path.extension() != ".xml" || path.parent_path().filename() != "examples") continue;
-      known += (known.empty() ? "" : ", ") + path.stem().string();
-    }
-    if (found.empty() && home.empty() && known.empty()) {
-      return Fail(ErrorCode::kMalformed, std::string("holds no Home.xml") + kSaveAgain, where_);
-    }
-    if (found.empty()) {
-      const std::string list = known.empty() ? "" : ": " + known;
-      return Fail(ErrorCode::kNotFound,
-                  (home.empty() ? "holds several homes; choose one with --home"
-                                : "holds no home called '" + home + "'; see --home") +
-                      list,
-                  where_);
-    }
-    entry = *std::min_element(found.begin(), found.end());
+/// The entry that describes the home: Home.xml, or of an archive of homes the one called `home`.
+Result<std::string> Contents::HomeEntry(const std::string& home) const {
+  if (home.empty() && zip_.Has("Home.xml")) return "Home.xml";
+  std::vector<std::string> found;
+  std::string known;
+  for (const std::string& name : zip_.Names()) {
+    if (!home.empty() && IsNamed(name, home)) found.push_back(name);
+    const fs::path path(name);
+    if (path.extension() != ".xml" || path.parent_path().filename() != "examples") continue;
+    known += (known.empty() ? "" : ", ") + path.stem().string();
   }
+  if (!found.empty()) return *std::min_element(found.begin(), found.end());
+  if (home.empty() && known.empty()) {
+    return Fail(ErrorCode::kMalformed, std::string("holds no Home.xml") + kSaveAgain, where_);
+  }
+  return Fail(ErrorCode::kNotFound,
+              (home.empty() ? "holds several homes; choose one with --home"
+                            : "holds no home called '" + home + "'; see --home") +
+                  (known.empty() ? "" : ": " + known),
+              where_);
+}
+
+Result<Contents::Xml> Contents::HomeXml(const std::string& home) const {
+  auto found = HomeEntry(home);
+  if (!found) return tl::unexpected(found.error());
+  std::string& entry = *found;
   const std::string where = where_ + ": " + entry;
   if (zip_.SizeOf(entry) > kMaxXml) {
     return Fail(ErrorCode::kUnsupported, "a description above 64 MiB is not read", where);
@@ -73,7 +75,7 @@ Result<Contents::Xml> Contents::HomeXml(const std::string& home) const {
     broken.what += kSaveAgain;
     return tl::unexpected(broken);
   }
-  return Xml{std::move(*text), entry};
+  return Xml{std::move(*text), std::move(entry)};
 }
 
 std::optional<std::string> Contents::Read(const std::string& entry) const {

@@ -29,6 +29,7 @@ class Contents {
   const std::string& where() const { return where_; }
 
  private:
+  Result<std::string> HomeEntry(const std::string& home) const;
   explicit Contents(world::ZipReader zip) : zip_(std::move(zip)) {}
   world::ZipReader zip_;
   std::string where_;

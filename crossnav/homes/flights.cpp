@@ -44,7 +44,7 @@ std::vector<Vector3d> RingAt(const sim::NavMesh& navmesh, const HomePiece& piece
   grown.depth_m += 2 * kRing_m;
   const Polygon edge = Footprint(grown);
   for (std::size_t i = 0; i < edge.size(); ++i) {
-    const Vector2d a = edge[i], b = edge[(i + 1) % edge.size()];
+    const Vector2d &a = edge[i], &b = edge[(i + 1) % edge.size()];
     const int parts = std::max(1, static_cast<int>((b - a).norm() / kRingStep_m));
     for (int k = 0; k < parts; ++k) {
       const Vector2d p = a + (b - a) * (static_cast<double>(k) / parts);

@@ -77,7 +77,7 @@ Result<world::NamedObj> FromZip(const std::string& bytes, const std::string& whe
         return std::move(*found);
       };
       if (FormatOf(*text, wanted) == "zip") break;
-      return ParseModel(*text, lookup, where + ": " + name);
+      return ParseModel(*text, lookup, std::string(where).append(": ").append(name));
     }
   }
   return Fail(ErrorCode::kUnsupported, "holds no model that is read", where);

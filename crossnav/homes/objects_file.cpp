@@ -53,7 +53,7 @@ class Reader {
     for (const auto& [key, value] : json.items()) {
       bool is_known = false;
       for (const char* name : known) is_known = is_known || key == name;
-      if (!is_known) Bad(at.empty() ? key : at + "." + key, "is no known key");
+      if (!is_known) Bad((at.empty() ? "" : at + ".").append(key), "is no known key");
     }
   }
 

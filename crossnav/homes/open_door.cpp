@@ -184,6 +184,7 @@ bool IsFree(const world::ObjectModel& model, const Pose& T_door_model, const Hom
   const Vector3d low(-x, front, 0.3), high(x, back, std::min(1.5, 0.8 * door.height_m));
   for (const auto& t : model.mesh.triangles) {
     std::vector<Vector3d> polygon;
+    polygon.reserve(t.size());
     for (const auto v : t) {
       polygon.emplace_back(T_door_model * model.mesh.vertices[v].cast<double>());
     }

@@ -142,7 +142,7 @@ std::string Normalised(std::string_view name) {
 }
 
 std::string RawNameFor(std::string_view name) {
-  const std::string whole = Normalised(name);
+  std::string whole = Normalised(name);
   const auto& categories = sim::DefaultCategories();
   for (std::string_view rest = whole; !rest.empty();) {
     const auto word = Find(std::begin(kWords), std::end(kWords), rest);

@@ -115,6 +115,7 @@ double RiseAlong(const world::NamedObj& model, const HomePiece& piece, int direc
 std::vector<world::NamedObj> PlainFlights(const HomePiece& piece, double rise_m,
                                           const world::NamedObj* model) {
   std::vector<std::pair<double, int>> directions;
+  directions.reserve(4);
   for (int d = 0; d < 4; ++d) {
     directions.emplace_back(model ? -RiseAlong(*model, piece, d, rise_m) : 0.0, d);
   }

@@ -52,7 +52,7 @@ std::string SceneIdFor(const std::string& name, const fs::path& dir) {
   int last = 0;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(dir, ignored)) {
-    const std::string id = entry.path().filename().string();
+    std::string id = entry.path().filename().string();
     const auto parsed = ParseSceneId(id);
     if (!parsed) continue;
     if (parsed->name == name) return id;

@@ -116,7 +116,8 @@ constexpr std::uintptr_t kPrefetchBytes = 8192;  // chosen: measured, 6 % above 
 template <class T>
 HWY_INLINE void PrefetchAhead(const T* p) {
   // As an integer, since this may lie past the end of the rows.
-  hwy::Prefetch(reinterpret_cast<const T*>(reinterpret_cast<std::uintptr_t>(p) + kPrefetchBytes));
+  const auto at = reinterpret_cast<std::uintptr_t>(p) + kPrefetchBytes;
+  hwy::Prefetch(reinterpret_cast<const T*>(at));  // NOLINT(performance-no-int-to-ptr)
 }
 
 template <class T>
