@@ -32,6 +32,7 @@ struct WorldOptions {
   double area_m2 = 0;         ///< of one floor; 0 = drawn from the seed
   std::string out;
   std::string furniture;  ///< pack folder, "none", or empty = the default place
+  std::string contact_sheet;  ///< .png; empty = none
   bool embedded = false, scan = false;
 };
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& common,

@@ -67,6 +67,9 @@ void AddWorld(CLI::App& app, Options& o) {
                    "made, where there is one")
       ->type_name("DIR|none");
   verb->add_flag("--scan", o.world.scan, "With the faults of a real scan, drawn from the seed");
+  verb->add_option("--contact-sheet", o.world.contact_sheet,
+                   "Picture of all houses: a view from inside and every floor from above")
+      ->type_name("FILE.png");
   verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
 }
 

@@ -10,6 +10,7 @@
 #include "crossnav/bench/result_records.h"
 #include "crossnav/sim/picture.h"
 #include "crossnav/sim/scene_info.h"
+#include "floor_plan.h"
 #include "open_scene.h"
 
 namespace crossnav::app {
@@ -143,8 +144,9 @@ Result<RgbImage> RenderFloor(const OpenScene& open, const SceneOptions& options)
   const int floor = options.floor < 0 && !floors.empty() ? floors.front().id : options.floor;
   for (const sim::Floor& candidate : floors) {
     if (candidate.id != floor) continue;
-    return sim::RenderTopDown(*open.scene, *open.caster, *open.navmesh, floor, options.px_per_m)
-        .image;
+    const auto rooms = world::ReadHouseRooms(options.scene);
+    if (!rooms) return tl::unexpected(rooms.error());
+    return DrawFloorPlan(*open.scene, *open.caster, *open.navmesh, floor, options.px_per_m, *rooms);
   }
   return Fail(ErrorCode::kNotFound,
               fmt::format("there is no floor {}; the scene has {}", floor, floors.size()),

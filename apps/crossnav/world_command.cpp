@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "contact_sheet.h"
 #include "crossnav/world/embedded_house.h"
 #include "crossnav/world/house_generator.h"
 
@@ -45,6 +46,7 @@ Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*c
     if (!found) return tl::unexpected(found.error());
     pack = std::move(*found);
   }
+  ContactSheet sheet;
   for (int i = 0; i < options.count && !options.embedded; ++i) {
     console.Progress(fmt::format("house {} of {}", i + 1, options.count));
     world::HouseParams params;
@@ -57,10 +59,17 @@ Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*c
     console.EndProgress();
     console.Print(HouseText(*house));
     houses.push_back(HouseJson(*house));
+    if (options.contact_sheet.empty()) continue;
+    if (auto ok = sheet.Add(*house, params.seed); !ok) return ok;
   }
-  console.Document(Json({{"furniture_pack", pack ? Json(pack->hash()) : Json(nullptr)},
-                         {"scenes", std::move(houses)}})
-                       .dump(1));
+  if (!options.contact_sheet.empty() && !options.embedded) {
+    if (auto ok = sheet.Write(options.contact_sheet); !ok) return ok;
+    console.Print(options.contact_sheet + "\n");
+  }
+  Json document = {{"furniture_pack", pack ? Json(pack->hash()) : Json(nullptr)},
+                   {"scenes", std::move(houses)}};
+  if (!options.contact_sheet.empty()) document["contact_sheet"] = options.contact_sheet;
+  console.Document(document.dump(1));
   return {};
 }
 

@@ -115,7 +115,7 @@ void BuildStairs(const HousePlan& plan, SceneBuilder& scene) {
   for (const Railing& railing : plan.railings) BuildRailing(railing, scene);
 }
 
-sim::Scene BuildHouse(const HousePlan& plan, const BuildOptions& options) {
+BuiltHouse BuildHouseWithLights(const HousePlan& plan, const BuildOptions& options) {
   SceneBuilder scene;
   scene.has_textures = options.has_textures;
   scene.texture_seed = options.texture_seed;
@@ -123,7 +123,11 @@ sim::Scene BuildHouse(const HousePlan& plan, const BuildOptions& options) {
   BuildWalls(plan, scene);
   BuildStairs(plan, scene);
   for (const Placement& p : plan.furniture) scene.Place(p.model, p.T_world_object, p.room);
-  return scene.Finish(plan.id);
+  return {scene.Finish(plan.id), std::move(scene.glowing)};
+}
+
+sim::Scene BuildHouse(const HousePlan& plan, const BuildOptions& options) {
+  return BuildHouseWithLights(plan, options).scene;
 }
 
 }  // namespace crossnav::world

@@ -3,6 +3,8 @@
 // instances with HM3D-like names.
 #pragma once
 
+#include <set>
+
 #include "crossnav/world/plan.h"
 #include "crossnav/world/scene_builder.h"
 
@@ -18,7 +20,14 @@ struct BuildOptions {
   std::uint64_t texture_seed = 1;
 };
 
+/// A scene and which of its materials give light of their own.
+struct BuiltHouse {
+  sim::Scene scene;
+  std::set<int> glowing;
+};
+
 /// The whole house, furniture included.
+BuiltHouse BuildHouseWithLights(const HousePlan& plan, const BuildOptions& options);
 sim::Scene BuildHouse(const HousePlan& plan, const BuildOptions& options = {});
 
 }  // namespace crossnav::world

@@ -6,6 +6,7 @@
 
 #include "crossnav/world/furniture.h"
 #include "crossnav/world/furniture_pack.h"
+#include "crossnav/world/pictures.h"
 
 namespace crossnav::world {
 namespace {
@@ -25,12 +26,19 @@ void VaryName(ObjectModel& model, Rng& rng) {
   }
 }
 
+/// Most screens are on.
+void ShowPicture(std::string_view kind, ObjectModel& model, Rng& rng) {
+  const bool is_screen = kind == "tv" || kind == "computer monitor";
+  if (kind == "picture" || (is_screen && rng.Chance(0.75))) AddPicture(model, is_screen, rng);
+}
+
 }  // namespace
 
 std::optional<ObjectModel> FurnitureSource::Make(std::string_view kind, Rng& rng) const {
   std::optional<ObjectModel> model;
   if (pack && rng.Chance(pack_share)) model = pack->Draw(kind, rng);
   if (!model) model = MakeFurniture(kind, rng);
+  if (model && has_pictures) ShowPicture(kind, *model, rng);
   if (model) VaryName(*model, rng);
   return model;
 }

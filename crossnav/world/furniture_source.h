@@ -15,7 +15,8 @@ class FurniturePack;
 
 struct FurnitureSource {
   const FurniturePack* pack = nullptr;
-  double pack_share = 0.85;  ///< chosen: mostly real models, some parametric ones for variety
+  bool has_pictures = false;  ///< on screens and in frames
+  double pack_share = 0.85;   ///< chosen: mostly real models, some parametric ones for variety
 
   /// nullopt for an unknown kind. The raw name varies as annotators' names do ("couch", "sofa").
   std::optional<ObjectModel> Make(std::string_view kind, Rng& rng) const;

@@ -2,6 +2,7 @@
 // The only user of nlohmann/json in this room besides scene_writer.cpp's text.
 #include "crossnav/world/glb_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::size_t kMostShort = 65535;  // vertices; glTF keeps the last index for itself
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kUnsignedByte = 5121;
 
@@ -49,8 +51,19 @@ struct Buffers {
     return static_cast<int>(accessors.size()) - 1;
   }
 
-  int AddIndices(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    const int a = AddAccessor(triangles, kUnsignedInt, "SCALAR", kElementArrayBuffer);
+  /// Two bytes each where `vertices` allows it.
+  int AddIndices(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertices) {
+    int a = 0;
+    if (vertices <= kMostShort) {
+      std::vector<std::array<std::uint16_t, 3>> narrow;
+      for (const auto& t : triangles) {
+        narrow.push_back({static_cast<std::uint16_t>(t[0]), static_cast<std::uint16_t>(t[1]),
+                          static_cast<std::uint16_t>(t[2])});
+      }
+      a = AddAccessor(narrow, kUnsignedShort, "SCALAR", kElementArrayBuffer);
+    } else {
+      a = AddAccessor(triangles, kUnsignedInt, "SCALAR", kElementArrayBuffer);
+    }
     accessors.back()["count"] = triangles.size() * 3;
     return a;
   }
@@ -171,7 +184,7 @@ Json RenderPrimitive(const sim::Scene& scene, const std::vector<std::uint32_t>& 
     attributes["COLOR_0"] = buffers.AddAccessor(colours, kUnsignedShort, "VEC4", kArrayBuffer);
     buffers.accessors.back()["normalized"] = true;
   }
-  const int indices = buffers.AddIndices(triangles);
+  const int indices = buffers.AddIndices(triangles, used.size());
   return {{"attributes", std::move(attributes)},
           {"indices", indices},
           {"material", material},
@@ -189,6 +202,22 @@ void AddImages(const sim::Scene& scene, Json& root, Buffers& buffers) {
     root["textures"].push_back({{"sampler", 0}, {"source", root["images"].size()}});
     root["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
   }
+}
+
+/// Part of the semantic mesh, small enough for short indices.
+struct SemanticPart {
+  std::vector<Vector3f> points_file;
+  std::vector<std::array<std::uint8_t, 4>> colours;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+Json SemanticPrimitive(const SemanticPart& part, Buffers& buffers) {
+  Json attributes = {{"POSITION", buffers.AddPositions(part.points_file)}};
+  attributes["COLOR_0"] = buffers.AddAccessor(part.colours, kUnsignedByte, "VEC4", kArrayBuffer);
+  buffers.accessors.back()["normalized"] = true;
+  const int indices = buffers.AddIndices(part.triangles, part.points_file.size());
+  return {
+      {"attributes", std::move(attributes)}, {"indices", indices}, {"material", 0}, {"mode", 4}};
 }
 
 }  // namespace
@@ -217,40 +246,41 @@ std::string EncodeRenderGlb(const sim::Scene& scene) {
 std::string EncodeSemanticGlb(const sim::Scene& scene) {
   const auto& mesh = scene.mesh;
   Buffers buffers;
-  std::vector<Vector3f> points_file;
-  std::vector<std::array<std::uint8_t, 4>> colours;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  // A vertex is repeated where triangles of another instance use it.
+  Json primitives = Json::array();
+  SemanticPart part;
+  // A vertex is repeated where triangles of another instance or another primitive use it.
   std::vector<std::uint32_t> new_index(mesh.vertices.size(), kNone);
   std::vector<std::int32_t> instance_of(mesh.vertices.size(), -1);
+  const auto flush = [&] {
+    if (part.triangles.empty()) return;
+    primitives.push_back(SemanticPrimitive(part, buffers));
+    part = {};
+    std::fill(instance_of.begin(), instance_of.end(), -1);
+  };
   for (const auto& group : TrianglesByMaterial(scene)) {
     for (auto t : group) {
+      if (part.points_file.size() + 3 > kMostShort) flush();
       const int instance = mesh.triangle_instance[t];
       std::array<std::uint32_t, 3> tri{};
       for (std::size_t k = 0; k < 3; ++k) {
         const auto v = mesh.triangles[t][k];
-        if (new_index[v] == kNone || instance_of[v] != instance) {
-          new_index[v] = static_cast<std::uint32_t>(points_file.size());
+        if (instance_of[v] != instance) {
+          new_index[v] = static_cast<std::uint32_t>(part.points_file.size());
           instance_of[v] = instance;
-          points_file.push_back(FileOfWorld(mesh.vertices[v]));
+          part.points_file.push_back(FileOfWorld(mesh.vertices[v]));
           const Rgb8 c = SemanticColour(instance);
-          colours.push_back({c.r, c.g, c.b, 255});
+          part.colours.push_back({c.r, c.g, c.b, 255});
         }
         tri[k] = new_index[v];
       }
-      triangles.push_back(tri);
+      part.triangles.push_back(tri);
     }
   }
-  Json attributes = {{"POSITION", buffers.AddPositions(points_file)}};
-  attributes["COLOR_0"] = buffers.AddAccessor(colours, kUnsignedByte, "VEC4", kArrayBuffer);
-  buffers.accessors.back()["normalized"] = true;
-  const int indices = buffers.AddIndices(triangles);
-  Json primitive = {
-      {"attributes", std::move(attributes)}, {"indices", indices}, {"material", 0}, {"mode", 4}};
+  flush();
   Json material = {{"pbrMetallicRoughness", {{"metallicFactor", 0.0}}},
                    {"doubleSided", true},
                    {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
-  Json root = Root(Json::array({std::move(primitive)}), Json::array({std::move(material)}));
+  Json root = Root(std::move(primitives), Json::array({std::move(material)}));
   root["extensionsUsed"] = {"KHR_materials_unlit"};
   return Finish(std::move(root), std::move(buffers));
 }

@@ -7,22 +7,25 @@
 
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/architecture.h"
-#include "crossnav/world/finish_mesh.h"
+#include "crossnav/world/bake_light.h"
 #include "crossnav/world/furnish.h"
 #include "crossnav/world/furniture_pack.h"
 #include "crossnav/world/glb_writer.h"
 #include "crossnav/world/house_file.h"
 #include "crossnav/world/house_gate.h"
 #include "crossnav/world/house_plan.h"
+#include "crossnav/world/scan_damage.h"
 #include "crossnav/world/scene_writer.h"
 #include "crossnav/world/stairs.h"
+#include "crossnav/world/subdivide.h"
 
 namespace crossnav::world {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kOcclusionEdge_m = 0.8;  // chosen: fine enough for a soft corner
+constexpr double kLitEdge_m = 0.5;    // chosen: fine enough for the shadow of a table
+constexpr double kLitArea_m2 = 0.03;  // chosen: skirtings and frames need no finer light
 
 Result<void> CheckParams(const HouseParams& params) {
   if (params.floors < 0 || params.floors > 4) {
@@ -49,7 +52,8 @@ HouseParams Settled(HouseParams params) {
   return params;
 }
 
-void Describe(const HousePlan& plan, const sim::Scene& scene, HouseReport& report) {
+HouseReport Describe(const HousePlan& plan, const sim::Scene& scene) {
+  HouseReport report;
   report.scene_id = plan.id;
   report.floors = static_cast<int>(plan.levels.size());
   for (const Stair& s : plan.stairs) ++report.stairs[std::string(NameOf(s.kind))];
@@ -58,6 +62,43 @@ void Describe(const HousePlan& plan, const sim::Scene& scene, HouseReport& repor
     if (!i.category.empty()) ++report.instances[i.category];
   }
   report.pieces = static_cast<int>(plan.furniture.size());
+  return report;
+}
+
+/// Clean, or as a scanner would see it.
+sim::Scene AsAsked(sim::Scene scene, const HouseParams& params) {
+  if (!params.is_scan) return scene;
+  ScanDamage damage;
+  damage.seed = params.seed;
+  DamageAsScan(scene, damage);
+  return scene;
+}
+
+/// One plan: drawn, built, checked, lit, written. kIo where the disk refuses, else what the plan
+/// lacks.
+Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::path& out_dir,
+                            const FurniturePack* pack) {
+  const auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
+  if (!plan) return tl::unexpected(plan.error());
+  auto [clean, glowing] = BuildHouseWithLights(*plan, {params.has_textures, params.seed});
+  const sim::Scene checked = AsAsked(clean, params);
+  const auto navmesh = sim::NavMesh::Build(checked, {});
+  if (!navmesh) return tl::unexpected(navmesh.error());
+  if (auto ok = CheckHouse(*plan, checked, *navmesh); !ok) return tl::unexpected(ok.error());
+  HouseReport report = Describe(*plan, checked);
+  report.area_m2 = navmesh->AreaM2();
+  if (params.has_lights) {  // of the house, not of its scan
+    Subdivide(clean.mesh, kLitEdge_m, kLitArea_m2);
+    BakeLight(clean, *plan, LightsOf(*plan), glowing);
+  }
+  const sim::Scene scene = AsAsked(std::move(clean), params);
+  const auto folder = WriteScene(scene, out_dir, HouseText(*plan, params, pack));
+  if (!folder) return tl::unexpected(folder.error());
+  report.folder = *folder;
+  for (const auto& file : fs::directory_iterator(*folder)) report.bytes += file.file_size();
+  if (report.bytes < kMaxSceneBytes) return report;
+  fs::remove_all(*folder);
+  return Fail(ErrorCode::kInvalid, "files larger than 40 MB", folder->string());
 }
 
 }  // namespace
@@ -79,52 +120,24 @@ Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
 Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out_dir,
                                   const FurniturePack* pack) {
   if (auto ok = CheckParams(params); !ok) return tl::unexpected(ok.error());
-  const FurnitureSource source{pack};
-  HouseReport report;
+  std::map<std::string, int> refusals;
   for (int attempt = 0; attempt < params.max_attempts; ++attempt) {
-    ++report.attempts;
-    const auto plan = DrawFurnishedPlan(params, attempt, source);
-    if (!plan) {
-      ++report.refusals[plan.error().what];
-      continue;
+    auto report = Attempt(params, attempt, out_dir, pack);
+    if (report) {
+      report->attempts = attempt + 1;
+      report->refusals = std::move(refusals);
+      return report;
     }
-    sim::Scene scene = BuildHouse(*plan, {params.has_textures, params.seed});
-    if (params.is_scan) {
-      ScanDamage damage;
-      damage.seed = params.seed;
-      DamageAsScan(scene, damage);
-    }
-    auto navmesh = sim::NavMesh::Build(scene, {});
-    if (!navmesh) {
-      ++report.refusals[navmesh.error().what];
-      continue;
-    }
-    if (auto ok = CheckHouse(*plan, scene, *navmesh); !ok) {
-      ++report.refusals[ok.error().what];
-      continue;
-    }
-    report.area_m2 = navmesh->AreaM2();
-    if (params.has_lights) {
-      Subdivide(scene.mesh, kOcclusionEdge_m);
-      BakeAmbientOcclusion(scene);
-    }
-    Describe(*plan, scene, report);
-    auto folder = WriteScene(scene, out_dir, HouseText(*plan, params, pack));
-    if (!folder) return tl::unexpected(folder.error());
-    report.folder = *folder;
-    report.bytes = 0;
-    for (const auto& file : fs::directory_iterator(*folder)) report.bytes += file.file_size();
-    if (report.bytes < kMaxSceneBytes) return report;
-    ++report.refusals["files larger than 40 MB"];
-    fs::remove_all(*folder);
+    if (report.error().code == ErrorCode::kIo) return report;  // another plan would not help
+    ++refusals[report.error().what];
   }
   std::string reasons;
-  for (const auto& [what, count] : report.refusals) {
+  for (const auto& [what, count] : refusals) {
     reasons += fmt::format("{}{} ({}x)", reasons.empty() ? "" : ", ", what, count);
   }
   return Fail(
       ErrorCode::kInvalid,
-      fmt::format("no house passed the checks in {} attempts: {}", report.attempts, reasons),
+      fmt::format("no house passed the checks in {} attempts: {}", params.max_attempts, reasons),
       fmt::format("seed {}", params.seed));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/world/mesh_builder.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -51,6 +52,18 @@ void MeshBuilder::AddQuad(const Vector3d& a, const Vector3d& b, const Vector3d& 
   const auto i = AddVertex(a, n), j = AddVertex(b, n), k = AddVertex(c, n), l = AddVertex(d, n);
   PushTriangle(i, j, k);
   PushTriangle(i, k, l);
+}
+
+void MeshBuilder::AddPictureQuad(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                                 const Vector3d& d) {
+  const std::size_t first = mesh_.uvs.size();
+  AddQuad(a, b, c, d);
+  if (mesh_.uvs.size() != first + 4) return;  // too small to show anything
+  constexpr float kIn = 0.004F;               // stays off the edge, where the texture repeats
+  constexpr std::array<std::array<float, 2>, 4> kCorners = {
+      {{kIn, 1 - kIn}, {1 - kIn, 1 - kIn}, {1 - kIn, kIn}, {kIn, kIn}}};
+  std::copy(kCorners.begin(), kCorners.end(),
+            mesh_.uvs.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 void MeshBuilder::AddBox(const Vector3d& min, const Vector3d& max) {

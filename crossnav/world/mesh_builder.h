@@ -26,6 +26,8 @@ class MeshBuilder {
   void AddTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
   /// Counter-clockwise seen from the front.
   void AddQuad(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d);
+  /// As AddQuad, showing the whole picture once: a is its lower left corner, b its lower right.
+  void AddPictureQuad(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d);
   /// Axis-aligned in the part frame; nothing is added where an extent is below 0.1 mm.
   void AddBox(const Vector3d& min, const Vector3d& max);
   /// A board of `size` centred at `center`, turned by `rotation` about its centre.

@@ -3,6 +3,7 @@
 // the right, y towards the FRONT (the side people use), z up, metres. -y goes to the wall.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ struct ObjectModel {
   sim::TriangleMesh mesh;
   std::vector<sim::Material> materials;
   std::vector<sim::Texture> textures;
-  double top_m = -1;  ///< height of a usable top on which small things may stand; < 0 = none
+  int own_textures = 0;   ///< how many of the last textures belong to this copy of an asset alone
+  std::set<int> glowing;  ///< materials that give light of their own, e.g. a screen
+  double top_m = -1;      ///< height of a usable top on which small things may stand; < 0 = none
 
   Box3 Bounds() const;
   Vector3d Size() const;

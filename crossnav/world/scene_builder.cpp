@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "crossnav/core/check.h"
+#include "crossnav/world/pictures.h"
 #include "crossnav/world/textures.h"
 
 namespace crossnav::world {
@@ -32,6 +33,17 @@ int SceneBuilder::AddTexture(sim::Texture texture) {
   return static_cast<int>(scene_.textures.size()) - 1;
 }
 
+int SceneBuilder::OutdoorMaterial() {
+  constexpr std::size_t kViews = 3;  // chosen: enough that neighbouring windows differ
+  const std::size_t view = windows_++ % kViews;
+  if (view == outdoor_materials_.size()) {
+    Rng rng(texture_seed, 500 + view);
+    outdoor_materials_.push_back(Material({255, 255, 255}, AddTexture(MakeOutdoorTexture(rng))));
+    glowing.insert(outdoor_materials_.back());
+  }
+  return outdoor_materials_[view];
+}
+
 int SceneBuilder::BeginInstance(std::string_view raw_name, int region) {
   sim::SceneInstance instance;
   instance.id = static_cast<int>(scene_.instances.size()) + 1;
@@ -48,14 +60,16 @@ int SceneBuilder::Place(const ObjectModel& model, const Pose& T_world_object, in
   std::vector<int> texture_of;
   const bool is_shared = !model.asset_id.empty();
   if (is_shared) texture_of = asset_textures_[model.asset_id];
-  if (texture_of.empty()) {
-    for (const auto& texture : model.textures) texture_of.push_back(AddTexture(texture));
+  const std::size_t common = model.textures.size() - static_cast<std::size_t>(model.own_textures);
+  for (std::size_t i = texture_of.size(); i < model.textures.size(); ++i) {
+    texture_of.push_back(AddTexture(model.textures[i]));
+    if (is_shared && i + 1 == common) asset_textures_[model.asset_id] = texture_of;
   }
-  if (is_shared) asset_textures_[model.asset_id] = texture_of;
   for (const auto& m : model.materials) {
     material_of.push_back(
         Material(m.colour, m.texture < 0 ? -1 : texture_of[static_cast<std::size_t>(m.texture)]));
   }
+  for (int m : model.glowing) glowing.insert(material_of[static_cast<std::size_t>(m)]);
   sim::TriangleMesh part = model.mesh;
   for (auto& m : part.triangle_material) m = static_cast<std::uint16_t>(material_of[m]);
   mesh.T_world_part = T_world_object;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -20,12 +21,15 @@ class SceneBuilder {
   MeshBuilder mesh;
   bool has_textures = false;
   std::uint64_t texture_seed = 1;
+  std::set<int> glowing;  ///< materials that give light of their own
 
   /// Index of the material; the same colour and texture give the same index.
   int Material(Rgb8 colour, int texture = -1);
   /// Makes the finish the current material, with its pattern where textures are on.
   void Use(const SurfaceFinish& finish);
   int AddTexture(sim::Texture texture);
+  /// What is seen through a window; one of a few views of the house.
+  int OutdoorMaterial();
 
   /// Makes a new instance the current one and returns its id (1, 2, ...).
   int BeginInstance(std::string_view raw_name, int region);
@@ -40,6 +44,8 @@ class SceneBuilder {
   sim::Scene scene_;
   std::map<std::tuple<int, int, int, int>, int> material_index_;
   std::map<Pattern, int> pattern_texture_;
+  std::vector<int> outdoor_materials_;
+  std::size_t windows_ = 0;
   std::map<std::string, std::vector<int>> asset_textures_;
 };
 

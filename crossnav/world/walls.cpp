@@ -86,8 +86,16 @@ void AddWindow(const Opening& o, SceneBuilder& scene) {
   const double x0 = o.center_m - 0.5 * o.width_m, x1 = o.center_m + 0.5 * o.width_m;
   constexpr double kBar = 0.05, kHalf = 0.03;  // chosen: frame section
   MeshBuilder& mesh = scene.mesh;
-  mesh.material = scene.Material(kGlass);
-  mesh.AddBox({x0, -0.005, o.sill_m}, {x1, 0.005, o.head_m});
+  if (scene.has_textures) {
+    mesh.material = scene.OutdoorMaterial();
+    mesh.AddPictureQuad({x0, -0.005, o.sill_m}, {x1, -0.005, o.sill_m}, {x1, -0.005, o.head_m},
+                        {x0, -0.005, o.head_m});
+    mesh.AddPictureQuad({x1, 0.005, o.sill_m}, {x0, 0.005, o.sill_m}, {x0, 0.005, o.head_m},
+                        {x1, 0.005, o.head_m});
+  } else {
+    mesh.material = scene.Material(kGlass);
+    mesh.AddBox({x0, -0.005, o.sill_m}, {x1, 0.005, o.head_m});
+  }
   mesh.material = scene.Material(kFrameWhite);
   mesh.AddBox({x0, -kHalf, o.sill_m}, {x0 + kBar, kHalf, o.head_m});
   mesh.AddBox({x1 - kBar, -kHalf, o.sill_m}, {x1, kHalf, o.head_m});

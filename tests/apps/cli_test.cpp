@@ -272,6 +272,18 @@ TEST_F(Cli, AssetsImportMakesThePackThatHousesAreFurnishedFrom) {
             pack["hash"]);
 }
 
+TEST_F(Cli, ContactSheetAndFloorPlanAreDrawn) {
+  const Outcome made = Run(std::string(kOneRoom) + " --furniture none --contact-sheet sheet.png");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(ReadText(At("sheet.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(Json::parse(made.out)["contact_sheet"], "sheet.png");
+  const std::string render = "scene render houses/00005-House5 --top-down --out ";
+  ASSERT_EQ(Run(render + "named.png").exit_code, 0);
+  fs::remove(At("houses/00005-House5/House5.house.json"));
+  ASSERT_EQ(Run(render + "plain.png").exit_code, 0);  // other scenes know no rooms
+  EXPECT_NE(ReadText(At("named.png")), ReadText(At("plain.png")));
+}
+
 TEST_F(Cli, WithoutAPackTheGeneratorSaysSoAndGoesOn) {
   ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
   const Outcome house = Run(kOneRoom);

@@ -60,17 +60,17 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
   EXPECT_NE(ReadAll(a->folder / file), ReadAll(c->folder / "House10.glb"));
 }
 
-/// A pack of one bed of one colour.
-FurniturePack PackOfOneBed(const std::filesystem::path& dir) {
+/// A pack of one lamp of one colour.
+FurniturePack PackOfOneLamp(const std::filesystem::path& dir) {
   PackModel m;
-  m.entry.id = "Test#bed";
-  m.entry.kind = "bed";
-  m.entry.title = "A bed";
+  m.entry.id = "Test#lamp";
+  m.entry.kind = "ceiling lamp";
+  m.entry.title = "A lamp";
   m.entry.author = "Somebody";
   m.entry.licence = "CC-BY 3.0";
-  ModelBuilder b("bed");
+  ModelBuilder b("ceiling lamp");
   b.Colour({1, 2, 3});
-  b.mesh.AddBox({-0.8, -1, 0}, {0.8, 1, 0.5});
+  b.mesh.AddBox({-0.1, -0.1, -0.3}, {0.1, 0.1, 0});
   m.model = b.Finish();
   EXPECT_TRUE(WritePack({m}, dir).has_value());
   return *FurniturePack::Load(dir);
@@ -78,7 +78,7 @@ FurniturePack PackOfOneBed(const std::filesystem::path& dir) {
 
 TEST(HouseGenerator, FurnishesFromThePackAndCreditsIt) {
   const TempDir dir;
-  const FurniturePack pack = PackOfOneBed(dir.path() / "pack");
+  const FurniturePack pack = PackOfOneLamp(dir.path() / "pack");
   HouseParams params;
   params.seed = 5;
   params.floors = 1;
@@ -97,6 +97,23 @@ TEST(HouseGenerator, FurnishesFromThePackAndCreditsIt) {
   EXPECT_NE(text.find("\"author\": \"Somebody\""), std::string::npos);
   EXPECT_NE(ReadAll(plain->folder / "House5.house.json").find("\"furniture_pack\": null"),
             std::string::npos);
+}
+
+TEST(HouseGenerator, AScanOfAHouseIsAnotherPictureOfTheSameHouse) {
+  const TempDir dir;
+  HouseParams params;
+  params.seed = 5;
+  params.floors = 1;
+  params.area_m2 = 70;
+  const auto clean = GenerateHouse(params, dir.path() / "clean");
+  params.is_scan = true;
+  const auto a = GenerateHouse(params, dir.path() / "a"),
+             b = GenerateHouse(params, dir.path() / "b");
+  ASSERT_TRUE(clean && a && b);
+  EXPECT_EQ(ReadAll(a->folder / "House5.glb"), ReadAll(b->folder / "House5.glb"));
+  EXPECT_NE(ReadAll(a->folder / "House5.glb"), ReadAll(clean->folder / "House5.glb"));
+  EXPECT_EQ(a->instances, clean->instances);
+  EXPECT_EQ(a->rooms, clean->rooms);
 }
 
 TEST(HouseGenerator, RoomsOfAHouseCanBeReadBack) {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "floor_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "canvas.h"
+#include "crossnav/core/categories.h"
+
+namespace crossnav::app {
+namespace {
+
+constexpr Rgb8 kWhite{255, 255, 255}, kBlack{20, 20, 24};
+constexpr double kFoot_m = 0.3;    // chosen: a thing belongs to the floor at most this far above it
+constexpr double kDetail_px = 30;  // chosen: fewer pixels a metre leave no room for words on things
+constexpr std::array<Rgb8, kCategories.size()> kCategoryColours = {
+    Rgb8{230, 120, 20},  //
+    {200, 40, 160},     {20, 140, 40}, {20, 120, 220}, {120, 60, 220}, {210, 30, 40}};
+
+Rgb8 ColourOfCategory(const std::string& category) {
+  const auto it = std::find(kCategories.begin(), kCategories.end(), category);
+  return kCategoryColours[static_cast<std::size_t>(it - kCategories.begin()) %
+                          kCategoryColours.size()];
+}
+
+/// The highest floor that lies under `z_m`; the lowest where none does.
+int FloorUnder(const sim::NavMesh& navmesh, double z_m) {
+  int best = 0;
+  for (const sim::Floor& floor : navmesh.Floors()) {
+    if (floor.height_m <= z_m + kFoot_m) best = floor.id;
+  }
+  return best;
+}
+
+int NearestFloor(const sim::NavMesh& navmesh, double z_m) {
+  const auto& floors = navmesh.Floors();
+  const auto it =
+      std::min_element(floors.begin(), floors.end(), [z_m](const auto& a, const auto& b) {
+        return std::abs(a.height_m - z_m) < std::abs(b.height_m - z_m);
+      });
+  return it->id;
+}
+
+void Word(Canvas& canvas, PixelPoint center, std::string_view text, Rgb8 colour, double paper) {
+  const double half = 0.5 * TextWidth(text, 1);
+  const PixelPoint at{std::round(center.u - half), std::round(center.v - 3)};
+  canvas.Fill({at.u - 2, at.v - 2}, {at.u + 2 * half + 1, at.v + 9}, kWhite, paper);
+  canvas.Text(at, text, 1, colour);
+}
+
+void DrawObjects(const sim::Scene& scene, const sim::NavMesh& navmesh, int floor,
+                 const sim::TopDown& view, Canvas& canvas) {
+  for (const auto& thing : scene.instances) {
+    if (thing.category.empty() || FloorUnder(navmesh, thing.box.min.z()) != floor) continue;
+    const Rgb8 colour = ColourOfCategory(thing.category);
+    const PixelPoint a{view.U(thing.box.min), view.V(thing.box.min)};
+    const PixelPoint b{view.U(thing.box.max), view.V(thing.box.max)};
+    canvas.Box(a, b, 2, colour);
+    if (view.px_per_m < kDetail_px) continue;
+    const std::string word = thing.category == "tv_monitor" ? "tv" : thing.category;
+    Word(canvas, {0.5 * (a.u + b.u), 0.5 * (a.v + b.v)}, word, colour, 0.75);
+  }
+}
+
+void DrawRooms(const std::vector<world::HouseRoom>& rooms, const sim::NavMesh& navmesh, int floor,
+               const sim::TopDown& view, Canvas& canvas) {
+  for (const world::HouseRoom& room : rooms) {
+    if (NearestFloor(navmesh, room.floor_m) != floor || room.rects.empty()) continue;
+    const world::Rect& r = room.rects.front();
+    const double width_px = r.Depth() * view.px_per_m;  // world y runs along the picture's rows
+    std::string word = room.name;
+    if (TextWidth(word, 1) > width_px) word = word.substr(0, word.find(' '));
+    if (TextWidth(word, 1) > width_px + 12) continue;
+    const Vector3d top(r.x1, r.Center().y(), 0);
+    Word(canvas, {view.U(top), view.V(top) + 12}, word, kBlack, 0.85);
+  }
+}
+
+}  // namespace
+
+RgbImage DrawFloorPlan(const sim::Scene& scene, const sim::RayCaster& caster,
+                       const sim::NavMesh& navmesh, int floor, double px_per_m,
+                       const std::vector<world::HouseRoom>& rooms) {
+  const sim::TopDown view = sim::RenderTopDown(scene, caster, navmesh, floor, px_per_m);
+  Canvas canvas(view.image);
+  DrawObjects(scene, navmesh, floor, view, canvas);
+  DrawRooms(rooms, navmesh, floor, view, canvas);
+  return canvas.image();
+}
+
+}  // namespace crossnav::app

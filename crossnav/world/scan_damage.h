@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The faults of a real scan, put into a clean scene: holes, noise, loose fragments, mirrors and
+// panes without a surface, patches without a texture, things that end below the ceiling. Seeded and
+// deterministic. Names and instances stay; one can still walk wherever one could.
+#pragma once
+
+#include <cstdint>
+
+#include "crossnav/sim/scene.h"
+
+namespace crossnav::world {
+
+// All chosen by eye against published pictures of HM3D scans; a share of 0 switches a fault off.
+struct ScanDamage {
+  std::uint64_t seed = 1;
+  double holes_per_m2 = 0.03;
+  double hole_radius_m = 0.18;
+  double noise_m = 0.006;     ///< of vertices
+  int floaters = 40;          ///< loose fragments
+  double mirror_share = 0.8;  ///< of mirrors: gone with the wall behind, as a scanner sees through
+  double glass_share = 0.5;   ///< of windows: the pane is gone
+  double blanks_per_m2 = 0.02;  ///< patches without a texture
+  double blank_radius_m = 0.35;
+  double cut_share = 0.4;  ///< of what stands or hangs near a ceiling: its top is gone
+};
+
+void DamageAsScan(sim::Scene& scene, const ScanDamage& damage);
+
+}  // namespace crossnav::world
