@@ -31,12 +31,15 @@ struct WorldOptions {
   int count = 1, floors = 2;  ///< floors 0 = drawn from the seed
   double area_m2 = 0;         ///< of one floor; 0 = drawn from the seed
   std::string out;
-  std::string furniture;  ///< pack folder, "none", or empty = the default place
+  std::string furniture;      ///< pack folder, "none", or empty = the default place
   std::string contact_sheet;  ///< .png; empty = none
   bool embedded = false, scan = false;
 };
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& common,
                            Console& console);
+
+/// Makes houses, keeps none, and says what they amount to.
+Result<void> WorldStats(const WorldOptions& options, const CommonOptions& common, Console& console);
 
 struct AssetsOptions {
   std::string libraries;  ///< folder of .sh3f files or of the unpacked package; empty = installed

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kViewWidth_px = 320, kHeight_px = 240, kCaption_px = 14, kGap_px = 4;
 constexpr int kColumns = 2;
-constexpr int kSamples = 160;            // chosen: places from which the view is taken
+constexpr int kSamples = 100;            // chosen: places from which the view is taken
 constexpr double kCameraHeight_m = 1.1;  // chosen: between the robot's eye and a person's
 constexpr Rgb8 kPaper{250, 250, 250}, kInk{20, 20, 24};
 
@@ -101,10 +101,11 @@ Result<void> ContactSheet::Add(const world::HouseReport& house, std::uint64_t se
   if (!rooms) return tl::unexpected(rooms.error());
   const sim::RayCaster caster(*scene);
   std::vector<RgbImage> parts = {BestView(*scene, caster, *navmesh, seed)};
+  Box3 box;
+  for (const auto& v : scene->mesh.vertices) box.Add(v.cast<double>());
+  const double side_m = std::max(box.max.x() - box.min.x(), box.max.y() - box.min.y());
+  const double px_per_m = kHeight_px / side_m;
   for (const sim::Floor& floor : navmesh->Floors()) {
-    // Once to learn how large a floor is, then at the scale that fits.
-    const RgbImage small = sim::RenderTopDown(*scene, caster, *navmesh, floor.id, 4).image;
-    const double px_per_m = 4.0 * kHeight_px / std::max(small.height, small.width);
     parts.push_back(DrawFloorPlan(*scene, caster, *navmesh, floor.id, px_per_m, *rooms));
   }
   int width = kGap_px;

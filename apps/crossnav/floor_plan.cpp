@@ -42,15 +42,21 @@ int NearestFloor(const sim::NavMesh& navmesh, double z_m) {
   return it->id;
 }
 
-void Word(Canvas& canvas, PixelPoint center, std::string_view text, Rgb8 colour, double paper) {
+/// A label, unless another one is in its place.
+void Word(Canvas& canvas, PixelPoint center, std::string_view text, Rgb8 colour, double paper,
+          std::vector<world::Rect>& taken) {
   const double half = 0.5 * TextWidth(text, 1);
   const PixelPoint at{std::round(center.u - half), std::round(center.v - 3)};
+  const world::Rect place{at.u - 1, at.v - 1, at.u + 2 * half, at.v + 8};
+  const auto meets = [&](const world::Rect& other) { return place.Overlaps(other); };
+  if (std::any_of(taken.begin(), taken.end(), meets)) return;
+  taken.push_back(place);
   canvas.Fill({at.u - 2, at.v - 2}, {at.u + 2 * half + 1, at.v + 9}, kWhite, paper);
   canvas.Text(at, text, 1, colour);
 }
 
 void DrawObjects(const sim::Scene& scene, const sim::NavMesh& navmesh, int floor,
-                 const sim::TopDown& view, Canvas& canvas) {
+                 const sim::TopDown& view, Canvas& canvas, std::vector<world::Rect>& taken) {
   for (const auto& thing : scene.instances) {
     if (thing.category.empty() || FloorUnder(navmesh, thing.box.min.z()) != floor) continue;
     const Rgb8 colour = ColourOfCategory(thing.category);
@@ -59,12 +65,12 @@ void DrawObjects(const sim::Scene& scene, const sim::NavMesh& navmesh, int floor
     canvas.Box(a, b, 2, colour);
     if (view.px_per_m < kDetail_px) continue;
     const std::string word = thing.category == "tv_monitor" ? "tv" : thing.category;
-    Word(canvas, {0.5 * (a.u + b.u), 0.5 * (a.v + b.v)}, word, colour, 0.75);
+    Word(canvas, {0.5 * (a.u + b.u), 0.5 * (a.v + b.v)}, word, colour, 0.75, taken);
   }
 }
 
 void DrawRooms(const std::vector<world::HouseRoom>& rooms, const sim::NavMesh& navmesh, int floor,
-               const sim::TopDown& view, Canvas& canvas) {
+               const sim::TopDown& view, Canvas& canvas, std::vector<world::Rect>& taken) {
   for (const world::HouseRoom& room : rooms) {
     if (NearestFloor(navmesh, room.floor_m) != floor || room.rects.empty()) continue;
     const world::Rect& r = room.rects.front();
@@ -73,7 +79,7 @@ void DrawRooms(const std::vector<world::HouseRoom>& rooms, const sim::NavMesh& n
     if (TextWidth(word, 1) > width_px) word = word.substr(0, word.find(' '));
     if (TextWidth(word, 1) > width_px + 12) continue;
     const Vector3d top(r.x1, r.Center().y(), 0);
-    Word(canvas, {view.U(top), view.V(top) + 12}, word, kBlack, 0.85);
+    Word(canvas, {view.U(top), view.V(top) + 12}, word, kBlack, 0.85, taken);
   }
 }
 
@@ -84,8 +90,9 @@ RgbImage DrawFloorPlan(const sim::Scene& scene, const sim::RayCaster& caster,
                        const std::vector<world::HouseRoom>& rooms) {
   const sim::TopDown view = sim::RenderTopDown(scene, caster, navmesh, floor, px_per_m);
   Canvas canvas(view.image);
-  DrawObjects(scene, navmesh, floor, view, canvas);
-  DrawRooms(rooms, navmesh, floor, view, canvas);
+  std::vector<world::Rect> taken;  // by labels [px]
+  DrawRooms(rooms, navmesh, floor, view, canvas, taken);
+  DrawObjects(scene, navmesh, floor, view, canvas, taken);
   return canvas.image();
 }
 

@@ -48,29 +48,38 @@ CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const ch
   return verb;
 }
 
+/// What to draw houses from.
+void AddHouses(CLI::App* verb, WorldOptions& world) {
+  verb->add_option("--seed", world.seed, "First seed");
+  verb->add_option("--count", world.count, "Number of houses")->check(CLI::Range(1, 100000));
+  verb->add_option("--floors", world.floors, "Floors per house; 0 = by the seed")
+      ->check(CLI::Range(0, 4));
+  verb->add_option("--area", world.area_m2, "Area of a floor [m2], 60 to 400; default: by the seed")
+      ->check(CLI::Range(60.0, 400.0));
+  verb->add_option("--furniture", world.furniture,
+                   "Furniture pack, or none for simple shapes; default: the one that assets import "
+                   "made, where there is one")
+      ->type_name("DIR|none");
+  verb->add_flag("--scan", world.scan, "With the faults of a real scan, drawn from the seed");
+}
+
 void AddWorld(CLI::App& app, Options& o) {
   CLI::App* world = app.add_subcommand("world", "Make scenes");
   world->require_subcommand(1);
   CLI::App* verb = AddVerb(*world, o, "generate", "Furnished multi-floor houses in HM3D layout",
                            "crossnav world generate --seed 1 --count 4 --floors 2 --out scenes",
                            [&o](Console& c) { return WorldGenerate(o.world, o.common, c); });
-  verb->add_option("--seed", o.world.seed, "First seed");
-  verb->add_option("--count", o.world.count, "Number of houses")->check(CLI::Range(1, 100000));
-  verb->add_option("--floors", o.world.floors, "Floors per house; 0 = by the seed")
-      ->check(CLI::Range(0, 4));
-  verb->add_option("--area", o.world.area_m2,
-                   "Area of a floor [m2], 60 to 400; default: by the seed")
-      ->check(CLI::Range(60.0, 400.0));
+  AddHouses(verb, o.world);
   verb->add_option("--out", o.world.out, "Folder to write to")->required();
-  verb->add_option("--furniture", o.world.furniture,
-                   "Furniture pack, or none for simple shapes; default: the one that assets import "
-                   "made, where there is one")
-      ->type_name("DIR|none");
-  verb->add_flag("--scan", o.world.scan, "With the faults of a real scan, drawn from the seed");
   verb->add_option("--contact-sheet", o.world.contact_sheet,
                    "Picture of all houses: a view from inside and every floor from above")
       ->type_name("FILE.png");
   verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
+  CLI::App* stats =
+      AddVerb(*world, o, "stats", "What a set of generated houses amounts to; keeps none of them",
+              "crossnav world stats --seed 1 --count 200 --floors 0",
+              [&o](Console& c) { return WorldStats(o.world, o.common, c); });
+  AddHouses(stats, o.world);
 }
 
 void AddAssets(CLI::App& app, Options& o) {

@@ -75,8 +75,8 @@ class RoomFiller {
       for (int i = 0; i < rule.most; ++i) {
         if (!rng_.Chance(rule.chance)) continue;
         // Another size may fit where the first does not.
-        for (int size = 0; size < 3 && !Try(rule); ++size) {
-        }
+        bool is_done = false;
+        for (double share : {1.0, 0.8, 0.6, 0.5}) is_done = is_done || Try(rule, share);
       }
     }
     AddClutter();
@@ -163,21 +163,23 @@ class RoomFiller {
     for (const auto& item : group.items) {
       const Box3 box = BoxAt(item.model, T * item.T_group_object);
       if (box.max.z() > ceiling_m_ + 1e-6) return false;
-      if (IsFlat(box)) continue;
-      const auto hits = [&](const Box3& b) { return Overlap(box, b); };
-      if (std::any_of(keep_out_.begin(), keep_out_.end(), hits) ||
-          std::any_of(bodies_.begin(), bodies_.end(), hits) ||
-          std::any_of(fronts_.begin(), fronts_.end(), hits)) {
-        return false;
-      }
+      if (!item.is_optional && !IsFlat(box) && IsTaken(box)) return false;
     }
     return true;
+  }
+
+  bool IsTaken(const Box3& box) const {
+    const auto hits = [&](const Box3& b) { return Overlap(box, b); };
+    return std::any_of(keep_out_.begin(), keep_out_.end(), hits) ||
+           std::any_of(bodies_.begin(), bodies_.end(), hits) ||
+           std::any_of(fronts_.begin(), fronts_.end(), hits);
   }
 
   void Put(Group group, const Pose& T, const Rect& front) {
     for (auto& item : group.items) {
       const Pose T_world = T * item.T_group_object;
       const Box3 box = BoxAt(item.model, T_world);
+      if (item.is_optional && IsTaken(box)) continue;
       if (!IsFlat(box)) bodies_.push_back(box);
       plan_.furniture.push_back({std::move(item.model), T_world, index_});
     }
@@ -197,8 +199,9 @@ class RoomFiller {
     return true;
   }
 
-  bool Try(const Rule& rule) {
-    const double space = std::max(inner_.Width(), inner_.Depth());
+  /// `share` of the longest wall may be used.
+  bool Try(const Rule& rule, double share) {
+    const double space = share * std::max(inner_.Width(), inner_.Depth());
     auto group = MakeGroup(rule.kind, source_, space, rng_);
     if (!group) return false;
     switch (rule.where) {

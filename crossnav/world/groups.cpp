@@ -130,7 +130,9 @@ struct Maker {
         if (rng.Chance(0.3)) OnTop(g, rng.Chance(0.5) ? "bowl" : "vase", *unit, p);
         Rng again(look);
         auto upper = source.Make("kitchen upper cabinet", again);
-        g.Add(std::move(*upper), {p.x(), 0.5 * upper->Size().y(), 1.45});
+        const double depth_m = upper->Size().y();
+        g.Add(std::move(*upper), {p.x(), 0.5 * depth_m, 1.45});
+        g.items.back().is_optional = true;
       }
       g.Add(std::move(*unit), p);
       x += w + 0.004;
@@ -184,7 +186,7 @@ void Group::Add(ObjectModel model, const Vector3d& p_group, double yaw_rad) {
   Pose T = Pose::Identity();
   T.translate(p_group);
   T.rotate(Eigen::AngleAxisd(yaw_rad, Vector3d::UnitZ()));
-  items.push_back({std::move(model), T});
+  items.push_back({std::move(model), T, false});
 }
 
 void Group::Settle() {

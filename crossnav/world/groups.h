@@ -16,6 +16,7 @@ namespace crossnav::world {
 struct GroupItem {
   ObjectModel model;
   Pose T_group_object = Pose::Identity();
+  bool is_optional = false;  ///< left out where something is in its way, e.g. a window
 };
 
 struct Group {

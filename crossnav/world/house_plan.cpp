@@ -221,6 +221,7 @@ struct Draft {
         const bool is_small = type == RoomType::kBathroom || type == RoomType::kWc;
         o.width_m = is_small ? rng.Uniform(0.5, 0.8) : rng.Uniform(0.8, 1.7);
         o.sill_m = is_small ? 1.3 : rng.Uniform(0.75, 1.0);
+        if (type == RoomType::kKitchen) o.sill_m += 0.3;  // over the worktop
         o.head_m = std::min(2.15, rng.Uniform(2.0, 2.2));
         o.center_m = length * (i + 0.5) / count + rng.Uniform(-0.2, 0.2);
         if (type == RoomType::kVoid) o.sill_m = 0.6;

@@ -27,10 +27,13 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
 }
 
 TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb :
-       {"doctor", "assets import", "world generate", "scene info", "scene render", "scene import",
-        "scene views", "episodes generate", "episodes check", "run", "eval", "report", "metrics",
-        "replay export", "map info", "map query", "map export", "bench", "demo"}) {
+  for (const char* verb : {"doctor",         "assets import", "world generate",
+                           "world stats",    "scene info",    "scene render",
+                           "scene import",   "scene views",   "episodes generate",
+                           "episodes check", "run",           "eval",
+                           "report",         "metrics",       "replay export",
+                           "map info",       "map query",     "map export",
+                           "bench",          "demo"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;
@@ -282,6 +285,21 @@ TEST_F(Cli, ContactSheetAndFloorPlanAreDrawn) {
   fs::remove(At("houses/00005-House5/House5.house.json"));
   ASSERT_EQ(Run(render + "plain.png").exit_code, 0);  // other scenes know no rooms
   EXPECT_NE(ReadText(At("named.png")), ReadText(At("plain.png")));
+}
+
+TEST_F(Cli, WorldStatsCountsHousesAndKeepsNone) {
+  const Outcome outcome =
+      Run("world stats --seed 5 --count 2 --floors 1 --area 60 --furniture none --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json stats = Json::parse(outcome.out);
+  EXPECT_EQ(stats["asked"], 2);
+  EXPECT_EQ(stats["passed"], 2);
+  EXPECT_GE(stats["plans"], 2);
+  EXPECT_EQ(stats["floors"]["1"], 2);
+  EXPECT_GT(stats["instances"]["chair"], 0);
+  EXPECT_GT(stats["cpu_s"]["median"], 0);
+  EXPECT_LT(stats["largest_file_mb"]["max"], stats["house_mb"]["max"]);
+  EXPECT_FALSE(fs::exists(At("houses")));
 }
 
 TEST_F(Cli, WithoutAPackTheGeneratorSaysSoAndGoesOn) {
