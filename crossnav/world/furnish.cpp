@@ -297,13 +297,20 @@ class RoomFiller {
     return true;
   }
 
+  /// Where people put things down: not into a bath, not on top of a wardrobe.
+  static bool IsShelf(const ObjectModel& model) {
+    constexpr double kLow_m = 0.3, kHigh_m = 1.3;  // chosen: within reach
+    return model.top_m >= kLow_m && model.top_m <= kHigh_m && model.name != "bathtub" &&
+           model.name != "toilet" && model.name != "shower";
+  }
+
   /// Small things on free tops.
   void AddClutter() {
     static constexpr std::string_view kSmall[] = {"vase", "book", "bowl", "table lamp", "book"};
     const std::size_t count = plan_.furniture.size();
     for (std::size_t i = 0; i < count; ++i) {
       const ObjectModel& below = plan_.furniture[i].model;
-      if (plan_.furniture[i].room != index_ || below.top_m < 0.3 || !rng_.Chance(0.6)) continue;
+      if (plan_.furniture[i].room != index_ || !IsShelf(below) || !rng_.Chance(0.6)) continue;
       const Vector3d size = below.Size();
       auto model = source_.Make(kSmall[rng_.Below(std::size(kSmall))], rng_);
       Pose T = plan_.furniture[i].T_world_object;
