@@ -55,18 +55,14 @@ void Word(Canvas& canvas, PixelPoint center, std::string_view text, Rgb8 colour,
   canvas.Text(at, text, 1, colour);
 }
 
-void DrawObjects(const sim::Scene& scene, const sim::NavMesh& navmesh, int floor,
-                 const sim::TopDown& view, Canvas& canvas, std::vector<world::Rect>& taken) {
+std::vector<const sim::SceneInstance*> ObjectsOn(const sim::Scene& scene,
+                                                 const sim::NavMesh& navmesh, int floor) {
+  std::vector<const sim::SceneInstance*> things;
   for (const auto& thing : scene.instances) {
-    if (thing.category.empty() || FloorUnder(navmesh, thing.box.min.z()) != floor) continue;
-    const Rgb8 colour = ColourOfCategory(thing.category);
-    const PixelPoint a{view.U(thing.box.min), view.V(thing.box.min)};
-    const PixelPoint b{view.U(thing.box.max), view.V(thing.box.max)};
-    canvas.Box(a, b, 2, colour);
-    if (view.px_per_m < kDetail_px) continue;
-    const std::string word = thing.category == "tv_monitor" ? "tv" : thing.category;
-    Word(canvas, {0.5 * (a.u + b.u), 0.5 * (a.v + b.v)}, word, colour, 0.75, taken);
+    const bool is_here = FloorUnder(navmesh, thing.box.min.z()) == floor;
+    if (!thing.category.empty() && is_here) things.push_back(&thing);
   }
+  return things;
 }
 
 void DrawRooms(const std::vector<world::HouseRoom>& rooms, const sim::NavMesh& navmesh, int floor,
@@ -90,9 +86,18 @@ RgbImage DrawFloorPlan(const sim::Scene& scene, const sim::RayCaster& caster,
                        const std::vector<world::HouseRoom>& rooms) {
   const sim::TopDown view = sim::RenderTopDown(scene, caster, navmesh, floor, px_per_m);
   Canvas canvas(view.image);
+  const auto at = [&view](const Vector3d& p) { return PixelPoint{view.U(p), view.V(p)}; };
+  const auto things = ObjectsOn(scene, navmesh, floor);
+  for (const auto* thing : things) {
+    canvas.Box(at(thing->box.min), at(thing->box.max), 2, ColourOfCategory(thing->category));
+  }
   std::vector<world::Rect> taken;  // by labels [px]
   DrawRooms(rooms, navmesh, floor, view, canvas, taken);
-  DrawObjects(scene, navmesh, floor, view, canvas, taken);
+  for (const auto* thing : things) {
+    if (view.px_per_m < kDetail_px) break;
+    const std::string word = thing->category == "tv_monitor" ? "tv" : thing->category;
+    Word(canvas, at(thing->box.Center()), word, ColourOfCategory(thing->category), 0.75, taken);
+  }
   return canvas.image();
 }
 

@@ -292,9 +292,7 @@ TEST_F(Cli, WorldStatsCountsHousesAndKeepsNone) {
       Run("world stats --seed 5 --count 2 --floors 1 --area 60 --furniture none --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json stats = Json::parse(outcome.out);
-  EXPECT_EQ(stats["asked"], 2);
   EXPECT_EQ(stats["passed"], 2);
-  EXPECT_GE(stats["plans"], 2);
   EXPECT_EQ(stats["floors"]["1"], 2);
   EXPECT_GT(stats["instances"]["chair"], 0);
   EXPECT_GT(stats["cpu_s"]["median"], 0);
