@@ -111,13 +111,14 @@ class Reader {
     std::vector<bool> texture_cut_out;
     for (const tinygltf::Material& m : gltf_.materials) {
       const auto& pbr = m.pbrMetallicRoughness;
-      Material material{{255, 255, 255}, -1};
+      Material material{{255, 255, 255}};
       if (pbr.baseColorFactor.size() >= 3) {
         material.colour = {LinearToSrgb(pbr.baseColorFactor[0]),
                            LinearToSrgb(pbr.baseColorFactor[1]),
                            LinearToSrgb(pbr.baseColorFactor[2])};
       }
       material.texture = TextureOf(pbr.baseColorTexture.index);
+      material.is_unlit = m.extensions.count("KHR_materials_unlit") > 0;
       if (material.texture < 0 && pbr.baseColorTexture.index >= 0)
         material.colour = {200, 200, 200};
       texture_cut_out.resize(model_.textures.size(), false);

@@ -56,7 +56,7 @@ struct RayCaster::Impl {
     const Material& m = scene.materials[scene.mesh.triangle_material[t]];
     const bool textured = m.texture >= 0 && !scene.mesh.uvs.empty();
     const bool is_flat = !textured && scene.mesh.vertex_colours.empty();
-    return {scene.mesh.triangle_instance[t], m.colour, static_cast<std::uint8_t>(is_flat)};
+    return {scene.mesh.triangle_instance[t], m.colour, is_flat, m.is_unlit};
   }
 
   static void FilterHoles(const RTCFilterFunctionNArguments* arguments) {
@@ -118,12 +118,12 @@ struct RayCaster::Impl {
   Rgb8 ColourOf(const Hit& hit, float light) const {
     const TriangleLook& look = looks[hit.geometry][hit.primitive];
     const Colour3f base =
-        look.is_flat != 0
-            ? Colour3f{float(look.colour.r), float(look.colour.g), float(look.colour.b)}
-            : SurfaceColour(scene, triangles[hit.geometry][hit.primitive], hit.s, hit.t);
-    const auto byte = [light](float x) {
+        look.is_flat ? Colour3f{float(look.colour.r), float(look.colour.g), float(look.colour.b)}
+                     : SurfaceColour(scene, triangles[hit.geometry][hit.primitive], hit.s, hit.t);
+    const float share = look.is_unlit ? 1.0F : light;
+    const auto byte = [share](float x) {
       return static_cast<std::uint8_t>(
-          static_cast<int>(x * light + 0.5F));  // NOLINT: never negative
+          static_cast<int>(x * share + 0.5F));  // NOLINT: never negative
     };
     return {byte(base.r), byte(base.g), byte(base.b)};
   }

@@ -24,7 +24,8 @@ struct Texture {
 
 struct Material {
   Rgb8 colour{200, 200, 200};
-  int texture = -1;  ///< index into Scene::textures, or -1
+  int texture = -1;       ///< index into Scene::textures, or -1
+  bool is_unlit = false;  ///< the colours already hold the light, as a scan's do
 };
 
 struct TriangleMesh {

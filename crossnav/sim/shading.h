@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Colour of a surface point: material, texture and vertex colour under a lamp on the camera plus a
-// little light from above and from one side, so that walls, floor and edges can be told apart.
+// little light from above and from one side, so that walls, floor and edges can be told apart. What
+// is unlit (KHR_materials_unlit: the colours of a scan hold the light already) is shown as it is.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +15,11 @@ namespace crossnav::sim {
 /// What a hit needs to know of its triangle, eight bytes so that it stays in the cache.
 struct TriangleLook {
   std::int32_t instance = 0;
-  Rgb8 colour;               ///< final where `is_flat`
-  std::uint8_t is_flat = 1;  ///< neither texture nor vertex colours
+  Rgb8 colour;                ///< final where `is_flat`
+  bool is_flat : 1 = true;    ///< neither texture nor vertex colours
+  bool is_unlit : 1 = false;  ///< shows its colour as it is
 };
+static_assert(sizeof(TriangleLook) == 8);
 
 struct Colour3f {
   float r = 0, g = 0, b = 0;

@@ -95,6 +95,10 @@ TEST(GltfReader, LinearBaseColourBecomesSrgb) {
   maker.AddMesh({{"attributes", {{"POSITION", position}}}, {"material", 0}});
   const GltfModel model = Parse(maker);
   EXPECT_EQ(model.materials[model.mesh.triangle_material[0]].colour, (Rgb8{255, 128, 0}));
+  EXPECT_FALSE(model.materials[model.mesh.triangle_material[0]].is_unlit);
+  maker.json["materials"][0]["extensions"] = {{"KHR_materials_unlit", nlohmann::json::object()}};
+  const GltfModel unlit = Parse(maker);
+  EXPECT_TRUE(unlit.materials[unlit.mesh.triangle_material[0]].is_unlit);
 }
 
 TEST(GltfReader, RawVertexColoursKeepTheirBytesInEveryComponentType) {

@@ -169,6 +169,24 @@ TEST(RayCaster, TexturesLieWhereTheirCoordinatesSay) {
   EXPECT_LT(frame.rgb.At(24, 24).r, 40);
 }
 
+TEST(RayCaster, UnlitSurfacesKeepTheirColoursFromEverySide) {
+  Texture texture;
+  texture.rgb = RgbImage(1, 1, {200, 150, 100});
+  Scene scene = TexturedSquare(texture);
+  const auto colour_at_centre = [&scene] {
+    const RayCaster caster(scene);
+    const Frame frame = caster.Render(IntrinsicsFromHfov(3, 3, DegToRad(90)), CameraPose({}, 0));
+    const auto hit = caster.Cast({0, 0.9, 0}, {1, -0.4, 0}, 10);  // aslant
+    EXPECT_EQ(hit->colour == Rgb8({200, 150, 100}), scene.materials[0].is_unlit);
+    return frame.rgb.At(1, 1);
+  };
+  EXPECT_LT(colour_at_centre().r, 190);
+  scene.materials[0].is_unlit = true;
+  EXPECT_EQ(colour_at_centre(), (Rgb8{200, 150, 100}));
+  scene.materials[0] = {{200, 150, 100}, -1, true};
+  EXPECT_EQ(colour_at_centre(), (Rgb8{200, 150, 100}));
+}
+
 TEST(RayCaster, HolesOfATextureLetRaysThrough) {
   Texture texture;
   texture.rgb = RgbImage(2, 1, {200, 200, 200});
