@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossnav/bench/timing.h"
 #include "crossnav/world/house_generator.h"
 
 namespace crossnav::app {
@@ -27,13 +28,6 @@ struct Totals {
 
   int Passed() const { return asked - static_cast<int>(failed.size()); }
 };
-
-/// Value below which the share `q` lies; 0 of nothing.
-double Quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
-}
 
 double LargestFile(const fs::path& folder) {
   std::uintmax_t most = 0;
@@ -66,8 +60,9 @@ std::string CountsText(const Counts& counts) {
 }
 
 std::string SpreadText(const std::vector<double>& values, int digits) {
-  return fmt::format("{:.{}f} / {:.{}f} / {:.{}f}", Quantile(values, 0.5), digits,
-                     Quantile(values, 0.95), digits, Quantile(values, 1), digits);
+  return fmt::format("{:.{}f} / {:.{}f} / {:.{}f}", bench::PercentileOf(values, 0.5), digits,
+                     bench::PercentileOf(values, 0.95), digits, bench::PercentileOf(values, 1),
+                     digits);
 }
 
 std::string Table(const Totals& t) {
@@ -94,9 +89,9 @@ std::string Table(const Totals& t) {
 }
 
 Json SpreadJson(const std::vector<double>& values) {
-  return {{"median", Quantile(values, 0.5)},
-          {"p95", Quantile(values, 0.95)},
-          {"max", Quantile(values, 1)}};
+  return {{"median", bench::PercentileOf(values, 0.5)},
+          {"p95", bench::PercentileOf(values, 0.95)},
+          {"max", bench::PercentileOf(values, 1)}};
 }
 
 Json Document(const Totals& t, const world::FurniturePack* pack) {
