@@ -52,7 +52,7 @@ Properties ParseProperties(const std::string& text) {
   while (std::getline(lines, line)) {
     const auto equals = line.find('=');
     if (line.empty() || line[0] == '#' || equals == std::string::npos) continue;
-    const auto trim = [](std::string s) {
+    const auto trim = [](const std::string& s) {
       const auto a = s.find_first_not_of(" \t\r"), b = s.find_last_not_of(" \t\r");
       return a == std::string::npos ? std::string() : s.substr(a, b - a + 1);
     };

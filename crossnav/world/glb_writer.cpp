@@ -56,6 +56,7 @@ struct Buffers {
     int a = 0;
     if (vertices <= kMostShort) {
       std::vector<std::array<std::uint16_t, 3>> narrow;
+      narrow.reserve(triangles.size());
       for (const auto& t : triangles) {
         narrow.push_back({static_cast<std::uint16_t>(t[0]), static_cast<std::uint16_t>(t[1]),
                           static_cast<std::uint16_t>(t[2])});
@@ -168,10 +169,12 @@ Json RenderPrimitive(const sim::Scene& scene, const std::vector<std::uint32_t>& 
     triangles.push_back(tri);
   }
   std::vector<Vector3f> points_file;
+  points_file.reserve(used.size());
   for (auto v : used) points_file.push_back(FileOfWorld(mesh.vertices[v]));
   Json attributes = {{"POSITION", buffers.AddPositions(points_file)}};
   if (scene.materials[static_cast<std::size_t>(material)].texture >= 0) {
     std::vector<std::array<float, 2>> uvs;
+    uvs.reserve(used.size());
     for (auto v : used) uvs.push_back(mesh.uvs[v]);
     attributes["TEXCOORD_0"] = buffers.AddAccessor(uvs, kFloat, "VEC2", kArrayBuffer);
   }

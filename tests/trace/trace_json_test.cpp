@@ -36,19 +36,18 @@ StepTrace SmallStep() {
 }
 
 TEST(TraceJson, IsOneCanonicalLine) {
-  EXPECT_EQ(
-      ToJson(SmallStep()),
-      R"({"step":12,"goal_index":1,"goal":"tv_monitor","agent":{"p_world":[0.1,-2,1e-09],)"
-      R"("yaw_rad":0.5,"pitch_rad":0},"T_world_camera":[1,0,0,0.1,0,1,0,-2,0,0,1,0.88],)"
-      R"("action":"turn_left","mode":"basic_explore","reason":"said \"so\"\n",)"
-      R"("candidates":[{"kind":"live_poi","p_nav_world":[1,2,3],"p_focus_world":[4,5,6],)"
-      R"("score":0.25,"path_cost":-1,"size":7,"is_reachable":true,"is_target":false}],)"
-      R"("path_world":[[0,0,0],[1,0.30000000000000004,0]],)"
-      R"("verification":{"is_active":true,"passed":false,"confidence":0.7,"mask_quality":0,)"
-      R"("visibility":0,"view_angle_deg":0,"distance_m":1.5,"failed_check":"distance"},)"
-      R"("events":["goal activated: tv_monitor"],"level_m":2.8,"all_explored":false,)"
-      R"("detections":2,"memory":{"rows":900,"compacted_rows":80,"dropped_rows":7},)"
-      R"("voxel_changes":[[-1,2,3,5,0],[4,5,6,2,1]]})");
+  EXPECT_EQ(ToJson(SmallStep()),
+            R"({"step":12,"goal_index":1,"goal":"tv_monitor","agent":{"p_world":[0.1,-2,1e-09],)"
+            R"("yaw_rad":0.5,"pitch_rad":0},"T_world_camera":[1,0,0,0.1,0,1,0,-2,0,0,1,0.88],)"
+            R"("action":"turn_left","mode":"basic_explore","reason":"said \"so\"\n",)"
+            R"("candidates":[{"kind":"live_poi","p_nav_world":[1,2,3],"p_focus_world":[4,5,6],)"
+            R"("score":0.25,"path_cost":-1,"size":7,"is_reachable":true,"is_target":false}],)"
+            R"("path_world":[[0,0,0],[1,0.30000000000000004,0]],)"
+            R"("verification":{"is_active":true,"passed":false,"confidence":0.7,"mask_quality":0,)"
+            R"("visibility":0,"view_angle_deg":0,"distance_m":1.5,"failed_check":"distance"},)"
+            R"("events":["goal activated: tv_monitor"],"level_m":2.8,"all_explored":false,)"
+            R"("detections":2,"memory":{"rows":900,"compacted_rows":80,"dropped_rows":7},)"
+            R"("voxel_changes":[[-1,2,3,5,0],[4,5,6,2,1]]})");
 }
 
 TEST(TraceJson, ComesBackWithTheSameBytes) {
