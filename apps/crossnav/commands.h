@@ -12,6 +12,7 @@
 #include "crossnav/bench/run_config.h"
 #include "crossnav/core/result.h"
 #include "crossnav/world/furniture_pack.h"
+#include "crossnav/world/house_params.h"
 
 namespace crossnav::app {
 
@@ -34,6 +35,16 @@ struct WorldOptions {
   std::string furniture;      ///< pack folder, "none", or empty = the default place
   std::string contact_sheet;  ///< .png; empty = none
   bool embedded = false, scan = false;
+
+  /// Of house `i` of the set.
+  world::HouseParams ParamsOf(int i) const {
+    world::HouseParams params;
+    params.seed = seed + static_cast<std::uint64_t>(i);
+    params.floors = floors;
+    params.area_m2 = area_m2;
+    params.is_scan = scan;
+    return params;
+  }
 };
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& common,
                            Console& console);

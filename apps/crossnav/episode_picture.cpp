@@ -22,9 +22,9 @@ namespace {
 
 constexpr double kPxPerM = 60;  // chosen: a 10 m house fits a screen
 constexpr std::array<Rgb8, 6> kGoalColours = {
-    {{214, 39, 40}, {31, 119, 180}, {148, 60, 180}, {230, 120, 10}, {20, 150, 140}, {120, 80, 60}}};
+    {{214, 39, 40}, {31, 119, 180}, {148, 60, 180}, {200, 60, 140}, {20, 150, 140}, {120, 80, 60}}};
 constexpr Rgb8 kFrontierColour{240, 200, 0};
-constexpr Rgb8 kStairColour{40, 160, 60};
+constexpr Rgb8 kStairColour{240, 130, 10};  // the replay page's
 constexpr Rgb8 kBlack{0, 0, 0};
 constexpr Rgb8 kWhite{255, 255, 255};
 
@@ -52,6 +52,7 @@ void DrawLegend(FloorCanvas& floor, const bench::Episode& episode) {
   }
   row(kFrontierColour, "frontier");
   row(kStairColour, "stairs");
+  row(sim::kWalkableTint, "walkable");
 }
 
 }  // namespace

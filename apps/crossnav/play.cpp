@@ -37,6 +37,7 @@ class TraceLog : public bench::RunObserver {
 class ReplayLog : public bench::RunObserver {
  public:
   explicit ReplayLog(trace::ReplayWriter writer) : writer_(std::move(writer)) {}
+  bool NeedsColour() const override { return true; }
 
   Result<void> OnStep(const bench::StepView& step) override {
     last_step_ = step.trace.step;

@@ -49,11 +49,7 @@ Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*c
   ContactSheet sheet;
   for (int i = 0; i < options.count && !options.embedded; ++i) {
     console.Progress(fmt::format("house {} of {}", i + 1, options.count));
-    world::HouseParams params;
-    params.seed = options.seed + static_cast<std::uint64_t>(i);
-    params.floors = options.floors;
-    params.area_m2 = options.area_m2;
-    params.is_scan = options.scan;
+    const world::HouseParams params = options.ParamsOf(i);
     const auto house = world::GenerateHouse(params, options.out, pack ? &*pack : nullptr);
     if (!house) return tl::unexpected(house.error());
     console.EndProgress();

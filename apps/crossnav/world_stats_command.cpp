@@ -125,11 +125,7 @@ Result<void> WorldStats(const WorldOptions& options, const CommonOptions& /*comm
   Totals totals;
   for (int i = 0; i < options.count; ++i) {
     console.Progress(fmt::format("house {} of {}", i + 1, options.count));
-    world::HouseParams params;
-    params.seed = options.seed + static_cast<std::uint64_t>(i);
-    params.floors = options.floors;
-    params.area_m2 = options.area_m2;
-    params.is_scan = options.scan;
+    const world::HouseParams params = options.ParamsOf(i);
     const std::clock_t cpu = std::clock();
     const auto start = std::chrono::steady_clock::now();
     const auto house = world::GenerateHouse(params, place, source);

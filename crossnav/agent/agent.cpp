@@ -5,21 +5,15 @@
 #include <ctime>
 #include <utility>
 
-#include "crossnav/agent/behaviour.h"
-#include "crossnav/agent/state.h"
-#include "crossnav/agent/targets.h"
+#include "crossnav/agent/decision.h"
+#include "crossnav/agent/navigator.h"
+#include "crossnav/agent/paper_policy.h"
+#include "crossnav/agent/remembered_places.h"
 #include "crossnav/core/check.h"
-#include "crossnav/policy/stair_geometry.h"
 
 namespace crossnav::agent {
 
-using policy::Mode;
-using policy::ModeDecision;
-using policy::ModeInputs;
-
 namespace {
-
-constexpr double kOtherLevel_m = 0.5;  // chosen: more than the level band
 
 /// CPU time between calls, for StepResult::timing.
 class StageClock {
@@ -54,56 +48,18 @@ Result<void> CheckObservation(const Observation& obs) {
   return {};
 }
 
-/// What the candidates of this step are, each with its plan.
-struct Options {
-  std::optional<Target> live, history, exploration, stair;
-  int live_id = -1, history_index = -1;
-  std::vector<policy::Candidate> shown;
-};
-
-/// eq:supp_candidate_set. Only classes that could be chosen now are planned for.
-Options CollectCandidates(Situation& now) {
-  Options options;
-  if (now.goal.session) {
-    if (now.goal.script.empty()) options.stair = ChooseStairFrontier(now);
-    if (options.stair) options.shown.push_back(options.stair->candidate);
-    return options;
-  }
-  options.live = ChooseLivePoi(now, &options.live_id);
-  options.history = ChooseHistoryPoi(now, &options.history_index);
-  if (!options.live && !options.history && !now.goal.entrance && now.goal.script.empty())
-    options.exploration = ChooseExploration(now, &options.shown);
-  if (options.history) options.shown.insert(options.shown.begin(), options.history->candidate);
-  if (options.live) options.shown.insert(options.shown.begin(), options.live->candidate);
-  return options;
-}
-
-ModeInputs InputsFor(const Situation& now, const Options& options, SessionVerdict session,
-                     EntranceVerdict entrance) {
-  ModeInputs in;
-  in.mode = now.goal.mode;
-  in.is_new_goal = now.goal.is_new;
-  in.entrance_verified = entrance == EntranceVerdict::kVerified;
-  in.session_on_landing = session == SessionVerdict::kLandingReached;
-  in.session_failed = session == SessionVerdict::kFailed;
-  in.has_live_poi = options.live.has_value();
-  in.has_history_poi = options.history.has_value();
-  in.is_following_history = now.goal.active_history >= 0;
-  if (options.live && options.history) {
-    const Vector3d d =
-        options.live->candidate.p_focus_world - options.history->candidate.p_focus_world;
-    in.live_near_history = d.norm() <= now.config.policy.poi.live_takeover_m;
-  }
-  in.is_near_viewpoint =
-      options.live && options.live->plan.cost * now.config.map.voxel_m <= 1.0;  // chosen
-  return in;
-}
-
 /// What later stages need of a frame.
 struct Seen {
   std::vector<policy::Sighting> sightings;
   int detections = 0;
 };
+
+/// What counts as a hint of the goal: every sighting, however small.
+policy::ObjectConfig HintConfig(policy::ObjectConfig config) {
+  config.detector_confidence = config.secondary_confidence;
+  config.min_box_area_fraction = 0;
+  return config;
+}
 
 trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_m) {
   trace::CandidateTrace t;
@@ -123,113 +79,13 @@ struct Agent::Impl {
   perception::PerceptionSuite perception;
   World world;
   GoalState goal;
-  policy::BumpMonitor bumps;
-  std::vector<geometry::StateChange> changes;
 
   Impl(const Config& c, perception::PerceptionSuite p)
       : config(c), perception(std::move(p)), world(c) {}
 
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
-  void UpdateMap();
-  void UpdateLevel(const AgentPose& agent);
-  void NoticeBump(const AgentPose& agent);
-  void ApplyMode(const ModeDecision& next, const Options& options);
-  const std::optional<Target>& SelectTarget(const ModeDecision& next, const Options& options) const;
-  std::optional<Action> Act(Situation& now, const ModeDecision& next,
-                            const std::optional<Target>& target,
-                            const policy::Verification& verification);
-  bool Reconsider(Situation& now);
-  void Record(StepResult& result, const ModeDecision& next, const Options& options,
-              const std::optional<Target>& target, const policy::Verification& verification);
+  void Record(StepResult& result, const Decision& decision);
 };
-
-void Agent::Impl::UpdateMap() {
-  const auto& fresh = world.map.UpdateStates();
-  changes.insert(changes.end(), fresh.begin(), fresh.end());
-}
-
-void Agent::Impl::UpdateLevel(const AgentPose& agent) {
-  if (!world.has_level) {
-    world.has_level = true;
-    world.level_m = agent.p_world.z();
-    goal.p_looked_around_world = agent.p_world;
-    QueueLookAround(goal, agent, config.action);
-    return;
-  }
-  if (goal.session || std::abs(agent.p_world.z() - world.level_m) < kOtherLevel_m) return;
-  if (!policy::IsFlatAround(world.map, agent.p_world)) return;
-  world.level_m = agent.p_world.z();
-  goal.commitment.reset();
-  goal.events.push_back("on another level");
-}
-
-void Agent::Impl::NoticeBump(const AgentPose& agent) {
-  if (!bumps.Update(agent, world.step, config.map)) return;
-  goal.events.push_back("bump");
-  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
-  const auto escape = policy::EscapeActions(world.map, agent, bumps.bumped_yaws(), config.action);
-  goal.script.assign(escape.begin(), escape.end());
-  goal.events.push_back("stuck: stepping aside");
-}
-
-void Agent::Impl::ApplyMode(const ModeDecision& next, const Options& options) {
-  const bool is_poi = next.mode == Mode::kPoiNavigation || next.mode == Mode::kTargetApproach;
-  if (is_poi) {
-    goal.script.clear();
-    goal.entrance.reset();
-    goal.commitment.reset();
-  }
-  const int live = is_poi && next.uses_live_poi ? options.live_id : -1;
-  if (live != goal.active_live) {
-    goal.tried_viewpoints.clear();
-    goal.failed_views = 0;
-  }
-  goal.active_live = live;
-  goal.active_history = is_poi && !next.uses_live_poi ? options.history_index : -1;
-  if (next.mode != goal.mode) goal.events.push_back("mode: " + std::string(NameOf(next.mode)));
-  goal.mode = next.mode;
-  goal.is_new = false;
-}
-
-const std::optional<Target>& Agent::Impl::SelectTarget(const ModeDecision& next,
-                                                       const Options& options) const {
-  switch (next.mode) {
-    case Mode::kStairExplore:
-      return options.stair;
-    case Mode::kPoiNavigation:
-      return next.uses_live_poi ? options.live : options.history;
-    case Mode::kTargetApproach:
-      return options.live;
-    case Mode::kBasicExplore:
-      break;
-  }
-  return options.exploration;
-}
-
-std::optional<Action> Agent::Impl::Act(Situation& now, const ModeDecision& next,
-                                       const std::optional<Target>& target,
-                                       const policy::Verification& verification) {
-  if (next.mode == Mode::kStairExplore) return Climb(now, target);
-  if (!goal.script.empty()) {
-    const Action scripted = goal.script.front();
-    goal.script.pop_front();
-    return scripted;
-  }
-  if (!target) return std::nullopt;
-  if (next.mode == Mode::kBasicExplore) return Explore(now, *target);
-  if (!next.uses_live_poi) return VisitHistoryPoi(now, *target);
-  return Approach(now, *target, *goal.live.Find(goal.active_live), verification);
-}
-
-/// Nothing to go to: what may have been overlooked, from cheap to dear. False when all is done.
-bool Agent::Impl::Reconsider(Situation& now) {
-  if (!bumps.obstacles().empty()) {
-    bumps.Clear();
-    goal.events.push_back("temporary obstacles forgotten");
-    return true;
-  }
-  return LookAroundOnce(now) || Relax(now);
-}
 
 Agent::Agent(const Config& config, perception::PerceptionSuite perception)
     : impl_(std::make_unique<Impl>(config, std::move(perception))) {}
@@ -262,7 +118,8 @@ Result<void> Agent::SetGoal(const std::string& name) {
   fresh.events.push_back("goal activated: " + name);
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
-  impl_->bumps.Clear();
+  impl_->goal.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
+  impl_->world.bumps.Clear();
   return {};
 }
 
@@ -276,6 +133,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
     return Fail(ErrorCode::kMismatch, "the saved features have another dimension than the encoder",
                 "memory");
   world.map = std::move(map);
+  world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
   return {};
 }
@@ -290,7 +148,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   const auto& end_voxels = world.map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
   world.map.ObserveBody(agent.p_world, config.sensor.camera_height_m);
   clock.Stop("integrate");
-  UpdateMap();
+  world.UpdateStates();
   clock.Stop("classify");
 
   // eq:intra_frame_fusion, eq:supp_feature_fusion.
@@ -308,8 +166,9 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
       policy::LiftDetections(percept->detections, obs, config.map, config.policy.object,
                              config.policy.object.secondary_confidence);
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
-  NoticeBump(agent);
-  UpdateLevel(agent);
+  goal.hints.Update(sightings, HintConfig(config.policy.object), config.map.voxel_m, world.step);
+  goal.coverage.Add(end_voxels, obs.T_world_camera.translation(), goal.inspect_range_m,
+                    config.map.voxel_m);
   clock.Stop("evidence");
   return Seen{std::move(sightings), static_cast<int>(percept->detections.size())};
 }
@@ -317,43 +176,24 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
 Result<StepResult> Agent::Step(const Observation& obs) {
   if (auto ok = CheckObservation(obs); !ok) return tl::unexpected(ok.error());
   Impl& self = *impl_;
-  GoalState& goal = self.goal;
-  const double camera_m = self.config.sensor.camera_height_m;
-  const AgentPose agent = AgentPoseOf(obs.T_world_camera, camera_m);
+  const AgentPose agent = AgentPoseOf(obs.T_world_camera, self.config.sensor.camera_height_m);
   StepResult result;
   StageClock clock(result.timing);
-  self.changes.clear();
+  self.world.changes.clear();
 
   const auto seen = self.See(obs, agent, clock);  // map, memory, evidence
   if (!seen) return tl::unexpected(seen.error());
 
-  const auto start = planner::StartVoxel(self.world.map, agent.p_world);
-  Situation now{self.config, self.world, goal, agent, start, &self.bumps.obstacles()};
-  std::optional<Action> look;
-  const SessionVerdict session = CheckSession(now);
-  const EntranceVerdict entrance = CheckEntrance(now, &look);
-  self.UpdateMap();
-  const Options options = CollectCandidates(now);  // eq:supp_candidate_set
-  const ModeDecision next = NextMode(InputsFor(now, options, session, entrance));  // pure
-  self.ApplyMode(next, options);
-  clock.Stop("candidates");
+  // Candidates, mode and target, plan, action.
+  Situation now{self.config, self.world, self.goal, agent, obs, seen->sightings};
+  const bool is_literal = self.config.policy.profile == "paper";
+  const Decision decision = is_literal ? paper::Decide(now) : Navigate(now);
+  clock.Stop("decide");
 
-  const auto& target = self.SelectTarget(next, options);  // eq:supp_candidate_priority
-  policy::Verification verification;
-  if (next.uses_live_poi) {
-    verification = policy::Verify(*goal.live.Find(goal.active_live), seen->sightings, obs,
-                                  self.config.policy, camera_m, self.config.map.voxel_m);
-  }
-  const bool is_looking = look && next.mode == Mode::kBasicExplore;
-  const auto action = is_looking ? look : self.Act(now, next, target, verification);
-  if (!action) result.all_explored = !self.Reconsider(now);
-  result.action = action.value_or(Action::kTurnLeft);
-  if (next.uses_live_poi && result.action == Action::kStop)
-    result.p_claimed_world = goal.live.Find(goal.active_live)->p_center_world;
-  self.bumps.Commit(result.action, agent);
-  clock.Stop("act");
-
-  self.Record(result, next, options, target, verification);
+  result.all_explored = !decision.action;
+  result.action = decision.action.value_or(Action::kTurnLeft);
+  result.p_claimed_world = decision.p_claimed_world;
+  self.Record(result, decision);
   result.trace.agent = agent;
   result.trace.T_world_camera = obs.T_world_camera;
   result.trace.detections = seen->detections;
@@ -361,40 +201,42 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   return result;
 }
 
-void Agent::Impl::Record(StepResult& result, const ModeDecision& next, const Options& options,
-                         const std::optional<Target>& target,
-                         const policy::Verification& verification) {
+void Agent::Impl::Record(StepResult& result, const Decision& decision) {
   trace::StepTrace& t = result.trace;
   t.step = world.step;
   t.goal_index = goal.index;
   t.goal = goal.goal;
   t.action = result.action;
-  t.mode = NameOf(next.mode);
-  t.reason = NameOf(next.reason);
+  t.mode = NameOf(decision.mode.mode);
+  t.reason = NameOf(decision.mode.reason);
   t.level_m = world.level_m;
   t.all_explored = result.all_explored;
-  for (const policy::Candidate& candidate : options.shown) {
+  for (const policy::Candidate& candidate : decision.shown) {
     auto described = Describe(candidate, config.map.voxel_m);
-    if (target && candidate.kind == target->candidate.kind &&
-        candidate.p_focus_world == target->candidate.p_focus_world) {
+    if (decision.target && candidate.kind == decision.target->kind &&
+        candidate.p_focus_world == decision.target->p_focus_world) {
       described.is_target = true;
-      described.path_cost = target->plan.cost;
-      described.p_nav_world = CenterOf(target->plan.path.back(), config.map.voxel_m);
+      described.path_cost = decision.path_cost;
+      if (!decision.path.empty())
+        described.p_nav_world = CenterOf(decision.path.back(), config.map.voxel_m);
     }
     t.candidates.push_back(std::move(described));
   }
-  if (target) {
-    for (const auto& key : target->plan.path)
-      t.path_world.push_back(CenterOf(key, config.map.voxel_m));
-  }
-  t.verification = {next.uses_live_poi,      verification.passed,
-                    verification.confidence, verification.mask_quality,
-                    verification.visibility, RadToDeg(verification.view_angle_rad),
-                    verification.distance_m, next.uses_live_poi ? verification.failed_check : ""};
+  for (const auto& key : decision.path) t.path_world.push_back(CenterOf(key, config.map.voxel_m));
+  const policy::Verification& verification = decision.verification;
+  const bool is_live = decision.mode.uses_live_poi;
+  t.verification = {is_live,
+                    verification.passed,
+                    verification.confidence,
+                    verification.mask_quality,
+                    verification.visibility,
+                    RadToDeg(verification.view_angle_rad),
+                    verification.distance_m,
+                    is_live ? verification.failed_check : ""};
   t.events = std::exchange(goal.events, {});
   const memory::MemoryCounters counters = world.memory.Counters();
   t.memory = {world.memory.Size(), counters.compacted_rows, counters.dropped_rows};
-  t.voxel_changes = std::move(changes);
+  t.voxel_changes = std::move(world.changes);
 }
 
 }  // namespace crossnav::agent

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "crossnav/agent/targets.h"
+#include "crossnav/planner/astar.h"
 #include "crossnav/policy/approach.h"
 
 namespace crossnav::agent {

@@ -13,6 +13,8 @@
 
 namespace crossnav::agent {
 
+constexpr int kBlindRing_vox = 4;  // chosen: what lies under a camera one pitch step down
+
 /// Places to stand with a view, and the way to the cheapest that can be reached.
 struct ViewWay {
   std::vector<geometry::VoxelKey> standing;

@@ -8,11 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "crossnav/agent/activity.h"
 #include "crossnav/agent/config.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/planner/ground_map.h"
 #include "crossnav/policy/candidates.h"
+#include "crossnav/policy/coverage.h"
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/policy/modes.h"
 #include "crossnav/policy/stair_evidence.h"
@@ -30,6 +33,7 @@ struct StairLink {
 /// Survives a change of goal.
 struct World {
   geometry::VoxelMap map;
+  planner::GroundMap ground;
   memory::SemanticMemory memory;
   policy::StairEvidence stairs;
   std::vector<StairLink> links;
@@ -37,9 +41,22 @@ struct World {
   bool has_level = false;
   int step = 0;
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
+  int flat_frames = 0;     ///< consecutive frames on flat ground off the exploration level
+  double looked_around_m = -1e9;  ///< height of the last look around on arrival
+  std::optional<AgentPose> before_forward;  ///< pose before the last forward step
+  policy::BumpMonitor bumps;                ///< policy.profile = paper
+
+  std::vector<geometry::StateChange> changes;  ///< of this step
+
+  /// Brings states and ground up to date with the evidence.
+  void UpdateStates() {
+    const auto& fresh = map.UpdateStates();
+    changes.insert(changes.end(), fresh.begin(), fresh.end());
+    ground.Update(fresh);
+  }
 
   explicit World(const Config& config)
-      : map(config.map), memory(config.fusion, config.map.voxel_m) {}
+      : map(config.map), ground(config.map), memory(config.fusion, config.map.voxel_m) {}
 };
 
 /// A place of the memory that answered the goal's query.
@@ -94,6 +111,14 @@ struct GoalState {
   Vector3d p_looked_around_world = Vector3d::Constant(1e9);
   bool is_relaxed = false;          ///< the one relaxed retry was used
   std::vector<std::string> events;  ///< of this step
+
+  // policy.profile = full
+  Activity activity;
+  std::vector<Attempt> attempts;  ///< everything that was tried and ended
+  policy::LivePois hints;         ///< sightings too weak for a live POI
+  policy::Coverage coverage;
+  int last_resorts = 0;  ///< of the things to try when nothing is left, how many were used
+  double inspect_range_m = 0;
 };
 
 }  // namespace crossnav::agent

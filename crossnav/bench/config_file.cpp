@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/config_visitor.h"
+#include "crossnav/core/read_file.h"
 #include "crossnav/core/rng.h"
 
 namespace crossnav::bench {
@@ -239,11 +239,9 @@ Result<void> ApplyConfigText(std::string_view text, const std::string& name, Run
 }
 
 Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config) {
-  std::ifstream stream(path);
-  if (!stream) return Fail(ErrorCode::kNotFound, "config file cannot be opened", path.string());
-  std::ostringstream buffer;
-  buffer << stream.rdbuf();
-  return ApplyConfigText(buffer.str(), path.string(), config);
+  const auto text = ReadFile(path);
+  if (!text) return tl::unexpected(text.error());
+  return ApplyConfigText(*text, path.string(), config);
 }
 
 Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Result records <-> JSON; the only file here that knows the JSON library for them.
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "crossnav/bench/result_records.h"
+#include "crossnav/core/read_file.h"
 
 namespace crossnav::bench {
 namespace {
@@ -285,11 +284,9 @@ std::string ToJsonLine(const EpisodeRecord& record, bool with_timings) {
 }
 
 Result<ResultFile> ReadResults(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return Fail(ErrorCode::kNotFound, "cannot be opened", path.string());
-  std::ostringstream buffer;
-  buffer << stream.rdbuf();
-  const std::string text = std::move(buffer).str();
+  const auto read = ReadFile(path);
+  if (!read) return tl::unexpected(read.error());
+  const std::string& text = *read;
   ResultFile file;
   std::set<std::string> ids;
   int number = 0;

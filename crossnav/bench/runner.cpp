@@ -89,6 +89,9 @@ class EpisodeRun {
 
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   observers_ = observers;
+  // Ground-truth perception reads the instance image, never the colours.
+  simulator_.ShowColour(std::any_of(observers.begin(), observers.end(),
+                                    [](const RunObserver* o) { return o->NeedsColour(); }));
   const double start_ms = WallMs();
   if (auto ok = CheckPlayable(context_, episode_); !ok) return tl::unexpected(ok.error());
   if (auto ok = simulator_.Reset(episode_.start); !ok) {

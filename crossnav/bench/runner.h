@@ -36,6 +36,8 @@ struct StepCost {
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
+  /// Whether it looks at the colours of observations; where nobody does they are not rendered.
+  virtual bool NeedsColour() const { return false; }
   virtual Result<void> OnStart(agent::Agent& /*state*/) { return {}; }
   virtual Result<void> OnStep(const StepView& /*step*/) { return {}; }
   virtual void OnStepCost(const StepCost& /*cost*/) {}

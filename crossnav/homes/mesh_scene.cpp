@@ -2,10 +2,9 @@
 #include "crossnav/homes/mesh_scene.h"
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "crossnav/core/read_file.h"
 #include "crossnav/sim/gltf_reader.h"
 #include "crossnav/world/obj_reader.h"
 
@@ -17,24 +16,12 @@ constexpr int kMaxPicture_px = 2048;             // chosen: walls of a scan fill
 constexpr std::uintmax_t kMaxFile = 2ULL << 30;  // chosen: HM3D's largest has 0.5 GB
 constexpr std::size_t kMaxListed = 12;           // names in an error
 
-Result<std::string> ReadFile(const fs::path& file) {
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  if (error) return Fail(ErrorCode::kNotFound, "cannot be opened", file.string());
-  if (size > kMaxFile) {
-    return Fail(ErrorCode::kUnsupported, "files above 2 GiB are not read", file.string());
-  }
-  std::ostringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return std::move(bytes).str();
-}
-
 Result<PartedModel> ReadObj(const fs::path& file) {
-  const auto text = ReadFile(file);
+  const auto text = ReadFile(file, kMaxFile);
   if (!text) return tl::unexpected(text.error());
   const auto lookup = [&](std::string name) -> std::optional<std::string> {
     std::replace(name.begin(), name.end(), '\\', '/');
-    auto bytes = ReadFile(file.parent_path() / name);
+    auto bytes = ReadFile(file.parent_path() / name, kMaxFile);
     if (!bytes) return std::nullopt;
     return std::move(*bytes);
   };

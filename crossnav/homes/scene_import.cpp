@@ -6,9 +6,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
+#include "crossnav/core/read_file.h"
 #include "crossnav/homes/contents.h"
 #include "crossnav/homes/flights.h"
 #include "crossnav/homes/home_builder.h"
@@ -176,11 +175,9 @@ Result<sim::Scene> ReadModel(const ImportOptions& options, ImportReport& report)
     return Fail(ErrorCode::kInvalid, "needs --objects, the file that names its objects",
                 options.input.string());
   }
-  std::ifstream file(options.objects, std::ios::binary);
-  if (!file) return Fail(ErrorCode::kNotFound, "cannot be opened", options.objects.string());
-  std::ostringstream text;
-  text << file.rdbuf();
-  const auto objects = ParseObjectsFile(text.str(), options.objects.string());
+  const auto text = ReadFile(options.objects);
+  if (!text) return tl::unexpected(text.error());
+  const auto objects = ParseObjectsFile(*text, options.objects.string());
   if (!objects) return tl::unexpected(objects.error());
   auto model = ReadPartedModel(options.input);
   if (!model) return tl::unexpected(model.error());

@@ -7,6 +7,8 @@ namespace crossnav::planner {
 struct PlannerConfig {
   double stair_edge_radius_m = 1.0;
   double inflated_cost_factor = 2;
+  double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
+  double high_step_cost = 2;     // chosen: [voxels] a step at the climb limit; stairs have lower ones
   int max_expansions = 400000;  // chosen: several times a 400 m2 two-floor house; 0 = no limit
 };
 
@@ -14,6 +16,8 @@ template <class V>
 void Visit(V& visit, PlannerConfig& c) {
   visit("stair_edge_radius_m", c.stair_edge_radius_m, 0.1, 5.0);
   visit("inflated_cost_factor", c.inflated_cost_factor, 1.0, 100.0);
+  visit("touch_cost_factor", c.touch_cost_factor, 1.0, 1000.0);
+  visit("high_step_cost", c.high_step_cost, 0.0, 1000.0);
   visit("max_expansions", c.max_expansions, 0, 2000000000);
 }
 

@@ -58,6 +58,36 @@ double FrameVisibility(const std::vector<VoxelKey>& object, const Observation& o
 
 }  // namespace
 
+ViewTest::ViewTest(const VoxelMap& map, const std::vector<VoxelKey>& object, double range_m,
+                   const ApproachConfig& config, double camera_height_m)
+    : map_(map),
+      object_(object),
+      range_m_(range_m),
+      camera_height_m_(camera_height_m),
+      min_visibility_(config.min_visibility),
+      sample_(Sample(object, 24)) {  // chosen: enough to tell a third from a half
+  const double voxel_m = map.config().voxel_m;
+  lo_ = hi_ = object.front();
+  for (const VoxelKey& key : object) {
+    lo_ = {std::min(lo_.x, key.x), std::min(lo_.y, key.y), std::min(lo_.z, key.z)};
+    hi_ = {std::max(hi_.x, key.x), std::max(hi_.y, key.y), std::max(hi_.z, key.z)};
+  }
+  const int reach = CellsCeil(range_m, voxel_m);
+  lo_ = lo_ - VoxelKey{reach, reach, CellsCeil(camera_height_m + range_m, voxel_m)};
+  hi_ = hi_ + VoxelKey{reach, reach, reach};
+}
+
+bool ViewTest::IsView(const VoxelKey& key) const {
+  if (key.x < lo_.x || key.x > hi_.x || key.y < lo_.y || key.y > hi_.y || key.z < lo_.z ||
+      key.z > hi_.z)
+    return false;
+  const double voxel_m = map_.config().voxel_m;
+  Vector3d p_foot = CenterOf(key, voxel_m);
+  p_foot.z() = geometry::MinCornerOf(key, voxel_m).z();
+  if (DistanceToObject(object_, p_foot, camera_height_m_, voxel_m) > range_m_) return false;
+  return VisibleShare(map_, p_foot + Vector3d(0, 0, camera_height_m_), sample_) >= min_visibility_;
+}
+
 std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey>& object,
                                  double range_m, const ApproachConfig& config,
                                  double camera_height_m, const std::vector<Vector3d>& tried) {
@@ -71,7 +101,6 @@ std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey
     hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), std::max(hi.z, key.z)};
   }
   const int below = CellsCeil(camera_height_m + range_m, voxel_m);
-  const auto sample = Sample(object, 24);  // chosen: enough to tell a third from a half
   VoxelMap::Cursor cursor(map);
   std::vector<VoxelKey> standing;
   map.ForEachInBox(
@@ -81,17 +110,14 @@ std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey
           return;
         if (IsSurface(cursor.At({key.x, key.y, key.z - 1}).state)) standing.push_back(key);
       });
+  const ViewTest view(map, object, range_m, config, camera_height_m);
   for (const VoxelKey& key : standing) {
     Vector3d p_foot = CenterOf(key, voxel_m);
     p_foot.z() = geometry::MinCornerOf(key, voxel_m).z();
-    if (DistanceToObject(object, p_foot, camera_height_m, voxel_m) > range_m) continue;
     const bool is_tried = std::any_of(tried.begin(), tried.end(), [&](const Vector3d& p) {
-      return (p - p_foot).norm() < 0.4;  // chosen: closer than this is the same view
+      return (p - p_foot).norm() < kSameView_m;
     });
-    if (is_tried) continue;
-    if (VisibleShare(map, p_foot + Vector3d(0, 0, camera_height_m), sample) >=
-        config.min_visibility)
-      viewpoints.push_back(key);
+    if (!is_tried && view.IsView(key)) viewpoints.push_back(key);
   }
   std::sort(viewpoints.begin(), viewpoints.end());
   return viewpoints;

@@ -16,6 +16,24 @@
 
 namespace crossnav::policy {
 
+constexpr double kSameView_m = 0.4;  // chosen: places closer than this have the same view
+
+/// Tells from where enough of an object can be seen, near enough. Keeps references.
+class ViewTest {
+ public:
+  ViewTest(const VoxelMap& map, const std::vector<VoxelKey>& object, double range_m,
+           const ApproachConfig& config, double camera_height_m);
+  /// Standing at `key`: the object is within range and in free line of sight.
+  bool IsView(const VoxelKey& key) const;
+
+ private:
+  const VoxelMap& map_;
+  const std::vector<VoxelKey>& object_;
+  double range_m_, camera_height_m_, min_visibility_;
+  std::vector<VoxelKey> sample_;
+  VoxelKey lo_, hi_;  // box of the object, grown by the range
+};
+
 /// Standing voxels within `range_m` of the object from whose camera height enough of it is in free
 /// line of sight. Sorted by key; empty if there are none. `tried` are places not to offer again.
 std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey>& object,

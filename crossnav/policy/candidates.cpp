@@ -20,6 +20,10 @@ std::string_view NameOf(CandidateKind kind) {
       return "ascent_frontier";
     case CandidateKind::kStairFrontier:
       return "stair_frontier";
+    case CandidateKind::kSighting:
+      return "sighting";
+    case CandidateKind::kUninspected:
+      return "uninspected";
   }
   return "unknown";
 }

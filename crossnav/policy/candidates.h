@@ -22,6 +22,9 @@ enum class CandidateKind {
   kDescendFrontier,
   kAscentFrontier,
   kStairFrontier,
+  // Of policy.profile = full, below the frontiers of the level.
+  kSighting,     ///< the goal was seen, too weakly or where it cannot be approached yet
+  kUninspected,  ///< ground seen only from where the detector does not answer
 };
 
 std::string_view NameOf(CandidateKind kind);

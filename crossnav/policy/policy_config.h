@@ -3,6 +3,8 @@
 // paper does not have says "chosen".
 #pragma once
 
+#include <string>
+
 namespace crossnav::policy {
 
 struct ObjectConfig {
@@ -50,7 +52,42 @@ struct ApproachConfig {
   int max_viewpoints = 4;          // chosen: tries before the blacklist
 };
 
+/// Walking: how the body keeps clear, and how far ahead steps are searched.
+struct MotionConfig {
+  double wanted_clearance_m = 0.15;  // chosen: the body's radius and half a voxel
+  double min_clearance_m = 0.02;     // chosen: what the map calls occupied is up to a voxel wider
+  double clearance_weight = 4;       // chosen: [steps] on top of one that touches
+  double arrival_m = 0.12;           // chosen: half a forward step
+  double min_gain_steps = 0.3;       // chosen: less is not worth a turn
+  int horizon_steps = 6;             // chosen: a metre and a half
+  double travel_pitch_deg = -30;     // chosen: sees the ground at the feet and the horizon
+  double bump_m = 0.20;              // chosen: a forward step that moved less met something
+};
+
+/// policy.profile = full: what a candidate of a class must be nearer than one of the best class
+/// [m], and when the agent stops trying.
+struct ExploreConfig {
+  int min_cluster = 4;           // chosen: columns; less is no way through for the body
+  double elsewhere_m = 12;       // chosen: another level, the length of a flight and its approach
+  double crumb_m = 15;           // chosen: frontiers under min_cluster
+  double sighting_m = 0;         // chosen: a weak detection is as good as a frontier
+  double uninspected_m = 6;      // chosen: ground seen from too far for the detector
+  double turn_back_m = 20;       // chosen: on a flight, what lies the other way
+  double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
+  double inspect_range_m = 2.5;  // chosen: where detectors answer for a chair
+  int min_uninspected = 8;       // chosen: columns of 25 around
+  int reconsider_steps = 6;      // chosen: the grace period of a commitment
+  int progress_steps = 24;       // chosen: a turn around, twice
+  int max_choices = 6;           // chosen: a target chosen so often and never reached is given up
+  double same_place_m = 0.5;     // chosen: half the width of a door
+  int approach_steps = 150;      // chosen: through the largest house, and looks
+  double storey_m = 1.8;         // chosen: more than a landing, less than a floor
+};
+
 struct PolicyConfig {
+  std::string profile = "full";  ///< full | paper (the literal method)
+  MotionConfig motion;
+  ExploreConfig explore;
   ObjectConfig object;
   PoiConfig poi;
   FrontierConfig frontier;
@@ -106,7 +143,39 @@ void Visit(V& visit, ApproachConfig& c) {
   visit("max_viewpoints", c.max_viewpoints, 1, 1000);
 }
 template <class V>
+void Visit(V& visit, MotionConfig& c) {
+  visit("wanted_clearance_m", c.wanted_clearance_m, 0.01, 1.0);
+  visit("min_clearance_m", c.min_clearance_m, 0.0, 1.0);
+  visit("clearance_weight", c.clearance_weight, 0.0, 1000.0);
+  visit("arrival_m", c.arrival_m, 0.01, 10.0);
+  visit("min_gain_steps", c.min_gain_steps, 0.0, 10.0);
+  visit("horizon_steps", c.horizon_steps, 1, 40);
+  visit("travel_pitch_deg", c.travel_pitch_deg, -90.0, 90.0);
+  visit("bump_m", c.bump_m, 0.0, 10.0);
+}
+template <class V>
+void Visit(V& visit, ExploreConfig& c) {
+  visit("min_cluster", c.min_cluster, 1, 100000);
+  visit("elsewhere_m", c.elsewhere_m, 0.0, 100000.0);
+  visit("crumb_m", c.crumb_m, 0.0, 100000.0);
+  visit("sighting_m", c.sighting_m, 0.0, 100000.0);
+  visit("uninspected_m", c.uninspected_m, 0.0, 100000.0);
+  visit("turn_back_m", c.turn_back_m, 0.0, 100000.0);
+  visit("commit_m", c.commit_m, 0.0, 1000.0);
+  visit("inspect_range_m", c.inspect_range_m, 0.1, 100.0);
+  visit("min_uninspected", c.min_uninspected, 1, 25);
+  visit("reconsider_steps", c.reconsider_steps, 1, 100000);
+  visit("progress_steps", c.progress_steps, 1, 100000);
+  visit("max_choices", c.max_choices, 1, 100000);
+  visit("same_place_m", c.same_place_m, 0.0, 100.0);
+  visit("approach_steps", c.approach_steps, 1, 100000);
+  visit("storey_m", c.storey_m, 0.1, 100.0);
+}
+template <class V>
 void Visit(V& visit, PolicyConfig& c) {
+  visit("profile", c.profile, {"full", "paper"});
+  visit.Section("motion", c.motion);
+  visit.Section("explore", c.explore);
   visit.Section("object", c.object);
   visit.Section("poi", c.poi);
   visit.Section("frontier", c.frontier);

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <sstream>
+
+#include "crossnav/core/read_file.h"
 
 namespace crossnav::sim {
 namespace {
@@ -24,9 +25,9 @@ float FloatOfHalf(std::uint16_t bits) {
 Result<std::vector<std::vector<float>>> ReadNpy(const std::filesystem::path& path,
                                                 std::size_t rows) {
   const auto bad = [&](auto what) { return Fail(ErrorCode::kMalformed, what, path.string()); };
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail(ErrorCode::kNotFound, "no such file", path.string());
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto read = ReadFile(path);
+  if (!read) return tl::unexpected(read.error());
+  const std::string& bytes = *read;
   if (bytes.size() < 10 || bytes.compare(0, 8, std::string("\x93NUMPY\x01\x00", 8)) != 0)
     return bad("not an array in NumPy's format 1");
   const std::size_t begin =
@@ -57,10 +58,11 @@ Result<std::vector<std::vector<float>>> ReadNpy(const std::filesystem::path& pat
 }  // namespace
 
 Result<NamedVectors> ReadClipVectors(const std::filesystem::path& dir) {
-  std::ifstream in(dir / "oid_names.txt");
-  if (!in) return Fail(ErrorCode::kNotFound, "no such file", (dir / "oid_names.txt").string());
+  const auto text = ReadFile(dir / "oid_names.txt");
+  if (!text) return tl::unexpected(text.error());
+  std::istringstream lines(*text);
   std::vector<std::string> names;
-  for (std::string line; std::getline(in, line);)
+  for (std::string line; std::getline(lines, line);)
     if (!SpacedName(line).empty()) names.push_back(SpacedName(line));
   auto rows = ReadNpy(dir / "oid_clip_a+cname.npy", names.size());
   if (!rows) return tl::unexpected(rows.error());

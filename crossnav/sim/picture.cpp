@@ -110,7 +110,7 @@ TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh
       if (below_m > kBelow_m) colour = Mix(colour, {40, 40, 60}, 0.6);  // seen through a stairwell
       const auto heights =
           navmesh.HeightsAt(eye.x(), eye.y(), hit->p_world.z() - 0.2, hit->p_world.z() + 0.2);
-      if (!heights.empty() && below_m <= kBelow_m) colour = Mix(colour, {60, 190, 90}, 0.3);
+      if (!heights.empty() && below_m <= kBelow_m) colour = Mix(colour, kWalkableTint, 0.3);
       out.image.At(u, v) = colour;
     }
   }

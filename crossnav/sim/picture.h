@@ -33,8 +33,11 @@ struct TopDown {
   double V(const Vector3d& p_world) const { return (max_x_m - p_world.x()) * px_per_m - 0.5; }
 };
 
+/// Mixed into the colour of walkable ground seen from above.
+inline constexpr Rgb8 kWalkableTint{60, 190, 90};
+
 /// Floor `floor` of the navmesh from above, cut 2 m over its ground so that furniture shows and the
-/// ceiling does not; walkable ground is tinted green. `floor` must exist; at most 4096 px a side.
+/// ceiling does not; walkable ground has kWalkableTint. `floor` must exist; at most 4096 px a side.
 TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh& navmesh,
                       int floor, double px_per_m);
 

@@ -128,7 +128,8 @@ struct RayCaster::Impl {
     return {byte(base.r), byte(base.g), byte(base.b)};
   }
 
-  void Store(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const;
+  void StoreColour(const RTCRayHit16& packet, int u0, int v0, RgbImage& rgb) const;
+  void StoreGeometry(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const;
 };
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
@@ -194,8 +195,14 @@ void MarkInside(int columns, int rows, std::array<int, kLanes>& valid) {
 
 }  // namespace
 
-/// Writes the hits of a packet into the picture; lanes without a hit stay as they are.
-void RayCaster::Impl::Store(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const {
+/// Place of a packet's lane in the picture.
+std::size_t PixelOf(int u0, int v0, int lane, int width) {
+  return static_cast<std::size_t>(v0 + lane / kTileWidth) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(u0 + lane % kTileWidth);
+}
+
+/// Writes the colours of a packet's hits; lanes without a hit stay as they are.
+void RayCaster::Impl::StoreColour(const RTCRayHit16& packet, int u0, int v0, RgbImage& rgb) const {
   std::array<float, kLanes> light;
   for (int lane = 0; lane < kLanes; ++lane) {
     light[static_cast<std::size_t>(lane)] =
@@ -205,17 +212,25 @@ void RayCaster::Impl::Store(const RTCRayHit16& packet, int u0, int v0, Frame& fr
   for (int lane = 0; lane < kLanes; ++lane) {
     const unsigned geometry = packet.hit.geomID[lane], primitive = packet.hit.primID[lane];
     if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
-    const std::size_t pixel = static_cast<std::size_t>(v0 + lane / kTileWidth) *
-                                  static_cast<std::size_t>(frame.rgb.width) +
-                              static_cast<std::size_t>(u0 + lane % kTileWidth);
-    frame.rgb.data[pixel] = ColourOf({geometry, primitive, packet.hit.u[lane], packet.hit.v[lane]},
-                                     light[static_cast<std::size_t>(lane)]);
-    frame.depth_m.data[pixel] = packet.ray.tfar[lane];
-    frame.instance.data[pixel] = looks[geometry][primitive].instance;
+    rgb.data[PixelOf(u0, v0, lane, rgb.width)] =
+        ColourOf({geometry, primitive, packet.hit.u[lane], packet.hit.v[lane]},
+                 light[static_cast<std::size_t>(lane)]);
   }
 }
 
-Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_camera) const {
+/// Writes depth and instance of a packet's hits; lanes without a hit stay as they are.
+void RayCaster::Impl::StoreGeometry(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const unsigned geometry = packet.hit.geomID[lane];
+    if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
+    const std::size_t pixel = PixelOf(u0, v0, lane, frame.depth_m.width);
+    frame.depth_m.data[pixel] = packet.ray.tfar[lane];
+    frame.instance.data[pixel] = looks[geometry][packet.hit.primID[lane]].instance;
+  }
+}
+
+Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_camera,
+                        Channels channels) const {
   const int width = camera.width_px, height = camera.height_px;
   CROSSNAV_CHECK(width > 0 && height > 0, "camera without pixels");
   CROSSNAV_CHECK(IsValidPose(T_world_camera), "camera pose is not a finite rotation");
@@ -230,7 +245,8 @@ Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_came
       const bool is_whole = u0 + kTileWidth <= width && v0 + kTileHeight <= height;
       if (!is_whole) MarkInside(width - u0, height - v0, valid);
       IntersectPacket(impl_->rays.get(), valid.data(), &packet);
-      impl_->Store(packet, u0, v0, frame);
+      impl_->StoreGeometry(packet, u0, v0, frame);
+      if (channels == Channels::kAll) impl_->StoreColour(packet, u0, v0, frame.rgb);
       if (!is_whole) valid = AllLanes();
     }
   }

@@ -13,8 +13,11 @@
 
 namespace crossnav::sim {
 
+/// What a picture is to hold. Shading and texture look-ups are a third of its cost.
+enum class Channels { kAll, kWithoutColour };
+
 struct Frame {
-  RgbImage rgb;
+  RgbImage rgb;            ///< black where colour was not asked for
   DepthImage depth_m;      ///< planar z, 0 where no surface
   InstanceImage instance;  ///< 0 where none
 };
@@ -37,7 +40,8 @@ class RayCaster {
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;
 
-  Frame Render(const CameraIntrinsics& camera, const Pose& T_world_camera) const;
+  Frame Render(const CameraIntrinsics& camera, const Pose& T_world_camera,
+               Channels channels = Channels::kAll) const;
 
   /// First surface along the ray, within `max_m`.
   std::optional<RayHit> Cast(const Vector3d& p_world, const Vector3d& direction,

@@ -2,8 +2,6 @@
 #include "crossnav/sim/scene.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -11,6 +9,7 @@
 
 #include "category_data.h"
 #include "crossnav/core/check.h"
+#include "crossnav/core/read_file.h"
 #include "crossnav/sim/scene_reader.h"
 
 namespace crossnav::sim {
@@ -28,12 +27,6 @@ Vector3f WorldFromFile(const Vector3f& p_file) {
 
 void ToWorld(TriangleMesh& mesh) {
   for (Vector3f& v : mesh.vertices) v = WorldFromFile(v);
-}
-
-Result<std::string> ReadText(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return Fail(ErrorCode::kNotFound, "cannot be opened", file.string());
-  return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 bool EndsWith(std::string_view text, std::string_view end) {
@@ -80,7 +73,7 @@ Result<SceneFiles> FindSceneFiles(const fs::path& folder) {
 }
 
 Result<void> AddSemantics(const SceneFiles& files, const CategoryTable& categories, Scene& scene) {
-  const auto text = ReadText(files.text);
+  const auto text = ReadFile(files.text);
   if (!text) return tl::unexpected(text.error());
   const auto lines = ParseSemanticText(*text, files.text.string());
   if (!lines) return tl::unexpected(lines.error());
@@ -172,7 +165,7 @@ const CategoryTable& DefaultCategories() {
 }
 
 Result<CategoryTable> ReadCategoryTable(const fs::path& path) {
-  const auto text = ReadText(path);
+  const auto text = ReadFile(path);
   if (!text) return tl::unexpected(text.error());
   return ParseCategoryTable(*text, path.string());
 }

@@ -88,7 +88,7 @@ Observation Simulator::Observe() {
   Observation observation;
   observation.camera = sensor_.Intrinsics();
   observation.T_world_camera = CameraPose(agent_, sensor_.camera_height_m);
-  frame_ = caster_.Render(observation.camera, observation.T_world_camera);
+  frame_ = caster_.Render(observation.camera, observation.T_world_camera, channels_);
   observation.rgb = frame_.rgb;
   observation.depth_m = frame_.depth_m;
   return observation;

@@ -30,6 +30,9 @@ class Simulator {
   /// Renders the current view. Also keeps the frame for ground-truth perception.
   Observation Observe();
 
+  /// Whether observations carry colour; without it their pictures are black and come sooner.
+  void ShowColour(bool is_wanted) { channels_ = is_wanted ? Channels::kAll : Channels::kWithoutColour; }
+
   const AgentPose& agent() const { return agent_; }
   const Frame& last_frame() const { return frame_; }
   const Scene& scene() const { return scene_; }
@@ -44,6 +47,7 @@ class Simulator {
   ActionConfig action_;
   AgentPose agent_;
   Frame frame_;
+  Channels channels_ = Channels::kAll;
 };
 
 }  // namespace crossnav::sim

@@ -4,8 +4,8 @@
 #include <zstd.h>
 
 #include <cstring>
-#include <fstream>
 
+#include "crossnav/core/read_file.h"
 #include "crossnav/trace/proto_wire.h"
 
 namespace crossnav::trace {
@@ -216,15 +216,9 @@ Result<McapContents> ScanMcap(const std::string& name, std::string_view bytes,
 }
 
 Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisitor& visit) {
-  std::error_code code;
-  const std::uint64_t size = std::filesystem::file_size(path, code);
-  std::ifstream in(path, std::ios::binary);
-  if (code || !in) return Fail(ErrorCode::kNotFound, "cannot open the file", path.string());
-  std::string bytes(size, '\0');
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    return Fail(ErrorCode::kIo, "cannot read the file", path.string());
-  }
-  return ScanMcap(path.string(), bytes, visit);
+  const auto bytes = ReadFile(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return ScanMcap(path.string(), *bytes, visit);
 }
 
 }  // namespace crossnav::trace

@@ -7,10 +7,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "crossnav/core/read_file.h"
 #include "crossnav/sim/image_codec.h"
 #include "crossnav/world/glb_writer.h"
 #include "crossnav/world/scene_writer.h"
@@ -150,13 +149,6 @@ std::string HashOf(const std::string& bytes) {
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
-std::string ReadAll(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream all;
-  all << in.rdbuf();
-  return std::move(all).str();
-}
-
 }  // namespace
 
 Result<void> WritePack(std::vector<PackModel> models, const fs::path& dir) {
@@ -193,10 +185,11 @@ Result<FurniturePack> FurniturePack::Load(const fs::path& dir) {
                 where);
   }
   std::string pack_hash;
-  const std::string text = ReadAll(dir / "manifest.json");
-  pack.hash_ = HashOf(text);
+  const auto text = ReadFile(dir / "manifest.json");
+  if (!text) return tl::unexpected(text.error());
+  pack.hash_ = HashOf(*text);
   try {
-    const Json manifest = Json::parse(text);
+    const Json manifest = Json::parse(*text);
     if (manifest.at("format") != kFormat) {
       return Fail(ErrorCode::kUnsupported, "another version of the pack; import it again", where);
     }
@@ -205,7 +198,7 @@ Result<FurniturePack> FurniturePack::Load(const fs::path& dir) {
   } catch (const Json::exception& e) {
     return Fail(ErrorCode::kMalformed, e.what(), where);
   }
-  pack.bytes_ = ReadAll(dir / "furniture.pack");
+  pack.bytes_ = ReadFile(dir / "furniture.pack").value_or("");  // a missing one is not whole
   bool is_whole = HashOf(pack.bytes_) == pack_hash;
   for (const auto& e : pack.entries_) {
     is_whole = is_whole && e.offset <= pack.bytes_.size() &&

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/world/house_file.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
+
+#include "crossnav/core/read_file.h"
 
 namespace crossnav::world {
 namespace {
@@ -79,12 +79,11 @@ Result<std::vector<HouseRoom>> ReadHouseRooms(const fs::path& folder) {
   const auto dash = id.find('-');
   if (dash == std::string::npos) return rooms;
   const fs::path file = folder / (id.substr(dash + 1) + ".house.json");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return rooms;
-  std::stringstream text;
-  text << in.rdbuf();
+  const auto text = ReadFile(file);
+  if (!text && text.error().code == ErrorCode::kNotFound) return rooms;
+  if (!text) return tl::unexpected(text.error());
   try {
-    const Json house = Json::parse(text.str());
+    const Json house = Json::parse(*text);
     for (const Json& j : house.at("rooms")) rooms.push_back(FromJson(j));
   } catch (const Json::exception& e) {
     return Fail(ErrorCode::kMalformed, e.what(), file.string());

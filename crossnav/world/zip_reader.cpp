@@ -4,8 +4,8 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+
+#include "crossnav/core/read_file.h"
 
 namespace crossnav::world {
 namespace {
@@ -24,11 +24,9 @@ std::uint32_t U(const std::string& b, std::size_t at, int bytes) {
 }  // namespace
 
 Result<ZipReader> ZipReader::Open(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail(ErrorCode::kNotFound, "cannot be opened", path.string());
-  std::stringstream all;
-  all << in.rdbuf();
-  return Parse(std::move(all).str(), path.string());
+  auto bytes = ReadFile(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return Parse(std::move(*bytes), path.string());
 }
 
 Result<ZipReader> ZipReader::Parse(std::string bytes, std::string where) {

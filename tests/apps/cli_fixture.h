@@ -11,26 +11,16 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-inline std::string ReadText(const fs::path& path) {
-  std::ostringstream buffer;
-  buffer << std::ifstream(path, std::ios::binary).rdbuf();
-  return buffer.str();
-}
-
-inline void WriteText(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 
 struct Outcome {
   int exit_code = -1;

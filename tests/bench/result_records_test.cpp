@@ -3,16 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "bench/record_builder.h"
 #include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::bench {
 namespace {
 
 using test::MakeEpisode;
+using crossnav::test::ReadText;
+using crossnav::test::WriteText;
 
 RunHeader MakeHeader() {
   RunHeader header;
@@ -44,16 +44,6 @@ EpisodeRecord RichEpisode() {
   stage.actions = 200;
   stage.extra = {true, true, "lost_on_flight", 2.75};
   return episode;
-}
-
-void WriteText(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-std::string ReadText(const std::filesystem::path& path) {
-  std::ostringstream buffer;
-  buffer << std::ifstream(path, std::ios::binary).rdbuf();
-  return buffer.str();
 }
 
 TEST(ResultRecords, RoundTripKeepsEveryField) {

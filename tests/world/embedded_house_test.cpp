@@ -11,14 +11,14 @@
 #include "crossnav/world/architecture.h"
 #include "crossnav/world/glb_writer.h"
 #include "oracle_walk.h"
-#include "temp_dir.h"
+#include "support/temp_folder.h"
 
 namespace crossnav::world {
 namespace {
 
 /// Written once, read through the same reader as HM3D's files.
 struct House {
-  TempDir dir;
+  test::TempFolder dir;
   HousePlan plan = EmbeddedHousePlan();
   sim::Scene scene;
   std::optional<sim::NavMesh> navmesh;

@@ -8,8 +8,8 @@
 #include "crossnav/world/furniture_pack.h"
 #include "crossnav/world/obj_reader.h"
 #include "crossnav/world/zip_reader.h"
+#include "support/temp_folder.h"
 #include "support/zip_archive.h"
-#include "temp_dir.h"
 
 namespace crossnav::world {
 namespace {
@@ -69,7 +69,7 @@ TEST(ObjReader, ConcaveFacesKeepTheirHole) {
 }
 
 TEST(FurnitureImport, FitsTheCatalogueSizeAndKeepsTheCredits) {
-  const TempDir dir;
+  const test::TempFolder dir;
   const std::string catalogue =
       "version=1.0\nid#1=Scopia#bed1\nname#1=Bed\ncreator#1=Jos\\u00e9\nmodel#1=/m/a.obj\n"
       "width#1=170\ndepth#1=210\nheight#1=110\ndropOnTopElevation#1=-1\n"
@@ -97,13 +97,13 @@ TEST(FurnitureImport, FitsTheCatalogueSizeAndKeepsTheCredits) {
 }
 
 TEST(FurnitureImport, SaysWhatIsMissing) {
-  const TempDir dir;
+  const test::TempFolder dir;
   EXPECT_EQ(ImportFurniture(dir.path(), dir.path() / "pack").error().code, ErrorCode::kNotFound);
   EXPECT_EQ(FurniturePack::Load(dir.path()).error().code, ErrorCode::kNotFound);
 }
 
 TEST(FurniturePack, RefusesATruncatedPack) {
-  const TempDir dir;
+  const test::TempFolder dir;
   PackModel m;
   m.entry.id = "x";
   m.entry.kind = "chair";
@@ -118,7 +118,7 @@ TEST(FurniturePack, RefusesATruncatedPack) {
 }
 
 TEST(FurniturePack, KnowsAnotherPackFromItsOwnByTheHash) {
-  const TempDir dir;
+  const test::TempFolder dir;
   const auto write = [&](const std::string& name, std::uint8_t red) {
     PackModel m;
     m.entry.id = "x";

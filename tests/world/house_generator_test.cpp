@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/architecture.h"
@@ -12,20 +11,14 @@
 #include "crossnav/world/groups.h"
 #include "crossnav/world/house_file.h"
 #include "crossnav/world/house_gate.h"
-#include "temp_dir.h"
+#include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::world {
 namespace {
 
-std::string ReadAll(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
-
 TEST(HouseGenerator, WritesAHouseThatTheReaderAccepts) {
-  const TempDir dir;
+  const test::TempFolder dir;
   HouseParams params;
   params.seed = 5;
   params.floors = 2;
@@ -44,7 +37,7 @@ TEST(HouseGenerator, WritesAHouseThatTheReaderAccepts) {
 }
 
 TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
-  const TempDir dir;
+  const test::TempFolder dir;
   HouseParams params;
   params.seed = 9;
   params.floors = 1;
@@ -53,11 +46,11 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
              b = GenerateHouse(params, dir.path() / "b");
   ASSERT_TRUE(a && b);
   const std::string file = "House9.glb";
-  EXPECT_EQ(ReadAll(a->folder / file), ReadAll(b->folder / file));
+  EXPECT_EQ(test::ReadText(a->folder / file), test::ReadText(b->folder / file));
   params.seed = 10;
   const auto c = GenerateHouse(params, dir.path() / "c");
   ASSERT_TRUE(c.has_value());
-  EXPECT_NE(ReadAll(a->folder / file), ReadAll(c->folder / "House10.glb"));
+  EXPECT_NE(test::ReadText(a->folder / file), test::ReadText(c->folder / "House10.glb"));
 }
 
 /// A pack of one lamp of one colour.
@@ -77,7 +70,7 @@ FurniturePack PackOfOneLamp(const std::filesystem::path& dir) {
 }
 
 TEST(HouseGenerator, FurnishesFromThePackAndCreditsIt) {
-  const TempDir dir;
+  const test::TempFolder dir;
   const FurniturePack pack = PackOfOneLamp(dir.path() / "pack");
   HouseParams params;
   params.seed = 5;
@@ -89,18 +82,18 @@ TEST(HouseGenerator, FurnishesFromThePackAndCreditsIt) {
   const auto plain = GenerateHouse(params, dir.path() / "plain");
   ASSERT_TRUE(a && b && plain);
   for (const char* file : {"House5.glb", "House5.semantic.glb", "House5.house.json"}) {
-    EXPECT_EQ(ReadAll(a->folder / file), ReadAll(b->folder / file)) << file;
+    EXPECT_EQ(test::ReadText(a->folder / file), test::ReadText(b->folder / file)) << file;
   }
-  EXPECT_NE(ReadAll(a->folder / "House5.glb"), ReadAll(plain->folder / "House5.glb"));
-  const std::string text = ReadAll(a->folder / "House5.house.json");
+  EXPECT_NE(test::ReadText(a->folder / "House5.glb"), test::ReadText(plain->folder / "House5.glb"));
+  const std::string text = test::ReadText(a->folder / "House5.house.json");
   EXPECT_NE(text.find("\"furniture_pack\": \"" + pack.hash() + "\""), std::string::npos);
   EXPECT_NE(text.find("\"author\": \"Somebody\""), std::string::npos);
-  EXPECT_NE(ReadAll(plain->folder / "House5.house.json").find("\"furniture_pack\": null"),
+  EXPECT_NE(test::ReadText(plain->folder / "House5.house.json").find("\"furniture_pack\": null"),
             std::string::npos);
 }
 
 TEST(HouseGenerator, AScanOfAHouseIsAnotherPictureOfTheSameHouse) {
-  const TempDir dir;
+  const test::TempFolder dir;
   HouseParams params;
   params.seed = 5;
   params.floors = 1;
@@ -110,14 +103,14 @@ TEST(HouseGenerator, AScanOfAHouseIsAnotherPictureOfTheSameHouse) {
   const auto a = GenerateHouse(params, dir.path() / "a"),
              b = GenerateHouse(params, dir.path() / "b");
   ASSERT_TRUE(clean && a && b);
-  EXPECT_EQ(ReadAll(a->folder / "House5.glb"), ReadAll(b->folder / "House5.glb"));
-  EXPECT_NE(ReadAll(a->folder / "House5.glb"), ReadAll(clean->folder / "House5.glb"));
+  EXPECT_EQ(test::ReadText(a->folder / "House5.glb"), test::ReadText(b->folder / "House5.glb"));
+  EXPECT_NE(test::ReadText(a->folder / "House5.glb"), test::ReadText(clean->folder / "House5.glb"));
   EXPECT_EQ(a->instances, clean->instances);
   EXPECT_EQ(a->rooms, clean->rooms);
 }
 
 TEST(HouseGenerator, RoomsOfAHouseCanBeReadBack) {
-  const TempDir dir;
+  const test::TempFolder dir;
   HouseParams params;
   params.seed = 5;
   params.floors = 1;
@@ -136,7 +129,7 @@ TEST(HouseGenerator, RoomsOfAHouseCanBeReadBack) {
 }
 
 TEST(HouseGenerator, RefusesImpossibleWishes) {
-  const TempDir dir;
+  const test::TempFolder dir;
   HouseParams params;
   params.floors = 5;
   EXPECT_EQ(GenerateHouse(params, dir.path()).error().where, "world.floors");

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 #include "crossnav/world/glb_writer.h"
 #include "crossnav/world/scene_builder.h"
-#include "temp_dir.h"
+#include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::world {
 namespace {
@@ -29,15 +29,8 @@ sim::Scene TwoBoxes() {
   return scene.Finish("00042-Boxes");
 }
 
-std::string ReadAll(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
-
 TEST(SceneWriter, WhatIsWrittenIsWhatTheReaderGives) {
-  const TempDir dir;
+  const test::TempFolder dir;
   const sim::Scene scene = TwoBoxes();
   const auto folder = WriteScene(scene, dir.path());
   ASSERT_TRUE(folder.has_value()) << folder.error().Message();
@@ -102,17 +95,17 @@ TEST(SceneWriter, SemanticColoursAreDistinct) {
 }
 
 TEST(SceneWriter, LeavesNoHalfWrittenFileAndListsTheScene) {
-  const TempDir dir;
+  const test::TempFolder dir;
   ASSERT_TRUE(WriteScene(TwoBoxes(), dir.path()).has_value());
   for (const auto& e : std::filesystem::recursive_directory_iterator(dir.path())) {
     EXPECT_NE(e.path().extension(), ".part");
   }
-  const std::string config = ReadAll(dir.path() / "crossnav.scene_dataset_config.json");
+  const std::string config = test::ReadText(dir.path() / "crossnav.scene_dataset_config.json");
   EXPECT_NE(config.find("00042-Boxes/Boxes.glb"), std::string::npos);
 }
 
 TEST(SceneWriter, RefusesBadIdsAndEmptyScenes) {
-  const TempDir dir;
+  const test::TempFolder dir;
   sim::Scene scene = TwoBoxes();
   scene.id = "nodash";
   EXPECT_FALSE(WriteScene(scene, dir.path()).has_value());
@@ -125,7 +118,7 @@ TEST(SceneWriter, RefusesBadIdsAndEmptyScenes) {
 }
 
 TEST(SceneWriter, TexturesSurviveTheRoundTrip) {
-  const TempDir dir;
+  const test::TempFolder dir;
   SceneBuilder scene;
   sim::Texture texture;
   texture.rgb = RgbImage(4, 2);

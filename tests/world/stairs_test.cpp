@@ -10,7 +10,7 @@
 #include "crossnav/world/plan_walls.h"
 #include "crossnav/world/scene_writer.h"
 #include "oracle_walk.h"
-#include "temp_dir.h"
+#include "support/temp_folder.h"
 
 namespace crossnav::world {
 namespace {
@@ -51,7 +51,7 @@ Shaft MakeShaft(StairParams params, int storeys = 1) {
 
 /// Walks from below to above and back.
 void ExpectWalkable(const Shaft& shaft) {
-  const TempDir dir;
+  const test::TempFolder dir;
   const auto folder = WriteScene(BuildHouse(shaft.plan), dir.path());
   ASSERT_TRUE(folder.has_value());
   const auto scene = sim::LoadScene(*folder);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/agent/behaviour.h"
+#include "crossnav/agent/paper_behaviour.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace crossnav::agent {
+#include "crossnav/agent/remembered_places.h"
+
+namespace crossnav::agent::paper {
 
 using geometry::VoxelKey;
 using policy::BlacklistedPlace;
@@ -311,4 +313,4 @@ bool Relax(Situation& now) {
   return true;
 }
 
-}  // namespace crossnav::agent
+}  // namespace crossnav::agent::paper

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/agent/targets.h"
+#include "crossnav/agent/paper_targets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "crossnav/policy/approach.h"
 #include "crossnav/policy/frontiers.h"
 
-namespace crossnav::agent {
+namespace crossnav::agent::paper {
 
 using geometry::VoxelKey;
 using planner::FindPath;
@@ -285,19 +285,4 @@ std::optional<Target> ChooseStairFrontier(const Situation& now) {
   return std::nullopt;
 }
 
-std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& goal,
-                                         const Config& config) {
-  std::vector<HistoryPoi> places;
-  if (!config.policy.poi.use_history || world.memory.Size() == 0) return places;
-  for (const auto& cluster :
-       memory::Query(world.memory, goal.text, config.query, goal.background)) {
-    HistoryPoi poi;
-    poi.voxels = cluster.voxels;
-    poi.p_center_world = cluster.p_center_world;
-    poi.score = cluster.score;
-    places.push_back(std::move(poi));
-  }
-  return places;
-}
-
-}  // namespace crossnav::agent
+}  // namespace crossnav::agent::paper

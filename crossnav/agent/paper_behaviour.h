@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What the agent does in each mode, once a target is chosen: one action per call. Also the checks
+// policy.profile = paper. What the agent does in each mode, once a target is chosen: one action per call. Also the checks
 // that decide about modes: is this entrance a stair, is the session over.
 #pragma once
 
 #include <optional>
 
-#include "crossnav/agent/targets.h"
+#include "crossnav/agent/paper_targets.h"
 #include "crossnav/core/observation.h"
 #include "crossnav/policy/approach.h"
 
-namespace crossnav::agent {
+namespace crossnav::agent::paper {
 
 /// A full turn on the spot with the camera one step down: sees the ground at the feet too.
 void QueueLookAround(GoalState& goal, const AgentPose& agent, const ActionConfig& action);
@@ -52,4 +52,4 @@ bool LookAroundOnce(Situation& now);
 /// The one relaxed retry when nothing is left. False if it was used before.
 bool Relax(Situation& now);
 
-}  // namespace crossnav::agent
+}  // namespace crossnav::agent::paper

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-// From candidates to a planned target: which frontier, which POI, which stair frontier. Functions
+// policy.profile = paper. From candidates to a planned target: which frontier, which POI, which stair frontier. Functions
 // of the world and the goal's state; each returns a target with its plan, or nothing.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "crossnav/agent/observation_place.h"
 #include "crossnav/agent/state.h"
 #include "crossnav/planner/astar.h"
 
-namespace crossnav::agent {
-
-constexpr int kBlindRing_vox = 4;  // chosen: what lies under a camera one pitch step down
+namespace crossnav::agent::paper {
 
 /// What all of them look at.
 struct Situation {
@@ -53,9 +52,4 @@ std::optional<Target> ChooseHistoryPoi(Situation& now, int* index);
 /// Stair frontier with the highest progress that can be reached.
 std::optional<Target> ChooseStairFrontier(const Situation& now);
 
-/// History POIs for the goal's text, from the memory as it is (paper, "Query-Conditioned
-/// Retrieval").
-std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& goal,
-                                         const Config& config);
-
-}  // namespace crossnav::agent
+}  // namespace crossnav::agent::paper

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What a policy decides in one step, for the agent to execute and for the trace to show.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "crossnav/agent/state.h"
+#include "crossnav/policy/approach.h"
+#include "crossnav/policy/modes.h"
+
+namespace crossnav::agent {
+
+/// What a policy looks at.
+struct Situation {
+  const Config& config;
+  World& world;
+  GoalState& goal;
+  AgentPose agent;
+  const Observation& obs;
+  const std::vector<policy::Sighting>& sightings;  ///< of this frame
+};
+
+struct Decision {
+  policy::ModeDecision mode{policy::Mode::kBasicExplore, policy::ModeReason::kExploring};
+  std::optional<Action> action;  ///< nullopt = nothing is left to do
+  std::vector<policy::Candidate> shown;
+  std::optional<policy::Candidate> target;
+  std::vector<geometry::VoxelKey> path;
+  double path_cost = 0;  ///< [voxels]
+  policy::Verification verification;
+  std::optional<Vector3d> p_claimed_world;  ///< with kStop
+};
+
+}  // namespace crossnav::agent

@@ -1,0 +1,498 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/navigator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "crossnav/agent/explore.h"
+#include "crossnav/agent/poi_targets.h"
+#include "crossnav/agent/remembered_places.h"
+#include "crossnav/policy/ground_motion.h"
+#include "crossnav/policy/stair_geometry.h"
+#include "crossnav/policy/steering.h"
+
+namespace crossnav::agent {
+
+using geometry::VoxelKey;
+using policy::CandidateKind;
+using policy::Mode;
+using policy::ModeReason;
+
+namespace {
+
+constexpr double kStray_m = 0.6;       // chosen: two steps off the way, and it is planned anew
+constexpr double kNear_m = 1.0;        // chosen: of the viewpoint: aim and verify
+constexpr double kArrived_m = 0.35;    // chosen: one forward step and a voxel
+constexpr double kProgress_m = 0.1;    // chosen: one voxel
+constexpr int kMaxReplans = 5;         // chosen: longer ways that what was seen may explain
+constexpr int kLooksAtTarget = 6;      // chosen: half a turn, or less and a pitch
+constexpr int kLandingFrames = 3;
+constexpr int kWobbles = 3;            // chosen: one more than a live POI needs to be stable
+constexpr double kSameLevel_m = 0.35;  // chosen: less is a step
+
+// --- What the last action did ------------------------------------------------------------------
+
+/// A forward step that met something teaches where that is.
+void NoteBump(Situation& now) {
+  if (!now.world.before_forward) return;
+  const AgentPose before = *std::exchange(now.world.before_forward, std::nullopt);
+  const double moved_m = (now.agent.p_world - before.p_world).head<2>().norm();
+  if (moved_m >= now.config.policy.motion.bump_m) return;
+  const Vector3d ahead(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0);
+  const double voxel_m = now.config.map.voxel_m;
+  now.world.ground.Block(now.agent.p_world +
+                         (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead);
+  now.goal.activity.motion.clear();
+  now.goal.events.push_back("bump");
+}
+
+void QueueLookAround(Situation& now) {
+  const auto& action = now.config.action;
+  GoalState& goal = now.goal;
+  goal.script.clear();
+  const double down_rad = DegToRad(now.config.policy.motion.travel_pitch_deg);
+  if (const auto pitch = policy::PitchTowards(now.agent, down_rad, action))
+    goal.script.push_back(*pitch);
+  const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
+  goal.script.insert(goal.script.end(), static_cast<std::size_t>(turns), Action::kTurnLeft);
+  goal.p_looked_around_world = now.agent.p_world;
+  now.world.looked_around_m = now.agent.p_world.z();
+}
+
+/// The exploration level is the one that supports the agent, however it got there.
+void NoteLevel(Situation& now) {
+  World& world = now.world;
+  const double z_m = now.agent.p_world.z();
+  if (!world.has_level) {
+    world.has_level = true;
+    world.level_m = z_m;
+    QueueLookAround(now);
+    return;
+  }
+  if (std::abs(z_m - world.level_m) < kSameLevel_m) {
+    world.flat_frames = 1;
+    return;
+  }
+  const bool is_flat = policy::IsFlatAround(world.map, now.agent.p_world);
+  world.flat_frames = is_flat ? world.flat_frames + 1 : 0;
+  if (world.flat_frames < kLandingFrames) return;
+  world.last_direction = z_m > world.level_m ? 1 : -1;
+  now.goal.events.push_back(world.last_direction > 0 ? "new level above" : "new level below");
+  world.level_m = z_m;
+  if (std::abs(z_m - world.looked_around_m) >= now.config.policy.explore.storey_m)
+    QueueLookAround(now);
+}
+
+// --- Activities --------------------------------------------------------------------------------
+
+void End(Situation& now, Ending ending) {
+  Activity& activity = now.goal.activity;
+  if (activity.kind == ActivityKind::kNone) return;
+  now.goal.attempts.push_back({activity.candidate.kind, activity.candidate.p_focus_world,
+                               now.agent.p_world, ending, now.world.step});
+  if (ending != Ending::kSuperseded && ending != Ending::kGone)
+    now.goal.events.push_back(std::string(NameOf(activity.kind)) + ": " +
+                              std::string(NameOf(ending)));
+  activity = Activity{};
+}
+
+double RemainingOf(const Situation& now, const std::vector<VoxelKey>& path) {
+  const double voxel_m = now.config.map.voxel_m;
+  double rest_m = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    rest_m += voxel_m * geometry::VoxelDistance(path[i - 1], path[i]);
+  if (path.empty()) return 0;
+  return rest_m + (CenterOf(path.front(), voxel_m) - now.agent.p_world).head<2>().norm();
+}
+
+/// Takes up `target`, or goes on with it along a new way.
+void Begin(Situation& now, ActivityKind kind, GroundTarget target) {
+  Activity& activity = now.goal.activity;
+  const bool is_same =
+      activity.kind == kind && activity.candidate.kind == target.candidate.kind &&
+      activity.candidate.id == target.candidate.id &&
+      (activity.candidate.p_focus_world - target.candidate.p_focus_world).norm() <=
+          now.config.policy.explore.same_place_m;
+  if (!is_same) {
+    End(now, Ending::kSuperseded);
+    activity.kind = kind;
+  }
+  const double rest_m = RemainingOf(now, target.path);
+  if (!is_same || rest_m < activity.best_m) {
+    activity.best_m = rest_m;
+    activity.idle_steps = 0;
+  } else if (rest_m > activity.best_m + 1 && activity.replans < kMaxReplans) {
+    // What was seen since made the way longer: that is no lack of progress.
+    ++activity.replans;
+    activity.best_m = rest_m;
+  }
+  if (target.path != activity.path) activity.motion.clear();
+  activity.candidate = std::move(target.candidate);
+  activity.path = std::move(target.path);
+  activity.ground_revision = now.world.ground.revision();
+}
+
+/// Drops what was walked of the way. False if the agent is off it, or something stands on it now.
+bool KeepToPath(Situation& now) {
+  Activity& activity = now.goal.activity;
+  const double voxel_m = now.config.map.voxel_m;
+  std::size_t nearest = 0;
+  double nearest_m = 1e9;
+  for (std::size_t i = 0; i < std::min<std::size_t>(activity.path.size(), 30); ++i) {
+    const double d = (CenterOf(activity.path[i], voxel_m) - now.agent.p_world).head<2>().norm();
+    if (d > nearest_m) continue;
+    nearest = i;
+    nearest_m = d;
+  }
+  if (nearest_m > kStray_m) return false;
+  activity.path.erase(activity.path.begin(),
+                      activity.path.begin() + static_cast<std::ptrdiff_t>(nearest));
+  const auto& ground = now.world.ground;
+  if (activity.ground_revision == ground.revision()) return true;
+  for (std::size_t i = 1; i < activity.path.size(); ++i) {
+    const VoxelKey &from = activity.path[i - 1], &to = activity.path[i];
+    int z = 0;
+    if (ground.SideOf(from, to.x - from.x, to.y - from.y, &z) != planner::Side::kGround ||
+        z != to.z)
+      return false;
+  }
+  activity.ground_revision = ground.revision();
+  return true;
+}
+
+/// Counts steps; ends an activity whose way does not get shorter.
+void MeasureProgress(Situation& now) {
+  Activity& activity = now.goal.activity;
+  if (activity.kind == ActivityKind::kNone) return;
+  ++activity.steps;
+  const double rest_m = RemainingOf(now, activity.path);
+  if (rest_m < activity.best_m - kProgress_m) {
+    activity.best_m = rest_m;
+    activity.idle_steps = 0;
+    return;
+  }
+  ++activity.idle_steps;
+  const auto& explore = now.config.policy.explore;
+  const bool is_bounded =
+      activity.kind == ActivityKind::kApproach || activity.kind == ActivityKind::kVisit;
+  const int allowed = is_bounded ? 2 * explore.progress_steps : explore.progress_steps;
+  if (activity.idle_steps <= allowed) return;
+  if (activity.kind == ActivityKind::kVisit)
+    now.goal.history[static_cast<std::size_t>(activity.candidate.id)].is_exhausted = true;
+  if (activity.kind == ActivityKind::kApproach) now.goal.live.Discard(activity.candidate.id);
+  End(now, Ending::kNoProgress);
+}
+
+/// The next action along the way; nullopt at its end, or where no step helps.
+std::optional<Action> Walk(Situation& now) {
+  Activity& activity = now.goal.activity;
+  const auto& motion = now.config.policy.motion;
+  if (auto pitch =
+          policy::PitchTowards(now.agent, DegToRad(motion.travel_pitch_deg), now.config.action))
+    return pitch;
+  const bool is_clear =
+      !activity.motion.empty() &&
+      (activity.motion.back() != Action::kMoveForward ||
+       IsStepClear(now.world.ground, now.agent, motion, now.config.action));
+  if (!is_clear) {
+    activity.motion =
+        MotionAlong(now.world.ground, activity.path, now.agent, motion, now.config.action);
+    std::reverse(activity.motion.begin(), activity.motion.end());
+  }
+  if (activity.motion.empty()) return std::nullopt;
+  const Action next = activity.motion.back();
+  activity.motion.pop_back();
+  return next;
+}
+
+/// A turn or pitch towards `p_world`; nullopt when it is centred or enough looks were spent.
+std::optional<Action> LookAt(Situation& now, const Vector3d& p_world, int max_looks) {
+  Activity& activity = now.goal.activity;
+  if (activity.looks >= max_looks) return std::nullopt;
+  const auto look = policy::CenteringAction(now.agent, p_world, now.config.sensor.camera_height_m,
+                                            now.config.action);
+  if (look) {
+    ++activity.looks;
+    activity.motion.clear();
+  }
+  return look;
+}
+
+double DistanceToEnd(const Situation& now) {
+  const Activity& activity = now.goal.activity;
+  if (activity.path.empty()) return 0;
+  const Vector3d p = CenterOf(activity.path.back(), now.config.map.voxel_m);
+  return (p - now.agent.p_world).head<2>().norm();
+}
+
+// --- Choosing ----------------------------------------------------------------------------------
+
+ActivityKind KindFor(const Situation& now, const policy::Candidate& candidate) {
+  const bool is_elsewhere = !IsOnLevel(now, CenterOf(candidate.standing.front(),
+                                                     now.config.map.voxel_m));
+  return is_elsewhere ? ActivityKind::kClimb : ActivityKind::kGoTo;
+}
+
+bool IsExploring(const Activity& activity) {
+  return activity.kind == ActivityKind::kGoTo || activity.kind == ActivityKind::kClimb;
+}
+
+/// Goes on with the exploration target while it is open and its way holds; chooses again after the
+/// grace period.
+void Explore(Situation& now, const VoxelKey& start, Decision& decision) {
+  Activity& activity = now.goal.activity;
+  if (IsExploring(activity)) {
+    if (!IsStillOpen(now, activity.candidate)) {
+      End(now, Ending::kGone);
+    } else if (KeepToPath(now) && activity.steps % now.config.policy.explore.reconsider_steps != 0) {
+      return;
+    }
+  }
+  auto target = ChooseExploration(now, start, &decision.shown);
+  if (!target) {
+    if (IsExploring(activity)) End(now, Ending::kUnreachable);
+    return;
+  }
+  target->candidate.standing.front() = target->path.back();
+  const ActivityKind kind = KindFor(now, target->candidate);
+  Begin(now, kind, std::move(*target));
+}
+
+/// A live POI that cannot be approached yet is gone nearer to, while that helps.
+bool GoNearer(Situation& now, const VoxelKey& start) {
+  const auto& explore = now.config.policy.explore;
+  for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
+    if (IsSpent(now.goal.attempts, CandidateKind::kSighting, poi->p_center_world,
+                explore.same_place_m, explore.max_choices))
+      continue;
+    auto target = NearestTo(now, start, poi->p_center_world);
+    if (!target) continue;
+    target->candidate.kind = CandidateKind::kSighting;
+    target->candidate.id = poi->id;
+    Begin(now, ActivityKind::kGoTo, std::move(*target));
+    return true;
+  }
+  return false;
+}
+
+// --- Acting ------------------------------------------------------------------------------------
+
+/// On arrival at an exploration target: look at what it is about, then give it up.
+std::optional<Action> ActOnExploration(Situation& now) {
+  Activity& activity = now.goal.activity;
+  if (DistanceToEnd(now) > kArrived_m) {
+    if (auto action = Walk(now)) return action;
+    activity.idle_steps += now.config.policy.explore.progress_steps / 3;
+    activity.motion.clear();
+    return Action::kTurnLeft;
+  }
+  if (auto look = LookAt(now, activity.candidate.p_focus_world, kLooksAtTarget)) return look;
+  // The last metre of the way may still show it.
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && activity.looks <= kLooksAtTarget) {
+    if (auto action = Walk(now)) return action;
+  }
+  const bool is_sighting = activity.candidate.kind == CandidateKind::kSighting;
+  End(now, is_sighting ? Ending::kReached : Ending::kNotOpened);
+  return Action::kTurnLeft;
+}
+
+std::optional<Action> ActOnVisit(Situation& now) {
+  Activity& activity = now.goal.activity;
+  HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(activity.candidate.id)];
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && poi.looked == 0) {
+    if (auto action = Walk(now)) return action;
+  }
+  const Vector3d p_aim =
+      policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
+  if (poi.looked == 0) {
+    if (auto look = LookAt(now, p_aim, 2 * kLooksAtTarget)) return look;
+  }
+  // Aimed: a wobble to either side gives the detector a few more frames.
+  constexpr Action kWobble[kWobbles] = {Action::kTurnLeft, Action::kTurnRight, Action::kTurnRight};
+  if (poi.looked < kWobbles) return kWobble[poi.looked++];
+  poi.is_exhausted = true;
+  now.goal.events.push_back("history POI without success");
+  End(now, Ending::kReached);
+  return Action::kTurnLeft;
+}
+
+std::optional<Action> ActOnApproach(Situation& now, const policy::Verification& verification) {
+  Activity& activity = now.goal.activity;
+  GoalState& goal = now.goal;
+  const policy::LivePoi* poi = goal.live.Find(activity.candidate.id);
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
+    if (auto action = Walk(now)) return action;
+  }
+  const Vector3d p_aim =
+      policy::AimPoint(poi->voxels, now.agent.p_world, now.config.map.voxel_m);
+  if (auto look = LookAt(now, p_aim, 2 * kLooksAtTarget)) return look;
+  goal.tried_viewpoints.push_back(now.agent.p_world);
+  goal.events.push_back("view failed: " + verification.failed_check);
+  activity.looks = 0;
+  if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
+    goal.live.Discard(poi->id);
+    goal.events.push_back("verification failed: " + verification.failed_check);
+    End(now, Ending::kRefuted);
+  }
+  return Action::kTurnLeft;
+}
+
+// --- Nothing left ------------------------------------------------------------------------------
+
+/// The next thing to try when no candidate is left; each is tried once for a goal. False if none
+/// is left either.
+bool TryLastResort(Situation& now) {
+  GoalState& goal = now.goal;
+  while (goal.last_resorts < 4) {
+    switch (goal.last_resorts++) {
+      case 0:
+        if ((goal.p_looked_around_world - now.agent.p_world).norm() < 0.5) continue;
+        QueueLookAround(now);
+        goal.events.push_back("nothing left: looking around");
+        return true;
+      case 1:
+        if (!now.world.ground.HasBlocked()) continue;
+        now.world.ground.ForgetBlocked();
+        goal.events.push_back("nothing left: bumps forgotten");
+        return true;
+      case 2: {
+        Config relaxed = now.config;
+        relaxed.query.min_similarity *= 0.8;  // chosen: looser, still a response
+        relaxed.query.min_z_score *= 0.6;
+        goal.history = RememberedPlaces(now.world, goal, relaxed);
+        if (goal.history.empty()) continue;
+        goal.events.push_back("nothing left: asking the memory again");
+        return true;
+      }
+      default:
+        goal.attempts.clear();
+        goal.live.ForgiveDiscarded();
+        goal.tried_viewpoints.clear();
+        goal.failed_views = 0;
+        goal.coverage.Clear();
+        goal.inspect_range_m *= 0.6;  // chosen: near enough for the smallest category
+        now.world.ground.ForgetBlocked();
+        goal.events.push_back("nothing left: trying once more with relaxed limits");
+        return true;
+    }
+  }
+  return false;
+}
+
+// --- One decision ------------------------------------------------------------------------------
+
+/// Whether this frame proves an object that the agent stands before.
+bool Prove(Situation& now, Decision& decision) {
+  const auto& config = now.config;
+  for (const policy::LivePoi* poi : now.goal.live.Stable(config.policy.object)) {
+    const auto verification =
+        policy::Verify(*poi, now.sightings, now.obs, config.policy, config.sensor.camera_height_m,
+                       config.map.voxel_m);
+    if (poi->id == now.goal.active_live || verification.passed)
+      decision.verification = verification;
+    if (!verification.passed) continue;
+    now.goal.active_live = poi->id;
+    decision.p_claimed_world = poi->p_center_world;
+    decision.action = Action::kStop;
+    decision.mode = {Mode::kTargetApproach, ModeReason::kNearTarget, true};
+    return true;
+  }
+  return false;
+}
+
+void ChooseActivity(Situation& now, Decision& decision) {
+  const auto start = now.world.ground.StandingAt(now.agent.p_world);
+  Activity& activity = now.goal.activity;
+  if (!start) {
+    End(now, Ending::kUnreachable);
+    return;
+  }
+  if (auto live = ChooseLivePoi(now, *start)) {
+    if (live->candidate.id != now.goal.active_live) {
+      now.goal.tried_viewpoints.clear();
+      now.goal.failed_views = 0;
+    }
+    now.goal.active_live = live->candidate.id;
+    now.goal.script.clear();
+    decision.shown.push_back(live->candidate);
+    Begin(now, ActivityKind::kApproach, std::move(*live));
+    return;
+  }
+  if (activity.kind == ActivityKind::kApproach) End(now, Ending::kUnreachable);
+  if (!now.goal.script.empty()) return;
+  if (activity.kind == ActivityKind::kVisit && KeepToPath(now)) return;
+  if (auto history = ChooseHistoryPoi(now, *start)) {
+    decision.shown.push_back(history->candidate);
+    Begin(now, ActivityKind::kVisit, std::move(*history));
+    return;
+  }
+  if (activity.kind == ActivityKind::kVisit) End(now, Ending::kUnreachable);
+  if (GoNearer(now, *start)) return;
+  Explore(now, *start, decision);
+}
+
+policy::ModeDecision ModeOf(const Situation& now) {
+  const Activity& activity = now.goal.activity;
+  const bool is_on_flight = std::abs(now.agent.p_world.z() - now.world.level_m) >= kSameLevel_m;
+  switch (activity.kind) {
+    case ActivityKind::kApproach:
+      if (RemainingOf(now, activity.path) <= kNear_m)
+        return {Mode::kTargetApproach, ModeReason::kNearTarget, true};
+      return {Mode::kPoiNavigation, ModeReason::kLivePoi, true};
+    case ActivityKind::kVisit:
+      return {Mode::kPoiNavigation, ModeReason::kHistoryPoi, false};
+    case ActivityKind::kClimb:
+      if (is_on_flight) return {Mode::kStairExplore, ModeReason::kClimbing};
+      break;
+    default:
+      break;
+  }
+  return {Mode::kBasicExplore, ModeReason::kExploring};
+}
+
+std::optional<Action> Act(Situation& now, const policy::Verification& verification) {
+  GoalState& goal = now.goal;
+  if (!goal.script.empty()) {
+    const Action scripted = goal.script.front();
+    goal.script.pop_front();
+    return scripted;
+  }
+  switch (goal.activity.kind) {
+    case ActivityKind::kGoTo:
+    case ActivityKind::kClimb:
+      return ActOnExploration(now);
+    case ActivityKind::kVisit:
+      return ActOnVisit(now);
+    case ActivityKind::kApproach:
+      return ActOnApproach(now, verification);
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Decision Navigate(Situation& now) {
+  Decision decision;
+  NoteBump(now);
+  NoteLevel(now);
+  MeasureProgress(now);
+  if (!Prove(now, decision)) {
+    ChooseActivity(now, decision);  // eq:supp_candidate_set, eq:supp_candidate_priority
+    decision.mode = ModeOf(now);
+    const Activity& activity = now.goal.activity;
+    if (activity.kind != ActivityKind::kNone) {
+      decision.target = activity.candidate;
+      decision.path = activity.path;
+      decision.path_cost = RemainingOf(now, activity.path) / now.config.map.voxel_m;
+    }
+    decision.action = Act(now, decision.verification);
+    if (!decision.action && TryLastResort(now)) decision.action = Action::kTurnLeft;
+  }
+  if (decision.action == Action::kMoveForward) now.world.before_forward = now.agent;
+  return decision;
+}
+
+}  // namespace crossnav::agent

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/poi_targets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crossnav/policy/approach.h"
+#include "crossnav/policy/frontiers.h"
+
+namespace crossnav::agent {
+
+using geometry::VoxelKey;
+using planner::GroundSearch;
+using policy::Candidate;
+using policy::CandidateKind;
+
+namespace {
+
+constexpr double kSlack_m = 0.1;      // chosen: the agent stops that near to where it was sent
+constexpr double kBestShare = 0.6;    // chosen: of the best score, remembered places that count alike
+
+bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
+  return std::any_of(tried.begin(), tried.end(),
+                     [&](const Vector3d& t) { return (t - p).norm() < policy::kSameView_m; });
+}
+
+Vector3d FootOf(const VoxelKey& key, double voxel_m) {
+  return CenterOf(key, voxel_m) - Vector3d(0, 0, 0.5 * voxel_m);
+}
+
+}  // namespace
+
+planner::GroundRules RulesOf(const Situation& now) {
+  planner::GroundRules rules;
+  if (now.config.policy.planar) {
+    rules.level = policy::BandAround(now.world.level_m, now.config.policy.frontier,
+                                     now.config.map.voxel_m);
+  }
+  return rules;
+}
+
+std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& start,
+                                        const std::vector<VoxelKey>& object, double range_m,
+                                        const std::vector<Vector3d>& tried) {
+  if (object.empty()) return std::nullopt;
+  const double voxel_m = now.config.map.voxel_m;
+  const policy::ViewTest view(now.world.map, object, range_m, now.config.policy.approach,
+                              now.config.sensor.camera_height_m);
+  GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  while (const auto key = search.Next()) {
+    if (!view.IsView(*key) || IsNearTried(tried, FootOf(*key, voxel_m))) continue;
+    GroundTarget target;
+    target.path = search.PathTo(*key);
+    target.cost_m = search.cost() * voxel_m;
+    target.candidate.standing = {*key};
+    return target;
+  }
+  return std::nullopt;
+}
+
+std::optional<GroundTarget> NearestTo(const Situation& now, const VoxelKey& start,
+                                      const Vector3d& p_world) {
+  const double voxel_m = now.config.map.voxel_m;
+  const auto distance_m = [&](const VoxelKey& key) {
+    const Vector3d d = p_world - FootOf(key, voxel_m);
+    const bool is_on_storey = d.z() > -0.5 && d.z() < now.config.policy.explore.storey_m;
+    return is_on_storey ? std::hypot(d.x(), d.y()) : 1e9;
+  };
+  GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  std::optional<VoxelKey> best;
+  double best_m = std::min(distance_m(start), 1e8) - policy::kSameView_m;
+  while (const auto key = search.Next()) {
+    const double d = distance_m(*key);
+    if (d >= best_m) continue;
+    best = key;
+    best_m = d;
+  }
+  if (!best) return std::nullopt;
+  GroundTarget target;
+  target.path = search.PathTo(*best);
+  target.cost_m = *search.CostOf(*best) * voxel_m;
+  target.candidate.standing = {*best};
+  target.candidate.p_focus_world = p_world;
+  return target;
+}
+
+std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& start) {
+  for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
+    if (IsBlacklisted(now.goal.blacklist, poi->p_center_world)) continue;
+    const bool is_active = poi->id == now.goal.active_live;
+    auto target = NearestView(now, start, poi->voxels,
+                              now.config.policy.approach.range_m - kSlack_m,
+                              is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{});
+    if (!target) continue;
+    target->candidate.kind = CandidateKind::kLivePoi;
+    target->candidate.id = poi->id;
+    target->candidate.p_focus_world = poi->p_center_world;
+    target->candidate.size = static_cast<int>(poi->voxels.size());
+    target->candidate.score = poi->confidence;
+    return target;
+  }
+  return std::nullopt;
+}
+
+std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
+  double best_score = 0;
+  for (const HistoryPoi& poi : now.goal.history)
+    if (!poi.is_exhausted) best_score = std::max(best_score, poi.score);
+  const auto& approach = now.config.policy.approach;
+  // Among places that answer about equally well the nearest; then the others in their order.
+  for (const double share : {kBestShare, 0.0}) {
+    std::optional<GroundTarget> nearest;
+    for (std::size_t i = 0; i < now.goal.history.size(); ++i) {
+      const HistoryPoi& poi = now.goal.history[i];
+      if (poi.is_exhausted || poi.score < share * best_score) continue;
+      if (IsBlacklisted(now.goal.blacklist, poi.p_center_world)) continue;
+      for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
+        auto target = NearestView(now, start, poi.voxels, range_m, {});
+        if (!target) continue;
+        if (nearest && nearest->cost_m <= target->cost_m) break;
+        target->candidate.kind = CandidateKind::kHistoryPoi;
+        target->candidate.id = static_cast<int>(i);
+        target->candidate.p_focus_world = poi.p_center_world;
+        target->candidate.size = static_cast<int>(poi.voxels.size());
+        target->candidate.score = poi.score;
+        nearest = std::move(target);
+        break;
+      }
+    }
+    if (nearest) return nearest;
+  }
+  return std::nullopt;
+}
+
+}  // namespace crossnav::agent

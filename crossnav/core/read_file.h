@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// A whole file as bytes: the one way in which this program reads files that fit into memory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "crossnav/core/result.h"
+
+namespace crossnav {
+
+/// Errors: kNotFound (cannot be opened), kIo (a folder, or reading fails), kUnsupported (more than
+/// `max_bytes`).
+Result<std::string> ReadFile(const std::filesystem::path& path,
+                             std::uintmax_t max_bytes = UINTMAX_MAX);
+
+}  // namespace crossnav

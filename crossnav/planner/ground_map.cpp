@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/planner/ground_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "crossnav/core/cells.h"
+
+namespace crossnav::planner {
+namespace {
+
+using geometry::IsSurface;
+using geometry::VoxelState;
+
+constexpr int kBelow = 8;         // voxels of a window below the place it is about
+constexpr int kHeadSlack = 1;     // chosen: a ceiling may start one voxel low
+constexpr double kFootReach_m = 0.5;  // chosen: an agent is never farther from its floor
+
+std::uint64_t TileKey(int x, int y) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x >> 3)) << 32 |
+         static_cast<std::uint32_t>(y >> 3);
+}
+int ColumnOf(int x, int y) {
+  return (y & 7) * 8 + (x & 7);
+}
+/// Bits lo .. hi, both included.
+constexpr std::uint64_t Span(int lo, int hi) {
+  return hi < lo ? 0 : (~std::uint64_t{0} >> (63 - (hi - lo))) << lo;
+}
+
+}  // namespace
+
+GroundMap::GroundMap(const geometry::MapConfig& config)
+    : voxel_m_(config.voxel_m),
+      climb_(CellsFloor(config.max_climb_m, config.voxel_m)),
+      height_(std::min(CellsFloor(config.agent_height_m, config.voxel_m), 63 - kBelow)),
+      inflation_(CellsFloor(config.inflation_m, config.voxel_m)) {}
+
+const GroundMap::Tile* GroundMap::FindTile(int x, int y) const {
+  const auto it = index_.find(TileKey(x, y));
+  return it == index_.end() ? nullptr : &tiles_[it->second];
+}
+
+void GroundMap::Clear() {
+  index_.clear();
+  tiles_.clear();
+  ++revision_;
+}
+
+void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
+  const auto [it, is_new] = index_.try_emplace(TileKey(key.x, key.y), tiles_.size());
+  if (is_new) tiles_.emplace_back();
+  Tile& tile = tiles_[it->second];
+  const int word = key.z >> 6;
+  const int lo = tile.words ? std::min(tile.first_word, word) : word;
+  const int hi = tile.words ? std::max(tile.first_word + tile.words - 1, word) : word;
+  if (hi - lo + 1 != tile.words) {
+    Tile grown{lo, hi - lo + 1, {}, {}};
+    grown.surface.resize(static_cast<std::size_t>(kSide * kSide * grown.words));
+    grown.air.resize(grown.surface.size());
+    for (int column = 0; column < kSide * kSide; ++column)
+      for (int w = 0; w < tile.words; ++w) {
+        const auto to = static_cast<std::size_t>(column * grown.words + w + tile.first_word - lo);
+        const auto from = static_cast<std::size_t>(column * tile.words + w);
+        grown.surface[to] = tile.surface[from];
+        grown.air[to] = tile.air[from];
+      }
+    tile = std::move(grown);
+  }
+  const auto at = static_cast<std::size_t>(ColumnOf(key.x, key.y) * tile.words + word - tile.first_word);
+  const std::uint64_t bit = std::uint64_t{1} << (key.z & 63);
+  tile.surface[at] = is_surface ? tile.surface[at] | bit : tile.surface[at] & ~bit;
+  tile.air[at] = is_air ? tile.air[at] | bit : tile.air[at] & ~bit;
+}
+
+void GroundMap::Update(const std::vector<geometry::StateChange>& changes) {
+  for (const auto& change : changes) {
+    const VoxelState state = change.voxel.state;
+    const bool is_surface = IsSurface(state);
+    Set(change.key, is_surface, !is_surface && state != VoxelState::kUnknown);
+  }
+  if (!changes.empty()) ++revision_;
+}
+
+void GroundMap::Rebuild(const geometry::VoxelMap& map) {
+  Clear();
+  map.ForEach([&](const VoxelKey& key, const geometry::Voxel& voxel) {
+    Set(key, IsSurface(voxel.state), !IsSurface(voxel.state));
+  });
+}
+
+std::uint64_t GroundMap::Window(const Tile& tile, const std::vector<std::uint64_t>& bits,
+                                int column, int z_lo) {
+  const int word = (z_lo >> 6) - tile.first_word, shift = z_lo & 63;
+  const auto at = [&](int w) {
+    return w < 0 || w >= tile.words ? 0 : bits[static_cast<std::size_t>(column * tile.words + w)];
+  };
+  return shift == 0 ? at(word) : at(word) >> shift | at(word + 1) << (64 - shift);
+}
+
+std::uint64_t GroundMap::Surfaces(int x, int y, int z_lo) const {
+  const Tile* tile = FindTile(x, y);
+  return tile ? Window(*tile, tile->surface, ColumnOf(x, y), z_lo) : 0;
+}
+std::uint64_t GroundMap::Air(int x, int y, int z_lo) const {
+  const Tile* tile = FindTile(x, y);
+  return tile ? Window(*tile, tile->air, ColumnOf(x, y), z_lo) : 0;
+}
+
+/// Bit i: one can stand at z_lo + i. Valid for the lower half of the window.
+std::uint64_t GroundMap::StandingBits(int x, int y, int z_lo) const {
+  const Tile* tile = FindTile(x, y);
+  if (tile == nullptr) return 0;
+  const int column = ColumnOf(x, y);
+  const std::uint64_t air = Window(*tile, tile->air, column, z_lo);
+  const std::uint64_t below = Window(*tile, tile->surface, column, z_lo - 1);
+  std::uint64_t standing = air & below;
+  if (standing == 0) return 0;
+  const std::uint64_t surface = Window(*tile, tile->surface, column, z_lo);
+  for (std::uint64_t rest = standing; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    const int top = std::min(63, i + height_ - 1 - kHeadSlack);
+    const bool is_bumped = !blocked_.empty() && blocked_.contains({x, y, z_lo + i});
+    if ((surface & Span(i, top)) != 0 || is_bumped) standing &= ~(std::uint64_t{1} << i);
+  }
+  return standing;
+}
+
+bool GroundMap::IsStanding(const VoxelKey& key) const {
+  return (StandingBits(key.x, key.y, key.z) & 1) != 0;
+}
+
+std::optional<int> GroundMap::StandingNear(int x, int y, int z, int reach) const {
+  const std::uint64_t bits = StandingBits(x, y, z - reach);
+  for (int d = 0; d <= reach; ++d) {
+    if ((bits >> (reach + d) & 1) != 0) return z + d;
+    if ((bits >> (reach - d) & 1) != 0) return z - d;
+  }
+  return std::nullopt;
+}
+
+std::optional<VoxelKey> GroundMap::StandingAt(const Vector3d& p_world_foot) const {
+  const VoxelKey center = geometry::KeyOf(p_world_foot + Vector3d(0, 0, 0.5 * voxel_m_), voxel_m_);
+  const int reach = CellsFloor(kFootReach_m, voxel_m_);
+  std::optional<VoxelKey> best;
+  double best_vox = 1e9;
+  for (int dx = -reach; dx <= reach; ++dx)
+    for (int dy = -reach; dy <= reach; ++dy) {
+      const auto z = StandingNear(center.x + dx, center.y + dy, center.z, reach);
+      if (!z) continue;
+      const VoxelKey key{center.x + dx, center.y + dy, *z};
+      const Vector3d d = (CenterOf(key, voxel_m_) - p_world_foot) / voxel_m_;
+      const double distance = std::hypot(d.x(), d.y(), d.z() - 0.5);
+      if (distance >= best_vox - 1e-9) continue;
+      best = key;
+      best_vox = distance;
+    }
+  return best;
+}
+
+/// Something more than the climb limit over the ground of a body standing at height `z`.
+bool GroundMap::IsBodyBlocked(int x, int y, int z) const {
+  const std::uint64_t surface = Surfaces(x, y, z - kBelow);
+  if ((surface & Span(kBelow + climb_, kBelow + height_ - 1 - kHeadSlack)) != 0) return true;
+  return !blocked_.empty() && blocked_.contains({x, y, z});
+}
+
+Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const {
+  const int x = key.x + dx, y = key.y + dy;
+  const Tile* tile = FindTile(x, y);
+  if (tile == nullptr) return Side::kUnknown;
+  if (IsBodyBlocked(x, y, key.z)) return Side::kBlocked;
+  if (const auto z = StandingNear(x, y, key.z, climb_)) {
+    // A step up needs head-room where one comes from as well.
+    const std::uint64_t own = Surfaces(key.x, key.y, key.z - kBelow);
+    const int top = kBelow + std::max(0, *z - key.z) + height_ - 1 - kHeadSlack;
+    if ((own & Span(kBelow, std::min(63, top))) != 0) return Side::kBlocked;
+    *ground_z = *z;
+    return Side::kGround;
+  }
+  const std::uint64_t air = Air(x, y, key.z - kBelow), surface = Surfaces(x, y, key.z - kBelow);
+  // A surface within reach on which one cannot stand is something low that has no air above it.
+  const int lowest = kBelow - climb_ - 1;
+  const std::uint64_t near = Span(lowest, kBelow + climb_ - 1);
+  if ((air & near) == 0) return (surface & near) != 0 ? Side::kBlocked : Side::kUnknown;
+  if ((surface & near) != 0) return Side::kBlocked;
+  // Seen air: what lies below its lowest layer within reach?
+  const std::uint64_t drop = Span(lowest, kBelow - 1);
+  return (air & drop) == drop ? Side::kDrop : Side::kUnknown;
+}
+
+Clearance GroundMap::ClearanceOf(const VoxelKey& key) const {
+  constexpr std::array<VoxelKey, 4> kAxes = {{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, -1, 0}}};
+  bool is_touching = false;
+  for (const VoxelKey& d : kAxes) {
+    const bool ahead = IsBodyBlocked(key.x + d.x, key.y + d.y, key.z);
+    const bool behind = IsBodyBlocked(key.x - d.x, key.y - d.y, key.z);
+    if (ahead && behind) return Clearance::kPinch;
+    is_touching = is_touching || ahead || behind;
+  }
+  if (is_touching) return Clearance::kTouch;
+  for (int dy = -inflation_; dy <= inflation_; ++dy)
+    for (int dx = -inflation_; dx <= inflation_; ++dx) {
+      if (std::abs(dx) <= 1 && std::abs(dy) <= 1) continue;
+      if (dx * dx + dy * dy > inflation_ * inflation_ + 1) continue;
+      if (IsBodyBlocked(key.x + dx, key.y + dy, key.z)) return Clearance::kTight;
+    }
+  return Clearance::kFree;
+}
+
+double GroundMap::DistanceToObstacle(const Vector3d& p_world_foot, int z, double cap_m) const {
+  const VoxelKey foot = geometry::KeyOf(p_world_foot, voxel_m_);
+  const int reach = CellsCeil(cap_m, voxel_m_);
+  double nearest = cap_m;
+  for (int dx = -reach; dx <= reach; ++dx)
+    for (int dy = -reach; dy <= reach; ++dy) {
+      const double x = (foot.x + dx) * voxel_m_, y = (foot.y + dy) * voxel_m_;
+      const double ox = std::max({x - p_world_foot.x(), 0.0, p_world_foot.x() - x - voxel_m_});
+      const double oy = std::max({y - p_world_foot.y(), 0.0, p_world_foot.y() - y - voxel_m_});
+      const double distance = std::hypot(ox, oy);
+      if (distance < nearest && IsBodyBlocked(foot.x + dx, foot.y + dy, z)) nearest = distance;
+    }
+  return nearest;
+}
+
+void GroundMap::Block(const Vector3d& p_world) {
+  const VoxelKey key = geometry::KeyOf(p_world, voxel_m_);
+  for (int dz = -climb_; dz <= climb_ + 1; ++dz) blocked_.insert({key.x, key.y, key.z + dz});
+  ++revision_;
+}
+
+void GroundMap::ForgetBlocked() {
+  blocked_.clear();
+  ++revision_;
+}
+
+}  // namespace crossnav::planner

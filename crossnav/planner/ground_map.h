@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Where a foot can be put: the ground that the voxel map's surfaces and free air imply, on every
+// floor, landing and step at once. Geometry alone decides: ground is what one can step onto (a rise
+// up to the climb limit, head-room, room for the body), whatever a stair mask says of it.
+// A place to stand is named by its lowest free voxel; its support is the surface voxel below.
+// Kept up to date from the map's state changes; lookups cost a few word operations a column.
+// World frame; lengths in voxels. Not thread-safe with Update.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+#include "crossnav/geometry/voxel_map.h"
+
+namespace crossnav::planner {
+
+using geometry::VoxelKey;
+
+/// What a step from a place to stand to a neighbouring column meets.
+enum class Side : std::uint8_t {
+  kGround,   ///< a place to stand within the climb limit
+  kBlocked,  ///< something that stops the body
+  kUnknown,  ///< ground may be there: it was not seen yet
+  kDrop,     ///< air, seen deeper than one can step
+};
+
+/// How much room the body has around its axis.
+enum class Clearance : std::uint8_t {
+  kFree,   ///< nothing within the inflation radius
+  kTight,  ///< something within the inflation radius
+  kTouch,  ///< something in a neighbouring column
+  kPinch,  ///< something in neighbouring columns on opposite sides: less than a body's width
+};
+
+class GroundMap {
+ public:
+  explicit GroundMap(const geometry::MapConfig& config);
+
+  void Update(const std::vector<geometry::StateChange>& changes);
+  void Rebuild(const geometry::VoxelMap& map);
+
+  /// A surface below, air here, head-room above, and nothing that was bumped into.
+  bool IsStanding(const VoxelKey& key) const;
+
+  /// The place to stand in column (x, y) nearest in height to `z`, within `reach` voxels.
+  std::optional<int> StandingNear(int x, int y, int z, int reach) const;
+
+  /// The place to stand nearest to a foot within half a metre; nullopt where there is none.
+  std::optional<VoxelKey> StandingAt(const Vector3d& p_world_foot) const;
+
+  /// What a step from `key` to the column (dx, dy) away meets; `ground_z` gets the height there.
+  Side SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
+
+  Clearance ClearanceOf(const VoxelKey& key) const;
+
+  /// Distance from the upright axis at `p_world_foot` to the nearest column that stops a body
+  /// standing at height `z`, at most `cap_m` [m].
+  double DistanceToObstacle(const Vector3d& p_world_foot, int z, double cap_m) const;
+
+  /// Takes the column under `p_world` for an obstacle at the body's height, until Forget.
+  void Block(const Vector3d& p_world);
+  void ForgetBlocked();
+  bool HasBlocked() const { return !blocked_.empty(); }
+
+  int climb() const { return climb_; }
+  double voxel_m() const { return voxel_m_; }
+  /// Grows with every change of the ground.
+  std::uint64_t revision() const { return revision_; }
+
+ private:
+  static constexpr int kSide = 8;
+  /// 8 x 8 columns, each a run of 64-bit words: one for surfaces, one for seen air.
+  struct Tile {
+    int first_word = 0;
+    int words = 0;
+    std::vector<std::uint64_t> surface, air;  // [column][word]
+  };
+
+  const Tile* FindTile(int x, int y) const;
+  void Set(const VoxelKey& key, bool is_surface, bool is_air);
+  void Clear();
+  /// Bits z_lo .. z_lo + 63 of the column.
+  static std::uint64_t Window(const Tile& tile, const std::vector<std::uint64_t>& bits, int column,
+                              int z_lo);
+  std::uint64_t Surfaces(int x, int y, int z_lo) const;
+  std::uint64_t Air(int x, int y, int z_lo) const;
+  std::uint64_t StandingBits(int x, int y, int z_lo) const;
+  bool IsBodyBlocked(int x, int y, int z) const;
+
+  double voxel_m_;
+  int climb_, height_, inflation_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::vector<Tile> tiles_;
+  std::set<VoxelKey> blocked_;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace crossnav::planner

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/planner/ground_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace crossnav::planner {
+namespace {
+
+constexpr double kLeaveTight_vox = 4;  // chosen: from a tight spot the first steps may be pinched
+constexpr std::array<std::array<int, 2>, 8> kSteps = {
+    {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
+
+}  // namespace
+
+double GroundEdgeCost(const VoxelKey& from, const VoxelKey& to, Clearance room, int climb,
+                      const PlannerConfig& config) {
+  const double length = geometry::VoxelDistance(from, to);
+  const double high = std::abs(to.z - from.z) >= climb ? config.high_step_cost : 0;
+  switch (room) {
+    case Clearance::kFree:
+      return length + high;
+    case Clearance::kTight:
+      return (length + high) * config.inflated_cost_factor;
+    case Clearance::kTouch:
+    case Clearance::kPinch:
+      break;
+  }
+  return (length + high) * config.touch_cost_factor;
+}
+
+GroundSearch::GroundSearch(const GroundMap& ground, const PlannerConfig& config,
+                           const VoxelKey& start, const GroundRules& rules)
+    : ground_(ground), config_(config), rules_(rules), start_(start), table_(1024, -1) {
+  nodes_.reserve(1024);
+  const std::int32_t first = NodeOf(start);
+  nodes_[static_cast<std::size_t>(first)].cost = 0;
+  queue_.push_back({0, start, first});
+}
+
+std::int32_t GroundSearch::Find(const VoxelKey& key) const {
+  const std::size_t mask = table_.size() - 1;
+  for (std::size_t at = geometry::VoxelKeyHash()(key) & mask;; at = (at + 1) & mask) {
+    const std::int32_t node = table_[at];
+    if (node < 0 || nodes_[static_cast<std::size_t>(node)].key == key) return node;
+  }
+}
+
+void GroundSearch::Grow() {
+  std::vector<std::int32_t> table(table_.size() * 2, -1);
+  const std::size_t mask = table.size() - 1;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    std::size_t at = geometry::VoxelKeyHash()(nodes_[i].key) & mask;
+    while (table[at] >= 0) at = (at + 1) & mask;
+    table[at] = static_cast<std::int32_t>(i);
+  }
+  table_ = std::move(table);
+}
+
+std::int32_t GroundSearch::NodeOf(const VoxelKey& key) {
+  const std::int32_t known = Find(key);
+  if (known >= 0) return known;
+  if (2 * nodes_.size() >= table_.size()) Grow();
+  const std::size_t mask = table_.size() - 1;
+  std::size_t at = geometry::VoxelKeyHash()(key) & mask;
+  while (table_[at] >= 0) at = (at + 1) & mask;
+  table_[at] = static_cast<std::int32_t>(nodes_.size());
+  nodes_.push_back({key, 1e18, -1, -1, false});
+  return table_[at];
+}
+
+void GroundSearch::LookUpRoom(Node& node) const {
+  if (node.clearance < 0)
+    node.clearance = static_cast<std::int8_t>(ground_.ClearanceOf(node.key));
+}
+
+std::optional<VoxelKey> GroundSearch::Next() {
+  while (!queue_.empty()) {
+    std::pop_heap(queue_.begin(), queue_.end());
+    const Open open = queue_.back();
+    queue_.pop_back();
+    Node& node = nodes_[static_cast<std::size_t>(open.node)];
+    if (node.is_closed) continue;
+    node.is_closed = true;
+    last_cost_ = open.cost;
+    ++visited_;
+    Expand(open.node);
+    return open.key;
+  }
+  return std::nullopt;
+}
+
+void GroundSearch::Expand(std::int32_t from_index) {
+  const Node from = nodes_[static_cast<std::size_t>(from_index)];
+  for (const auto& step : kSteps) {
+    int z = 0;
+    if (ground_.SideOf(from.key, step[0], step[1], &z) != Side::kGround) continue;
+    const VoxelKey to{from.key.x + step[0], from.key.y + step[1], z};
+    if (rules_.level && !rules_.level->Contains(z - 1)) continue;
+    const std::int32_t index = NodeOf(to);
+    Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (node.is_closed) continue;
+    LookUpRoom(node);
+    const auto room = static_cast<Clearance>(node.clearance);
+    if (room == Clearance::kPinch && VoxelDistance(to, start_) > kLeaveTight_vox) continue;
+    const double cost =
+        from.cost + GroundEdgeCost(from.key, to, room, ground_.climb(), config_);
+    if (cost >= node.cost - 1e-12 || cost > rules_.max_cost) continue;
+    node.cost = cost;
+    node.parent = from_index;
+    queue_.push_back({cost, to, index});
+    std::push_heap(queue_.begin(), queue_.end());
+  }
+}
+
+std::optional<double> GroundSearch::CostOf(const VoxelKey& key) const {
+  const std::int32_t index = Find(key);
+  if (index < 0 || !nodes_[static_cast<std::size_t>(index)].is_closed) return std::nullopt;
+  return nodes_[static_cast<std::size_t>(index)].cost;
+}
+
+std::vector<VoxelKey> GroundSearch::PathTo(const VoxelKey& key) const {
+  std::vector<VoxelKey> path;
+  for (std::int32_t at = Find(key); at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent)
+    path.push_back(nodes_[static_cast<std::size_t>(at)].key);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace crossnav::planner

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Cheapest ways over the ground, on all floors: one Dijkstra from where the agent stands, visited in
+// order of cost, so that "the nearest place for which ..." stops as soon as it is found. An edge
+// costs its length in voxels (eq:supp_astar_edge_cost), more where the body has little room
+// (the paper's price of inflated space) or takes a high step. Lengths and costs in voxels.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "crossnav/planner/astar.h"
+#include "crossnav/planner/ground_map.h"
+#include "crossnav/planner/planner_config.h"
+
+namespace crossnav::planner {
+
+struct GroundRules {
+  std::optional<LevelBand> level;  ///< supports that may be walked on; empty = every floor
+  double max_cost = 1e18;          ///< places beyond are not visited
+};
+
+class GroundSearch {
+ public:
+  /// Keeps references to `ground` and `config`.
+  GroundSearch(const GroundMap& ground, const PlannerConfig& config, const VoxelKey& start,
+               const GroundRules& rules = {});
+
+  /// The next place in order of cost; ties by key. nullopt when all that can be reached was visited.
+  std::optional<VoxelKey> Next();
+
+  /// Cost of the place that Next() gave last.
+  double cost() const { return last_cost_; }
+
+  /// Way from the start to a visited place, both included.
+  std::vector<VoxelKey> PathTo(const VoxelKey& key) const;
+  /// Cost of a visited place, or nullopt.
+  std::optional<double> CostOf(const VoxelKey& key) const;
+  std::size_t visited() const { return visited_; }
+
+ private:
+  struct Node {
+    VoxelKey key;
+    double cost;
+    std::int32_t parent;
+    std::int8_t clearance;  // -1 = not looked up yet
+    bool is_closed;
+  };
+  struct Open {
+    double cost;
+    VoxelKey key;
+    std::int32_t node;
+    friend bool operator<(const Open& a, const Open& b) {
+      return a.cost != b.cost ? a.cost > b.cost : a.key > b.key;
+    }
+  };
+
+  std::int32_t NodeOf(const VoxelKey& key);
+  std::int32_t Find(const VoxelKey& key) const;
+  void Grow();
+  void Expand(std::int32_t from);
+  void LookUpRoom(Node& node) const;
+
+  const GroundMap& ground_;
+  const PlannerConfig& config_;
+  GroundRules rules_;
+  VoxelKey start_;
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> table_;  // open addressing, -1 = empty
+  std::vector<Open> queue_;          // heap
+  double last_cost_ = 0;
+  std::size_t visited_ = 0;
+};
+
+/// Cost of the edge between neighbouring places, by the room at the place that is entered.
+double GroundEdgeCost(const VoxelKey& from, const VoxelKey& to, Clearance room, int climb,
+                      const PlannerConfig& config);
+
+}  // namespace crossnav::planner

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/policy/ground_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+
+namespace crossnav::policy {
+namespace {
+
+using geometry::VoxelKey;
+using planner::GroundMap;
+
+constexpr double kCell_m = 0.05;      // chosen: positions nearer than this are one
+constexpr double kStray = 1.5;        // chosen: a metre off the way costs as much as 1.5 along it
+constexpr int kMaxExpansions = 600;   // chosen: a few times what a turn around in a corridor takes
+constexpr double kUnseenCost = 3;     // chosen: [steps] onto ground that was not seen
+constexpr int kWindow = 40;           // places of the way that are looked at
+
+/// Cost-to-go along a way, for positions beside it too.
+class WayAhead {
+ public:
+  WayAhead(const std::vector<VoxelKey>& path, double voxel_m) {
+    const std::size_t count = std::min<std::size_t>(path.size(), kWindow);
+    for (std::size_t i = 0; i < count; ++i) points_.push_back(CenterOf(path[i], voxel_m));
+    rest_m_.assign(count, 0);
+    for (std::size_t i = count - 1; i-- > 0;)
+      rest_m_[i] = rest_m_[i + 1] + (points_[i + 1] - points_[i]).head<2>().norm();
+  }
+  double At(const Eigen::Vector2d& p) const {
+    double best_m = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const double off_m = (points_[i].head<2>() - p).norm();
+      best_m = std::min(best_m, rest_m_[i] + kStray * off_m);
+    }
+    return best_m;
+  }
+
+ private:
+  std::vector<Vector3d> points_;
+  std::vector<double> rest_m_;
+};
+
+struct Node {
+  Eigen::Vector2d p;
+  int z = 0;        // place to stand [voxels]
+  int turn = 0;     // heading against the agent's, in turns
+  double cost = 0;  // [steps]
+  int parent = -1;
+  Action action = Action::kStop;
+  int depth = 0;
+};
+
+/// What a forward step meets: [steps] on top of its own, or nothing if it is refused.
+std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d& from, int z_from,
+                                  double yaw_rad, const MotionConfig& config,
+                                  const ActionConfig& action, int* z_to) {
+  const double voxel_m = ground.voxel_m();
+  const auto room = [&](const Eigen::Vector2d& p, int z) {
+    return ground.DistanceToObstacle({p.x(), p.y(), z * voxel_m}, z, config.wanted_clearance_m);
+  };
+  const double room_before = room(from, z_from);
+  double penalty = 0;
+  int z = z_from;
+  for (const double share : {1.0 / 3, 2.0 / 3, 1.0}) {
+    const Eigen::Vector2d p =
+        from + share * action.forward_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad));
+    const VoxelKey key = geometry::KeyOf({p.x(), p.y(), 0}, voxel_m);
+    const VoxelKey here = geometry::KeyOf({from.x(), from.y(), 0}, voxel_m);
+    if (const auto next = ground.StandingNear(key.x, key.y, z, ground.climb())) {
+      z = *next;
+    } else if (key.x != here.x || key.y != here.y) {
+      int unused = 0;
+      const planner::Side side = ground.SideOf({key.x, key.y, z}, 0, 0, &unused);
+      if (side == planner::Side::kDrop || side == planner::Side::kBlocked) return std::nullopt;
+      penalty += kUnseenCost / 3;
+    }
+    const double clear_m = room(p, z);
+    if (clear_m < config.min_clearance_m && clear_m < room_before + 1e-6) return std::nullopt;
+    penalty = std::max(penalty, config.clearance_weight *
+                                    (config.wanted_clearance_m - clear_m) / config.wanted_clearance_m);
+  }
+  *z_to = z;
+  return penalty;
+}
+
+class LatticeSearch {
+ public:
+  LatticeSearch(const GroundMap& ground, const WayAhead& way, const AgentPose& agent,
+                const MotionConfig& config, const ActionConfig& action)
+      : ground_(ground), way_(way), agent_(agent), config_(config), action_(action),
+        turns_(static_cast<int>(std::lround(360.0 / action.turn_deg))) {}
+
+  std::vector<Action> Run(int z_start) {
+    Add({agent_.p_world.head<2>(), z_start, 0, 0, -1, Action::kStop, 0});
+    const double start_m = way_.At(nodes_[0].p);
+    int best = -1;
+    double best_value = start_m / action_.forward_m - config_.min_gain_steps;
+    for (int expanded = 0; !open_.empty() && expanded < kMaxExpansions; ++expanded) {
+      const int index = open_.top().second;
+      open_.pop();
+      const Node node = nodes_[static_cast<std::size_t>(index)];
+      if (node.cost > seen_[CellOf(node)] + 1e-9) continue;
+      const double rest_m = way_.At(node.p);
+      // The best place so far is kept for the case that the horizon is never reached.
+      if (rest_m / action_.forward_m < best_value - 1e-9) {
+        best_value = rest_m / action_.forward_m;
+        best = index;
+      }
+      const bool is_there = rest_m <= config_.arrival_m && node.parent >= 0;
+      if (is_there || node.depth >= config_.horizon_steps) return ActionsTo(index);
+      Expand(index, node);
+    }
+    return best < 0 ? std::vector<Action>() : ActionsTo(best);
+  }
+
+ private:
+  VoxelKey CellOf(const Node& node) const {
+    return {static_cast<int>(std::floor(node.p.x() / kCell_m)),
+            static_cast<int>(std::floor(node.p.y() / kCell_m)), node.turn};
+  }
+  int Wrapped(int turn) const {
+    turn = (turn % turns_ + turns_) % turns_;
+    return turn > turns_ / 2 ? turn - turns_ : turn;
+  }
+
+  void Add(const Node& node) {
+    const auto [it, is_new] = seen_.try_emplace(CellOf(node), node.cost);
+    if (!is_new && node.cost >= it->second - 1e-9) return;
+    it->second = node.cost;
+    nodes_.push_back(node);
+    open_.push({-(node.cost + way_.At(node.p) / action_.forward_m),
+                static_cast<int>(nodes_.size()) - 1});
+  }
+
+  void Expand(int index, const Node& node) {
+    for (const int by : {1, -1}) {
+      // Turning back and forth leads nowhere.
+      const Action turn = by > 0 ? Action::kTurnLeft : Action::kTurnRight;
+      if (node.action == (by > 0 ? Action::kTurnRight : Action::kTurnLeft)) continue;
+      Node next = node;
+      next.turn = Wrapped(node.turn + by);
+      next.cost += 1;
+      next.parent = index;
+      next.action = turn;
+      Add(next);
+    }
+    const double yaw = agent_.yaw_rad + node.turn * DegToRad(action_.turn_deg);
+    Node next = node;
+    const auto penalty = StepPenalty(ground_, node.p, node.z, yaw, config_, action_, &next.z);
+    if (!penalty) return;
+    next.p += action_.forward_m * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
+    next.cost += 1 + *penalty;
+    next.parent = index;
+    next.action = Action::kMoveForward;
+    ++next.depth;
+    Add(next);
+  }
+
+  std::vector<Action> ActionsTo(int index) const {
+    std::vector<Action> actions;
+    for (; nodes_[static_cast<std::size_t>(index)].parent >= 0;
+         index = nodes_[static_cast<std::size_t>(index)].parent)
+      actions.push_back(nodes_[static_cast<std::size_t>(index)].action);
+    std::reverse(actions.begin(), actions.end());
+    // Turns at the end lead to no step.
+    while (!actions.empty() && actions.back() != Action::kMoveForward) actions.pop_back();
+    return actions;
+  }
+
+  const GroundMap& ground_;
+  const WayAhead& way_;
+  const AgentPose& agent_;
+  const MotionConfig& config_;
+  const ActionConfig& action_;
+  int turns_;
+  std::vector<Node> nodes_;
+  std::map<VoxelKey, double> seen_;
+  std::priority_queue<std::pair<double, int>> open_;  // best first: smallest estimate, latest node
+};
+
+}  // namespace
+
+std::vector<Action> MotionAlong(const GroundMap& ground, const std::vector<VoxelKey>& path,
+                                const AgentPose& agent, const MotionConfig& config,
+                                const ActionConfig& action) {
+  if (path.empty()) return {};
+  const WayAhead way(path, ground.voxel_m());
+  return LatticeSearch(ground, way, agent, config, action).Run(path.front().z);
+}
+
+bool IsStepClear(const GroundMap& ground, const AgentPose& agent, const MotionConfig& config,
+                 const ActionConfig& action) {
+  const auto here = ground.StandingAt(agent.p_world);
+  if (!here) return true;
+  int z = 0;
+  return StepPenalty(ground, agent.p_world.head<2>(), here->z, agent.yaw_rad, config, action, &z)
+      .has_value();
+}
+
+}  // namespace crossnav::policy

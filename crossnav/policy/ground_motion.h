@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// From a way over the ground to actions: a search over what turning and walking can reach, so that
+// a turn is only begun for the step that it leads to, and no heading is chosen and unchosen. The
+// body keeps clear of what the map knows. World frame, metres.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "crossnav/core/action.h"
+#include "crossnav/core/pose.h"
+#include "crossnav/planner/ground_map.h"
+#include "crossnav/policy/policy_config.h"
+
+namespace crossnav::policy {
+
+/// Turns and forward steps that lead along `path` (places to stand, the agent's first), up to
+/// `config.horizon_steps` of them or to its end, whichever is nearer. Empty where no step helps.
+std::vector<Action> MotionAlong(const planner::GroundMap& ground,
+                                const std::vector<geometry::VoxelKey>& path, const AgentPose& agent,
+                                const MotionConfig& config, const ActionConfig& action);
+
+/// Whether a forward step from `agent` keeps clear of what the map knows by now.
+bool IsStepClear(const planner::GroundMap& ground, const AgentPose& agent,
+                 const MotionConfig& config, const ActionConfig& action);
+
+}  // namespace crossnav::policy
