@@ -129,9 +129,11 @@ class Sweep {
     const Activity& activity = now_.goal.activity;
     const bool is_moving =
         activity.kind == ActivityKind::kGoTo || activity.kind == ActivityKind::kClimb;
-    if (is_moving && (activity.candidate.p_focus_world - candidate.p_focus_world).norm() <
-                         2 * config_.same_place_m)
-      score_m -= config_.commit_m;
+    // What was chosen is weighed by what is left of the way: its class was paid for.
+    if (is_moving && activity.candidate.kind == candidate.kind &&
+        (activity.candidate.p_focus_world - candidate.p_focus_world).norm() <
+            2 * config_.same_place_m)
+      score_m = cost_m - config_.commit_m;
     candidate.score = -score_m;
     shown_->push_back(candidate);
     if (best_ && score_m >= best_->score_m) return;

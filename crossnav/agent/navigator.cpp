@@ -198,7 +198,8 @@ std::optional<Action> Walk(Situation& now) {
        IsStepClear(now.world.ground, now.agent, motion, now.config.action));
   if (!is_clear) {
     activity.motion =
-        MotionAlong(now.world.ground, activity.path, now.agent, motion, now.config.action);
+        MotionAlong(now.world.ground, activity.path, now.agent, motion,
+                                  now.config.planner, now.config.action);
     std::reverse(activity.motion.begin(), activity.motion.end());
   }
   if (activity.motion.empty()) return std::nullopt;
@@ -485,6 +486,12 @@ Decision Navigate(Situation& now) {
     const Activity& activity = now.goal.activity;
     if (activity.kind != ActivityKind::kNone) {
       decision.target = activity.candidate;
+      const bool is_shown = std::any_of(
+          decision.shown.begin(), decision.shown.end(), [&](const policy::Candidate& c) {
+            return c.kind == activity.candidate.kind &&
+                   c.p_focus_world == activity.candidate.p_focus_world;
+          });
+      if (!is_shown) decision.shown.push_back(activity.candidate);
       decision.path = activity.path;
       decision.path_cost = RemainingOf(now, activity.path) / now.config.map.voxel_m;
     }

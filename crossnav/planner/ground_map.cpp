@@ -179,15 +179,34 @@ Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const
     *ground_z = *z;
     return Side::kGround;
   }
+  // Down from the highest seen air that a foot could come from: what is the first that is not air?
   const std::uint64_t air = Air(x, y, key.z - kBelow), surface = Surfaces(x, y, key.z - kBelow);
-  // A surface within reach on which one cannot stand is something low that has no air above it.
   const int lowest = kBelow - climb_ - 1;
-  const std::uint64_t near = Span(lowest, kBelow + climb_ - 1);
-  if ((air & near) == 0) return (surface & near) != 0 ? Side::kBlocked : Side::kUnknown;
-  if ((surface & near) != 0) return Side::kBlocked;
-  // Seen air: what lies below its lowest layer within reach?
-  const std::uint64_t drop = Span(lowest, kBelow - 1);
-  return (air & drop) == drop ? Side::kDrop : Side::kUnknown;
+  int at = kBelow + climb_;
+  while (at >= kBelow && (air >> at & 1) == 0) --at;
+  if (at < kBelow) {
+    const std::uint64_t near = Span(lowest, kBelow + climb_ - 1);
+    return ((air | surface) & near) != 0 ? Side::kBlocked : Side::kUnknown;
+  }
+  while (at >= lowest && (air >> at & 1) != 0) --at;
+  if (at < lowest) return Side::kDrop;
+  return (surface >> at & 1) != 0 ? Side::kBlocked : Side::kUnknown;
+}
+
+std::optional<VoxelKey> GroundMap::Bridge(const VoxelKey& key, int dx, int dy, int reach) const {
+  for (int k = 1; k <= reach; ++k) {
+    int z = 0;
+    switch (SideOf(key, k * dx, k * dy, &z)) {
+      case Side::kBlocked:
+        return std::nullopt;
+      case Side::kGround:
+        return VoxelKey{key.x + k * dx, key.y + k * dy, z};
+      case Side::kUnknown:
+      case Side::kDrop:
+        break;
+    }
+  }
+  return std::nullopt;
 }
 
 Clearance GroundMap::ClearanceOf(const VoxelKey& key) const {

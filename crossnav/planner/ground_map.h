@@ -55,6 +55,11 @@ class GroundMap {
   /// What a step from `key` to the column (dx, dy) away meets; `ground_z` gets the height there.
   Side SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
 
+  /// The next place to stand straight ahead over ground that was not seen, or seen as air: a tread
+  /// that hides behind its riser, or that light falls through. At most `reach` columns away, within
+  /// the climb limit, nothing in between that stops the body.
+  std::optional<VoxelKey> Bridge(const VoxelKey& key, int dx, int dy, int reach) const;
+
   Clearance ClearanceOf(const VoxelKey& key) const;
 
   /// Distance from the upright axis at `p_world_foot` to the nearest column that stops a body

@@ -9,6 +9,7 @@ namespace crossnav::planner {
 namespace {
 
 constexpr double kLeaveTight_vox = 4;  // chosen: from a tight spot the first steps may be pinched
+constexpr int kBridge_vox = 4;         // chosen: the deepest tread
 constexpr std::array<std::array<int, 2>, 8> kSteps = {
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
@@ -95,23 +96,40 @@ void GroundSearch::Expand(std::int32_t from_index) {
   const Node from = nodes_[static_cast<std::size_t>(from_index)];
   for (const auto& step : kSteps) {
     int z = 0;
-    if (ground_.SideOf(from.key, step[0], step[1], &z) != Side::kGround) continue;
-    const VoxelKey to{from.key.x + step[0], from.key.y + step[1], z};
-    if (rules_.level && !rules_.level->Contains(z - 1)) continue;
-    const std::int32_t index = NodeOf(to);
-    Node& node = nodes_[static_cast<std::size_t>(index)];
-    if (node.is_closed) continue;
-    LookUpRoom(node);
-    const auto room = static_cast<Clearance>(node.clearance);
-    if (room == Clearance::kPinch && VoxelDistance(to, start_) > kLeaveTight_vox) continue;
-    const double cost =
-        from.cost + GroundEdgeCost(from.key, to, room, ground_.climb(), config_);
-    if (cost >= node.cost - 1e-12 || cost > rules_.max_cost) continue;
-    node.cost = cost;
-    node.parent = from_index;
-    queue_.push_back({cost, to, index});
-    std::push_heap(queue_.begin(), queue_.end());
+    switch (ground_.SideOf(from.key, step[0], step[1], &z)) {
+      case Side::kBlocked:
+        break;
+      case Side::kGround:
+        Relax(from_index, {from.key.x + step[0], from.key.y + step[1], z}, 1);
+        break;
+      case Side::kUnknown:
+      case Side::kDrop: {
+        const bool is_diagonal = step[0] != 0 && step[1] != 0;
+        const auto to = ground_.Bridge(from.key, step[0], step[1],
+                                       is_diagonal ? kBridge_vox - 1 : kBridge_vox);
+        if (to) Relax(from_index, *to, config_.bridge_cost_factor);
+        break;
+      }
+    }
   }
+}
+
+void GroundSearch::Relax(std::int32_t from_index, const VoxelKey& to, double factor) {
+  const Node from = nodes_[static_cast<std::size_t>(from_index)];
+  if (rules_.level && !rules_.level->Contains(to.z - 1)) return;
+  const std::int32_t index = NodeOf(to);
+  Node& node = nodes_[static_cast<std::size_t>(index)];
+  if (node.is_closed) return;
+  LookUpRoom(node);
+  const auto room = static_cast<Clearance>(node.clearance);
+  if (room == Clearance::kPinch && VoxelDistance(to, start_) > kLeaveTight_vox) return;
+  const double cost =
+      from.cost + factor * GroundEdgeCost(from.key, to, room, ground_.climb(), config_);
+  if (cost >= node.cost - 1e-12 || cost > rules_.max_cost) return;
+  node.cost = cost;
+  node.parent = from_index;
+  queue_.push_back({cost, to, index});
+  std::push_heap(queue_.begin(), queue_.end());
 }
 
 std::optional<double> GroundSearch::CostOf(const VoxelKey& key) const {

@@ -59,6 +59,7 @@ class GroundSearch {
   std::int32_t Find(const VoxelKey& key) const;
   void Grow();
   void Expand(std::int32_t from);
+  void Relax(std::int32_t from, const VoxelKey& to, double factor);
   void LookUpRoom(Node& node) const;
 
   const GroundMap& ground_;

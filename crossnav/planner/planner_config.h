@@ -9,6 +9,7 @@ struct PlannerConfig {
   double inflated_cost_factor = 2;
   double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
   double high_step_cost = 2;     // chosen: [voxels] a step at the climb limit; stairs have lower ones
+  double bridge_cost_factor = 2;  // chosen: as inflated space; over a tread that was not seen
   int max_expansions = 400000;  // chosen: several times a 400 m2 two-floor house; 0 = no limit
 };
 
@@ -18,6 +19,7 @@ void Visit(V& visit, PlannerConfig& c) {
   visit("inflated_cost_factor", c.inflated_cost_factor, 1.0, 100.0);
   visit("touch_cost_factor", c.touch_cost_factor, 1.0, 1000.0);
   visit("high_step_cost", c.high_step_cost, 0.0, 1000.0);
+  visit("bridge_cost_factor", c.bridge_cost_factor, 1.0, 1000.0);
   visit("max_expansions", c.max_expansions, 0, 2000000000);
 }
 

@@ -8,6 +8,8 @@
 #include <map>
 #include <queue>
 
+#include "crossnav/planner/ground_search.h"
+
 namespace crossnav::policy {
 namespace {
 
@@ -15,33 +17,43 @@ using geometry::VoxelKey;
 using planner::GroundMap;
 
 constexpr double kCell_m = 0.05;      // chosen: positions nearer than this are one
-constexpr double kStray = 1.5;        // chosen: a metre off the way costs as much as 1.5 along it
+constexpr double kBeside_vox = 15;    // chosen: room to turn around in beside the way
 constexpr int kMaxExpansions = 600;   // chosen: a few times what a turn around in a corridor takes
 constexpr double kUnseenCost = 3;     // chosen: [steps] onto ground that was not seen
-constexpr int kWindow = 40;           // places of the way that are looked at
+constexpr int kWindow = 30;           // chosen: places of the way that are looked at
 
-/// Cost-to-go along a way, for positions beside it too.
+/// Cost-to-go [m] around the near part of a way: what is left from its end on, for every position
+/// from which that can be walked to.
 class WayAhead {
  public:
-  WayAhead(const std::vector<VoxelKey>& path, double voxel_m) {
-    const std::size_t count = std::min<std::size_t>(path.size(), kWindow);
-    for (std::size_t i = 0; i < count; ++i) points_.push_back(CenterOf(path[i], voxel_m));
-    rest_m_.assign(count, 0);
-    for (std::size_t i = count - 1; i-- > 0;)
-      rest_m_[i] = rest_m_[i + 1] + (points_[i + 1] - points_[i]).head<2>().norm();
+  WayAhead(const GroundMap& ground, const planner::PlannerConfig& planner,
+           const std::vector<VoxelKey>& path)
+      : ground_(ground),
+        search_(ground, planner, path[std::min<std::size_t>(path.size(), kWindow) - 1], {}) {
+    // Some way beyond the agent, for positions beside the way.
+    double limit = 1e18;
+    while (search_.Next() && search_.cost() <= limit)
+      if (limit > 1e17 && search_.CostOf(path.front())) limit = search_.cost() + kBeside_vox;
   }
-  double At(const Eigen::Vector2d& p) const {
+  double At(const Eigen::Vector2d& p, int z) const {
+    const double voxel_m = ground_.voxel_m();
+    const VoxelKey key = geometry::KeyOf({p.x(), p.y(), 0}, voxel_m);
     double best_m = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double off_m = (points_[i].head<2>() - p).norm();
-      best_m = std::min(best_m, rest_m_[i] + kStray * off_m);
-    }
+    for (int dx = -2; dx <= 2; ++dx)
+      for (int dy = -2; dy <= 2; ++dy) {
+        const auto near_z = ground_.StandingNear(key.x + dx, key.y + dy, z, ground_.climb());
+        if (!near_z) continue;
+        const VoxelKey near{key.x + dx, key.y + dy, *near_z};
+        const auto cost = search_.CostOf(near);
+        if (!cost) continue;
+        best_m = std::min(best_m, *cost * voxel_m + (CenterOf(near, voxel_m).head<2>() - p).norm());
+      }
     return best_m;
   }
 
  private:
-  std::vector<Vector3d> points_;
-  std::vector<double> rest_m_;
+  const GroundMap& ground_;
+  planner::GroundSearch search_;
 };
 
 struct Node {
@@ -53,6 +65,17 @@ struct Node {
   Action action = Action::kStop;
   int depth = 0;
 };
+
+/// Whether ground goes on within a tread's depth ahead of a place over which it was not seen.
+bool GoesOn(const GroundMap& ground, const Eigen::Vector2d& p, int z, double yaw_rad) {
+  for (int k = 1; k <= 3; ++k) {
+    const Eigen::Vector2d q =
+        p + k * ground.voxel_m() * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad));
+    const VoxelKey key = geometry::KeyOf({q.x(), q.y(), 0}, ground.voxel_m());
+    if (ground.StandingNear(key.x, key.y, z, ground.climb())) return true;
+  }
+  return false;
+}
 
 /// What a forward step meets: [steps] on top of its own, or nothing if it is refused.
 std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d& from, int z_from,
@@ -75,7 +98,8 @@ std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d
     } else if (key.x != here.x || key.y != here.y) {
       int unused = 0;
       const planner::Side side = ground.SideOf({key.x, key.y, z}, 0, 0, &unused);
-      if (side == planner::Side::kDrop || side == planner::Side::kBlocked) return std::nullopt;
+      if (side == planner::Side::kBlocked) return std::nullopt;
+      if (side == planner::Side::kDrop && !GoesOn(ground, p, z, yaw_rad)) return std::nullopt;
       penalty += kUnseenCost / 3;
     }
     const double clear_m = room(p, z);
@@ -96,7 +120,7 @@ class LatticeSearch {
 
   std::vector<Action> Run(int z_start) {
     Add({agent_.p_world.head<2>(), z_start, 0, 0, -1, Action::kStop, 0});
-    const double start_m = way_.At(nodes_[0].p);
+    const double start_m = way_.At(nodes_[0].p, z_start);
     int best = -1;
     double best_value = start_m / action_.forward_m - config_.min_gain_steps;
     for (int expanded = 0; !open_.empty() && expanded < kMaxExpansions; ++expanded) {
@@ -104,7 +128,7 @@ class LatticeSearch {
       open_.pop();
       const Node node = nodes_[static_cast<std::size_t>(index)];
       if (node.cost > seen_[CellOf(node)] + 1e-9) continue;
-      const double rest_m = way_.At(node.p);
+      const double rest_m = way_.At(node.p, node.z);
       // The best place so far is kept for the case that the horizon is never reached.
       if (rest_m / action_.forward_m < best_value - 1e-9) {
         best_value = rest_m / action_.forward_m;
@@ -132,7 +156,7 @@ class LatticeSearch {
     if (!is_new && node.cost >= it->second - 1e-9) return;
     it->second = node.cost;
     nodes_.push_back(node);
-    open_.push({-(node.cost + way_.At(node.p) / action_.forward_m),
+    open_.push({-(node.cost + way_.At(node.p, node.z) / action_.forward_m),
                 static_cast<int>(nodes_.size()) - 1});
   }
 
@@ -186,9 +210,9 @@ class LatticeSearch {
 
 std::vector<Action> MotionAlong(const GroundMap& ground, const std::vector<VoxelKey>& path,
                                 const AgentPose& agent, const MotionConfig& config,
-                                const ActionConfig& action) {
+                                const planner::PlannerConfig& planner, const ActionConfig& action) {
   if (path.empty()) return {};
-  const WayAhead way(path, ground.voxel_m());
+  const WayAhead way(ground, planner, path);
   return LatticeSearch(ground, way, agent, config, action).Run(path.front().z);
 }
 
