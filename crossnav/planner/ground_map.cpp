@@ -185,8 +185,8 @@ Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const
   int at = kBelow + climb_;
   while (at >= kBelow && (air >> at & 1) == 0) --at;
   if (at < kBelow) {
-    const std::uint64_t near = Span(lowest, kBelow + climb_ - 1);
-    return ((air | surface) & near) != 0 ? Side::kBlocked : Side::kUnknown;
+    // A surface below tells nothing: it may be the ceiling of the storey underneath.
+    return (surface & Span(kBelow, kBelow + climb_ - 1)) != 0 ? Side::kBlocked : Side::kUnknown;
   }
   while (at >= lowest && (air >> at & 1) != 0) --at;
   if (at < lowest) return Side::kDrop;
