@@ -28,7 +28,8 @@ Rgb8 ColourOfCategory(const std::string& category) {
 int FloorUnder(const sim::NavMesh& navmesh, double z_m) {
   int best = 0;
   for (const sim::Floor& floor : navmesh.Floors()) {
-    if (floor.height_m <= z_m + kFoot_m) best = floor.id;
+    const double lowest_m = floor.levels_m.empty() ? floor.height_m : floor.levels_m.front();
+    if (lowest_m <= z_m + kFoot_m) best = floor.id;
   }
   return best;
 }
@@ -36,9 +37,8 @@ int FloorUnder(const sim::NavMesh& navmesh, double z_m) {
 int NearestFloor(const sim::NavMesh& navmesh, double z_m) {
   const auto& floors = navmesh.Floors();
   const auto it =
-      std::min_element(floors.begin(), floors.end(), [z_m](const auto& a, const auto& b) {
-        return std::abs(a.height_m - z_m) < std::abs(b.height_m - z_m);
-      });
+      std::min_element(floors.begin(), floors.end(),
+                       [z_m](const auto& a, const auto& b) { return a.GapTo(z_m) < b.GapTo(z_m); });
   return it->id;
 }
 

@@ -29,7 +29,7 @@ std::optional<AgentPose> DrawStart(const SceneContext& context, const DatasetCon
   start.p_world = {Rounded(p->x()), Rounded(p->y()), Rounded(p->z())};
   start.yaw_rad = WrapAngle(yaw_rad);
   for (const sim::Floor& floor : context.navmesh().Floors()) {
-    if (std::abs(floor.height_m - start.p_world.z()) <= config.max_start_step_m) return start;
+    if (floor.GapTo(start.p_world.z()) <= config.max_start_step_m) return start;
   }
   return std::nullopt;
 }
@@ -91,20 +91,38 @@ std::optional<Episode> DrawEpisode(const GeneratorScene& scene, const RunConfig&
   return std::nullopt;
 }
 
-/// Stage of the first transition for each episode: the share that requires one, evenly spread.
+/// Stage of the first transition for each episode: as many of each stage as were asked for, or the
+/// share that requires one, evenly spread.
 std::vector<int> PlanTransitions(const RunConfig& config, const GeneratorOptions& options,
                                  Rng& rng) {
-  const int required = static_cast<int>(std::lround(options.count * options.cross_floor_share));
-  std::vector<int> stages(options.count, 0);
-  for (int i = 0; i < required; ++i) stages[i] = 1 + i % config.dataset.goals;
+  std::vector<int> stages;
+  for (std::size_t k = 0; k < options.first_transitions.size(); ++k) {
+    const auto count = static_cast<std::size_t>(options.first_transitions[k]);
+    stages.insert(stages.end(), count, static_cast<int>(k) + 1);
+  }
+  if (options.first_transitions.empty()) {
+    const int required = static_cast<int>(std::lround(options.count * options.cross_floor_share));
+    for (int i = 0; i < required; ++i) stages.push_back(1 + i % config.dataset.goals);
+  }
+  CROSSNAV_CHECK(static_cast<int>(stages.size()) <= options.count,
+                 "more transitions than episodes");
+  stages.resize(static_cast<std::size_t>(options.count), 0);
   rng.Shuffle(stages);
   return stages;
 }
 
-/// Tries the scenes in turn, then the other stages of the same kind.
+/// An episode for one place in the file.
+struct Wish {
+  int index = 0;
+  int stage = 0;          ///< of the first transition, 0 = none
+  bool is_exact = false;  ///< the counts per stage were asked for
+};
+
+/// Tries the scenes in turn, then the other stages of the same kind where that is allowed.
 std::optional<Episode> DrawFromAnyScene(std::span<const GeneratorScene> scenes,
-                                        const RunConfig& config, int index, int stage, Rng& rng) {
-  const int choices = stage == 0 ? 1 : config.dataset.goals;
+                                        const RunConfig& config, const Wish& wish, Rng& rng) {
+  const auto [index, stage, is_exact] = wish;
+  const int choices = stage == 0 || is_exact ? 1 : config.dataset.goals;
   for (int shift = 0; shift < choices; ++shift) {
     const int wanted = stage == 0 ? 0 : 1 + (stage - 1 + shift) % config.dataset.goals;
     for (std::size_t s = 0; s < scenes.size(); ++s) {
@@ -157,7 +175,8 @@ Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
   for (int i = 0; i < options.count; ++i) {
     std::optional<Episode> episode;
     for (int again = 0; again < 10; ++again) {
-      episode = DrawFromAnyScene(scenes, config, i, stages[i], rng);
+      const Wish wish{i, stages[static_cast<std::size_t>(i)], !options.first_transitions.empty()};
+      episode = DrawFromAnyScene(scenes, config, wish, rng);
       if (!episode || ids.insert(episode->episode_id).second) break;
     }
     if (!episode) {

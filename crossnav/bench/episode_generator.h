@@ -19,6 +19,8 @@ struct GeneratorOptions {
   int count = 0;
   double cross_floor_share = 0.3;  // chosen: the paper's 288 of 927
   std::uint64_t seed = 1;
+  /// How many episodes have their first transition at stage 1, 2, ...; empty = by the share.
+  std::vector<int> first_transitions = {};
 };
 
 struct GeneratorScene {

@@ -27,7 +27,7 @@ class FloorWatch {
     if (floor == floor_) return;
     for (const sim::Floor& candidate : navmesh_.Floors()) {
       if (candidate.id != floor) continue;
-      if (std::abs(candidate.height_m - p_world.z()) > kOnFloor_m) return;
+      if (candidate.GapTo(p_world.z()) > kOnFloor_m) return;
     }
     floor_ = floor;
     ++transitions_;

@@ -77,7 +77,8 @@ int SceneContext::FloorUnder(const Vector3d& p_world) const {
   constexpr double kSlack_m = 0.3;  // chosen: voxel centres and steps lie a little below a floor
   int under = navmesh_->Floors().empty() ? 0 : navmesh_->Floors().front().id;
   for (const sim::Floor& floor : navmesh_->Floors()) {
-    if (floor.height_m <= p_world.z() + kSlack_m) under = floor.id;
+    const double lowest_m = floor.levels_m.empty() ? floor.height_m : floor.levels_m.front();
+    if (lowest_m <= p_world.z() + kSlack_m) under = floor.id;
   }
   return under;
 }

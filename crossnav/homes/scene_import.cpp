@@ -137,7 +137,7 @@ void MarkReached(ImportReport& report) {
     for (const auto& floor : report.floors) {
       const bool is_cut_off =
           std::count(report.cut_off.begin(), report.cut_off.end(), floor.id) > 0;
-      if (!is_cut_off && std::abs(floor.height_m - storey.floor_m) < 0.35) storey.is_reached = true;
+      if (!is_cut_off && floor.GapTo(storey.floor_m) < 0.35) storey.is_reached = true;
     }
   }
 }

@@ -184,8 +184,8 @@ const std::vector<FloorConnection>& NavMesh::Connections() const {
 int NavMesh::FloorOf(const Vector3d& p_world) const {
   int best = 0;
   for (const Floor& floor : Floors()) {
-    const double best_m = std::abs(Floors()[static_cast<std::size_t>(best)].height_m - p_world.z());
-    if (std::abs(floor.height_m - p_world.z()) < best_m) best = floor.id;
+    const double best_m = Floors()[static_cast<std::size_t>(best)].GapTo(p_world.z());
+    if (floor.GapTo(p_world.z()) < best_m) best = floor.id;
   }
   return best;
 }

@@ -3,7 +3,9 @@
 // The agent cannot link this room.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -39,11 +41,20 @@ void Visit(V& visit, NavMeshSettings& c) {
   visit("min_island_m2", c.min_island_m2, 0.0, 100.0);
 }
 
-/// A floor: navmesh area of about one height (clusters of connected flat area).
+/// A storey: navmesh area of about one height (clusters of connected flat area), together with the
+/// split levels less than 1.5 m above its lowest.
 struct Floor {
-  int id = 0;  ///< 0 = lowest
-  double height_m = 0;
+  int id = 0;           ///< 0 = lowest
+  double height_m = 0;  ///< of its largest level
   double area_m2 = 0;
+  std::vector<double> levels_m;  ///< heights of its levels, ascending
+
+  /// How far in height `z_m` is from the nearest of its levels [m].
+  double GapTo(double z_m) const {
+    double gap_m = std::abs(height_m - z_m);
+    for (const double level_m : levels_m) gap_m = std::min(gap_m, std::abs(level_m - z_m));
+    return gap_m;
+  }
 };
 
 /// A walkable link between two floors.
@@ -90,7 +101,7 @@ class NavMesh {
 
   const std::vector<Floor>& Floors() const;                 ///< by height
   const std::vector<FloorConnection>& Connections() const;  ///< pairs of floors joined directly
-  /// Floor whose height is nearest to the point's (for a point on a stair: the nearer end).
+  /// Floor with the level nearest to the point's height (for a point on a stair: the nearer end).
   int FloorOf(const Vector3d& p_world) const;
 
   /// Centres and areas of the walkable polygons, for pictures.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Floors and the links between them, from the navmesh alone. The surface is sampled on a 0.1 m
-// grid; a floor is connected flat area of at least 4 m2, heights within 0.5 m merged; what is
-// neither (flights, landings, ramps) links the floors that it touches.
+// grid; a level is connected flat area of at least 4 m2, heights within 0.5 m merged; levels less
+// than 1.5 m apart are one floor; what is neither (flights, landings, ramps) links the floors that
+// it touches.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,6 +16,7 @@ namespace {
 constexpr double kGrid_m = 0.1;
 constexpr double kMinFloor_m2 = 4.0;    // chosen: larger than any landing
 constexpr double kMergeHeight_m = 0.5;  // chosen: sunken rooms are not storeys
+constexpr double kStorey_m = 1.5;       // chosen: nobody stands upright in less
 constexpr double kSameStep_m = 0.30;    // neighbours further apart in height are not connected
 constexpr int kSlopeReach = 3;          // samples to each side
 constexpr double kMaxSlope = 0.21;      // tan 12 degrees; flights rise at 20 and more
@@ -157,23 +159,32 @@ std::vector<Level> FindLevels(const std::vector<Sample>& samples) {
 int NearestLevel(const std::vector<Floor>& floors, double z) {
   int best = -1;
   for (const Floor& floor : floors) {
-    if (best < 0 || std::abs(floor.height_m - z) <
-                        std::abs(floors[static_cast<std::size_t>(best)].height_m - z)) {
+    if (best < 0 || floor.GapTo(z) < floors[static_cast<std::size_t>(best)].GapTo(z)) {
       best = floor.id;
     }
   }
   return best;
 }
 
-/// Floors without their areas, from the lowest up.
+/// Floors without their areas, from the lowest up. Measured from a floor's lowest level: a house of
+/// half storeys must not become one floor.
 std::vector<Floor> FloorsOf(const std::vector<Sample>& samples) {
   std::vector<Floor> floors;
-  for (const Level& level : FindLevels(samples))
-    floors.push_back({static_cast<int>(floors.size()), level.z, 0});
+  double largest_m2 = 0;  // level of the last floor
+  for (const Level& level : FindLevels(samples)) {
+    if (floors.empty() || level.z - floors.back().levels_m.front() >= kStorey_m) {
+      floors.push_back({static_cast<int>(floors.size()), level.z, 0, {}});
+      largest_m2 = 0;
+    }
+    floors.back().levels_m.push_back(level.z);
+    if (level.area_m2 <= largest_m2) continue;
+    largest_m2 = level.area_m2;
+    floors.back().height_m = level.z;
+  }
   if (!floors.empty() || samples.empty()) return floors;
   double z = 0;  // less walkable ground than a floor needs: all of it is one
   for (const Sample& s : samples) z += s.z / static_cast<double>(samples.size());
-  floors.push_back({0, z, 0});
+  floors.push_back({0, z, 0, {z}});
   return floors;
 }
 
@@ -214,7 +225,7 @@ FloorPlan FindFloors(const dtNavMesh& mesh) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const int nearest = NearestLevel(plan.floors, samples[i].z);
     Floor& floor = plan.floors[static_cast<std::size_t>(nearest)];
-    if (std::abs(floor.height_m - samples[i].z) > kOnFloor_m) continue;
+    if (floor.GapTo(samples[i].z) > kOnFloor_m) continue;
     floor.area_m2 += kGrid_m * kGrid_m;
     on_floor[i] = nearest;
   }

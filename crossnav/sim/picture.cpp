@@ -83,10 +83,13 @@ TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh
                       int floor, double px_per_m) {
   CROSSNAV_CHECK(floor >= 0 && floor < static_cast<int>(navmesh.Floors().size()), "no such floor");
   CROSSNAV_CHECK(px_per_m > 0, "px_per_m must be positive");
-  const double ground = navmesh.Floors()[static_cast<std::size_t>(floor)].height_m;
+  const Floor& storey = navmesh.Floors()[static_cast<std::size_t>(floor)];
+  const double ground = storey.height_m;
+  const double lowest = storey.levels_m.empty() ? ground : storey.levels_m.front();
+  const double under_m = ground - lowest + kBelow_m;
   Box3 box;
   for (const Vector3f& v : scene.mesh.vertices) {
-    if (v.z() > ground - kBelow_m && v.z() < ground + 3.0) box.Add(v.cast<double>());
+    if (v.z() > ground - under_m && v.z() < ground + 3.0) box.Add(v.cast<double>());
   }
   for (const auto& t : navmesh.Triangles()) {
     for (const Vector3f& v : t.p_world) box.Add(v.cast<double>());
@@ -103,14 +106,14 @@ TopDown RenderTopDown(const Scene& scene, const RayCaster& caster, const NavMesh
     for (int u = 0; u < out.image.width; ++u) {
       const Vector3d eye(out.max_x_m - (v + 0.5) / out.px_per_m,
                          out.max_y_m - (u + 0.5) / out.px_per_m, ground + kCut_m);
-      const auto hit = caster.Cast(eye, -Vector3d::UnitZ(), kCut_m + kBelow_m + 3.0);
+      const auto hit = caster.Cast(eye, -Vector3d::UnitZ(), kCut_m + under_m + 3.0);
       if (!hit) continue;
       const double below_m = ground - hit->p_world.z();
       Rgb8 colour = hit->colour;
-      if (below_m > kBelow_m) colour = Mix(colour, {40, 40, 60}, 0.6);  // seen through a stairwell
+      if (below_m > under_m) colour = Mix(colour, {40, 40, 60}, 0.6);  // seen through a stairwell
       const auto heights =
           navmesh.HeightsAt(eye.x(), eye.y(), hit->p_world.z() - 0.2, hit->p_world.z() + 0.2);
-      if (!heights.empty() && below_m <= kBelow_m) colour = Mix(colour, kWalkableTint, 0.3);
+      if (!heights.empty() && below_m <= under_m) colour = Mix(colour, kWalkableTint, 0.3);
       out.image.At(u, v) = colour;
     }
   }

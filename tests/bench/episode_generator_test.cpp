@@ -32,6 +32,15 @@ TEST_F(EpisodeGenerator, EveryCertificateHoldsAndTheShareIsMet) {
   EXPECT_EQ(first_stages, (std::set<int>{1, 2, 3}));
 }
 
+TEST_F(EpisodeGenerator, CountsPerStageOfTheFirstTransitionAreExact) {
+  const GeneratorScene scene{scene_id_, context_.get()};
+  const auto file = GenerateEpisodes({&scene, 1}, test::SmallConfig(), {9, 0.9, 5, {3, 0, 2}});
+  ASSERT_TRUE(file) << file.error().Message();
+  std::map<int, int> stages;
+  for (const Episode& episode : file->episodes) ++stages[episode.first_transition_stage];
+  EXPECT_EQ(stages, (std::map<int, int>{{0, 4}, {1, 3}, {3, 2}}));
+}
+
 TEST_F(EpisodeGenerator, CrossFloorFollowsFromFloorsAlone) {
   const auto file = Generate(8, 0.5, 6);
   ASSERT_TRUE(file) << file.error().Message();

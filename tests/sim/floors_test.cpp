@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "crossnav/sim/navmesh.h"
 #include "micro_scene.h"
@@ -57,6 +58,46 @@ TEST(Floors, AStepIntoASunkenRoomIsNoStorey) {
   const auto navmesh = NavMesh::Build(scene, {});
   EXPECT_EQ(navmesh->Floors().size(), 1U);
   EXPECT_TRUE(navmesh->Geodesic({2, 2, 0}, {8, 2, -0.25}).has_value());
+}
+
+/// Ground at `heights`, side by side, with a step or a flight of three between neighbours.
+Scene Levels(const std::vector<double>& heights) {
+  MicroScene m;
+  m.Begin("floor");
+  double x = 0;
+  for (std::size_t i = 0; i < heights.size(); ++i, x += 6) {
+    m.Ground(x, 0, x + 5, 5, heights[i]);
+    if (i + 1 == heights.size()) break;
+    const double rise = (heights[i + 1] - heights[i]) / 5;
+    for (int k = 0; k < 4; ++k) {
+      m.Box({x + 5 + 0.25 * k, 0, heights[i] - 1},
+            {x + 5 + 0.25 * (k + 1), 5, heights[i] + (k + 1) * rise});
+    }
+  }
+  return m.Finish();
+}
+
+TEST(Floors, ASplitLevelOfAFewRisersIsNoStorey) {
+  const Scene scene = Levels({0, 0.9});
+  const auto navmesh = NavMesh::Build(scene, {});
+  ASSERT_TRUE(navmesh.has_value());
+  ASSERT_EQ(navmesh->Floors().size(), 1U);
+  ASSERT_EQ(navmesh->Floors()[0].levels_m.size(), 2U);
+  EXPECT_NEAR(navmesh->Floors()[0].levels_m[0], 0, 0.1);
+  EXPECT_NEAR(navmesh->Floors()[0].levels_m[1], 0.9, 0.1);
+  EXPECT_GT(navmesh->Floors()[0].area_m2, 40);  // of both
+  EXPECT_TRUE(navmesh->Connections().empty());
+  EXPECT_EQ(navmesh->FloorOf({8, 2, 0.9}), 0);
+}
+
+TEST(Floors, HalfStoreysAreMeasuredFromTheLowestLevel) {
+  const Scene scene = Levels({0, 1.2, 2.4, 3.6});
+  const auto navmesh = NavMesh::Build(scene, {});
+  ASSERT_TRUE(navmesh.has_value());
+  ASSERT_EQ(navmesh->Floors().size(), 2U);
+  EXPECT_EQ(navmesh->FloorOf({8, 2, 1.2}), 0);
+  EXPECT_EQ(navmesh->FloorOf({14, 2, 2.4}), 1);
+  EXPECT_EQ(navmesh->FloorOf({20, 2, 3.6}), 1);
 }
 
 TEST(Floors, ALandingIsNoFloor) {
