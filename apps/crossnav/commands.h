@@ -126,6 +126,7 @@ struct EvalOptions {
   std::string variant = "full";
   std::string success, budget_scope;
   std::string shard = "0/1";
+  std::string keep_replays = "none";  ///< none | failures
   int jobs = 1;
   bool resume = false;  ///< the default anyway; says so in scripts
 };

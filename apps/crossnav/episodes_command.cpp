@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crossnav/bench/episode_generator.h"
+#include "crossnav/bench/output_path.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -32,6 +33,7 @@ Tally Count(const bench::EpisodeFile& file) {
 
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
                               Console& console) {
+  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
   auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   if (options.goals > 0) config->dataset.goals = options.goals;

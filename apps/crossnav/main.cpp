@@ -206,6 +206,9 @@ void AddRuns(CLI::App& app, Options& o) {
   eval->add_option("--jobs", o.eval.jobs, "Processes")->check(CLI::Range(1, 1024));
   eval->add_option("--shard", o.eval.shard, "Part I of N of the episodes, I from 0")
       ->type_name("I/N");
+  eval->add_option("--keep-replays", o.eval.keep_replays,
+                   "none, or failures: of episodes that did not complete, in RUN/replays")
+      ->check(CLI::IsMember({"none", "failures"}));
   eval->add_flag("--resume", o.eval.resume, "Go on where the run stopped (the default)");
   AddProtocol(eval, o.eval);
 }

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "crossnav/agent/observation_place.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/sim/ground_truth_encoder.h"
@@ -188,6 +189,7 @@ Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Co
 }
 
 Result<void> MapExport(const MapOptions& options, const CommonOptions& common, Console& console) {
+  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto loaded = Load(options, *config, console);

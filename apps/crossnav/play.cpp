@@ -7,13 +7,14 @@
 
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/metrics_report.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/runner.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/trace/replay_page.h"
-#include "crossnav/trace/replay_writer.h"
 #include "crossnav/trace/trace_json.h"
 #include "episode_picture.h"
 #include "progress.h"
+#include "replay_log.h"
 
 namespace crossnav::app {
 namespace {
@@ -31,28 +32,6 @@ class TraceLog : public bench::RunObserver {
 
  private:
   std::string text_;
-};
-
-/// Feeds the replay writer.
-class ReplayLog : public bench::RunObserver {
- public:
-  explicit ReplayLog(trace::ReplayWriter writer) : writer_(std::move(writer)) {}
-  bool NeedsColour() const override { return true; }
-
-  Result<void> OnStep(const bench::StepView& step) override {
-    last_step_ = step.trace.step;
-    goal_index_ = step.trace.goal_index;
-    return writer_.Write({step.trace, &step.observation});
-  }
-  Result<void> OnStageEnd(const bench::StageRecord& stage) override {
-    return writer_.WriteStage({goal_index_, stage.goal, std::string(bench::NameOf(stage.outcome)),
-                               stage.success, last_step_, stage.length_m, stage.shortest_m});
-  }
-  Result<void> Close() { return writer_.Close(); }
-
- private:
-  trace::ReplayWriter writer_;
-  int last_step_ = 0, goal_index_ = 0;
 };
 
 /// Gives the agent a saved memory before its first goal: the lifelong case.
@@ -107,39 +86,6 @@ class MapLog : public bench::RunObserver {
   std::string frame_, encoder_;
   MemorySummary summary_;
 };
-
-trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episode& episode,
-                         const bench::RunConfig& config, const bench::RunHeader& header) {
-  trace::ReplayInfo info;
-  info.scene_id = context.scene().id;
-  info.episode_id = episode.episode_id;
-  info.goals = episode.goals;
-  info.variant = header.variant;
-  info.perception = header.perception;
-  info.version = header.version;
-  info.config_hash = header.config_hash;
-  info.seed = header.seed;
-  info.voxel_m = config.agent.map.voxel_m;
-  for (const std::string& goal : episode.goals) {
-    for (const bench::Target& target : context.TargetsOf(goal)) {
-      info.goal_instances.push_back({goal, target.box});
-    }
-  }
-  return info;
-}
-
-Result<std::unique_ptr<ReplayLog>> OpenReplay(const bench::SceneContext& context,
-                                              const bench::Episode& episode,
-                                              const bench::RunConfig& config,
-                                              const bench::RunHeader& header,
-                                              const std::filesystem::path& path) {
-  if (path.empty()) return std::unique_ptr<ReplayLog>();
-  std::error_code ignored;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-  auto writer = trace::ReplayWriter::Open(path, InfoOf(context, episode, config, header));
-  if (!writer) return tl::unexpected(writer.error());
-  return std::make_unique<ReplayLog>(std::move(*writer));
-}
 
 /// Everything that was written, by what it is.
 using Written = std::vector<std::pair<std::string, std::string>>;
@@ -199,7 +145,29 @@ void Announce(const bench::EpisodeRecord& record, const MemorySummary& memory,
                        .dump(1));
 }
 
+/// Before the first step: every file that the episode will leave.
+Result<void> CheckFiles(const bench::SceneContext& context, const PlayFiles& files) {
+  for (const sim::Floor& floor : context.navmesh().Floors()) {
+    const auto picture = files.folder / fmt::format("floor_{}.png", floor.id);
+    if (auto ok = bench::CheckOutputFile(picture, "--out"); !ok) return ok;
+  }
+  return CheckOutputs(files);
+}
+
 }  // namespace
+
+Result<void> CheckOutputs(const PlayFiles& files) {
+  const std::pair<std::filesystem::path, const char*> outputs[] = {
+      {files.folder / "results.jsonl", "--out"},
+      {files.folder / "trace.jsonl", "--out"},
+      {files.replay, "--replay"},
+      {files.map, "--save-map"},
+      {files.page, "--out"}};
+  for (const auto& [path, option] : outputs) {
+    if (auto ok = bench::CheckOutputFile(path, option); !ok) return ok;
+  }
+  return {};
+}
 
 Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
                                          const bench::Episode& episode,
@@ -207,13 +175,18 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
                                          const bench::RunHeader& header, const PlayFiles& files,
                                          Console& console) {
   if (auto ok = bench::CheckPlayable(context, episode); !ok) return tl::unexpected(ok.error());
+  if (auto ok = CheckFiles(context, files); !ok) return tl::unexpected(ok.error());
   StepProgress progress(console, episode, config);
   EpisodePicture picture(context, episode);
   TraceLog trace;
   std::vector<bench::RunObserver*> observers = {&progress, &picture, &trace};
-  auto replay = OpenReplay(context, episode, config, header, files.replay);
-  if (!replay) return tl::unexpected(replay.error());
-  if (*replay) observers.push_back(replay->get());
+  std::unique_ptr<ReplayLog> replay;
+  if (!files.replay.empty()) {
+    auto opened = ReplayLog::Open(context, episode, config, header, files.replay);
+    if (!opened) return tl::unexpected(opened.error());
+    replay = std::move(*opened);
+    observers.push_back(replay.get());
+  }
   MemoryLoader memory(files.memory, config);
   if (!files.memory.empty()) observers.push_back(&memory);
   MapLog map(files.map, context.scene().id, sim::EncoderName(config.ground_truth));
@@ -221,8 +194,8 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   auto record = bench::RunEpisode(context, episode, config, observers);
   console.EndProgress();
   if (!record) return record;
-  if (*replay) {
-    if (auto ok = (*replay)->Close(); !ok) return tl::unexpected(ok.error());
+  if (replay) {
+    if (auto ok = replay->Close(); !ok) return tl::unexpected(ok.error());
   }
   const auto written = WriteFiles(*record, header, files, picture, trace);
   if (!written) return tl::unexpected(written.error());

@@ -18,6 +18,9 @@ struct PlayFiles {
   std::filesystem::path memory;  ///< saved memory to start from; empty = none
 };
 
+/// Fails unless all of them can be written. Needs no scene, so that nobody waits for the message.
+Result<void> CheckOutputs(const PlayFiles& files);
+
 /// Runs the episode, writes the files, prints the summary and where everything is.
 Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
                                          const bench::Episode& episode,

@@ -2,12 +2,14 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/trace/replay_page.h"
 
 namespace crossnav::app {
 
 Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& /*common*/,
                           Console& console) {
+  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
   if (auto ok = trace::ExportReplayPage(options.file, options.out); !ok) return ok;
   console.Print(options.out + "\n");
   console.Document(nlohmann::ordered_json({{"file", options.out}}).dump());

@@ -29,6 +29,13 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   if (!file) return tl::unexpected(file.error());
   auto episode = FindEpisode(*file, options.episode, options.episodes);
   if (!episode) return tl::unexpected(episode.error());
+  PlayFiles files;
+  files.folder = options.out.empty() ? std::filesystem::path("out/run") / episode->episode_id
+                                     : std::filesystem::path(options.out);
+  files.replay = options.replay;
+  files.map = options.save_map;
+  files.memory = options.memory;
+  if (auto ok = CheckOutputs(files); !ok) return ok;
   SceneCache cache(options.scenes, *config);
   const auto context = cache.Get(episode->scene_id);
   if (!context) return tl::unexpected(context.error());
@@ -36,12 +43,6 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   if (!episode->has_certificate) bench::Certify(**context, *episode);
   bench::RunHeader header = MakeHeader(*config, options.variant, *file);
   header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
-  PlayFiles files;
-  files.folder = options.out.empty() ? std::filesystem::path("out/run") / episode->episode_id
-                                     : std::filesystem::path(options.out);
-  files.replay = options.replay;
-  files.map = options.save_map;
-  files.memory = options.memory;
   const auto record = PlayEpisode(**context, *episode, *config, header, files, console);
   if (!record) return tl::unexpected(record.error());
   return {};

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "crossnav/bench/config_file.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/sim/picture.h"
 #include "crossnav/sim/scene_info.h"
@@ -169,6 +170,7 @@ Result<void> SceneInfo(const SceneOptions& options, const CommonOptions& common,
 
 Result<void> SceneRender(const SceneOptions& options, const CommonOptions& common,
                          Console& console) {
+  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto open = OpenSceneFolder(options.scene, *config, console);

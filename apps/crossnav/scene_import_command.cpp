@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/homes/scene_import.h"
 
 namespace crossnav::app {
@@ -63,6 +64,7 @@ Json ReportJson(const homes::ImportReport& report) {
 
 Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
                          Console& console) {
+  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   homes::ImportOptions import;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/sim/atomic_file.h"
 #include "crossnav/sim/object_views.h"
@@ -106,6 +107,7 @@ std::string Summary(const Json& document, const std::string& out) {
 
 Result<void> SceneViews(const ViewsOptions& options, const CommonOptions& common,
                         Console& console) {
+  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto open = OpenSceneFolder(options.scene, *config, console);

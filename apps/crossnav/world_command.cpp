@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "contact_sheet.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/world/embedded_house.h"
 #include "crossnav/world/house_generator.h"
 
@@ -33,6 +34,8 @@ std::string HouseText(const world::HouseReport& house) {
 
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*common*/,
                            Console& console) {
+  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
+  if (auto ok = bench::CheckOutputFile(options.contact_sheet, "--contact-sheet"); !ok) return ok;
   Json houses = Json::array();
   if (options.embedded) {
     const auto folder = world::WriteEmbeddedHouse(options.out);

@@ -55,6 +55,12 @@ struct StageRecord {
   StageExtra extra;
 };
 
+/// Why an episode has no result. Metrics count it as not successful.
+struct EpisodeFailure {
+  std::string reason;   ///< error, crash or time
+  std::string message;  ///< for people
+};
+
 struct StageTiming {
   double p50 = 0, p95 = 0;  ///< CPU time [ms]
 };
@@ -66,7 +72,8 @@ struct EpisodeRecord {
   int first_transition_stage = 0;  ///< from 1; 0 = none required
   std::vector<std::string> goals;
   int actions = 0;
-  std::vector<StageRecord> stages;  ///< executed stages only, in order
+  std::vector<StageRecord> stages;       ///< executed stages only, in order
+  std::optional<EpisodeFailure> failed;  ///< set: the episode ended without a result, no stages
   // The two fields below are the only ones that may differ between two runs of the same seed.
   double wall_s = 0;
   std::map<std::string, StageTiming> timing_ms;
@@ -79,6 +86,15 @@ struct EpisodeRecord {
       ++completed;
     }
     return completed;
+  }
+  bool IsComplete() const { return Completed() == static_cast<int>(goals.size()); }
+
+  /// How the episode ended, in a word: the outcome of its last stage, or "failed".
+  std::string_view OutcomeName() const {
+    if (failed) return "failed";
+    if (IsComplete()) return NameOf(Outcome::kSuccess);
+    const bool has_ended = !stages.empty() && !stages.back().success;
+    return NameOf(has_ended ? stages.back().outcome : Outcome::kOutOfTime);  // no action was left
   }
 };
 

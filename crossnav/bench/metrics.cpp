@@ -163,6 +163,14 @@ OutcomeTable CountOutcomes(std::span<const EpisodeRecord> episodes) {
   return table;
 }
 
+std::map<std::string, int> CountFailures(std::span<const EpisodeRecord> episodes) {
+  std::map<std::string, int> reasons;
+  for (const EpisodeRecord& episode : episodes) {
+    if (episode.failed) ++reasons[episode.failed->reason];
+  }
+  return reasons;
+}
+
 std::map<std::string, CategoryMetrics> PerCategory(std::span<const EpisodeRecord> episodes) {
   std::map<std::string, CategoryMetrics> categories;
   for (const EpisodeRecord& episode : episodes) {

@@ -43,6 +43,9 @@ Metrics ComputeMetricsOf(std::span<const EpisodeRecord> episodes, std::span<cons
 using OutcomeTable = std::map<std::string, std::array<int, kOutcomeNames.size()>>;
 OutcomeTable CountOutcomes(std::span<const EpisodeRecord> episodes);
 
+/// Episodes without a result, by reason (error, crash, time). They count as not successful.
+std::map<std::string, int> CountFailures(std::span<const EpisodeRecord> episodes);
+
 /// Stage-level figures of one goal category: share of success and mean SPL over executed stages.
 struct CategoryMetrics {
   int executed = 0;
@@ -75,7 +78,8 @@ struct BootstrapConfig {
 std::map<std::string, Interval> BootstrapIntervals(std::span<const EpisodeRecord> episodes,
                                                    const BootstrapConfig& config);
 
-/// Difference b - a of two runs on the same episodes, resampled in pairs.
+/// Difference b - a of two runs on the same episodes, resampled in pairs: whole scenes are drawn,
+/// because episodes of a scene are alike; episodes where there is one scene only.
 struct PairedDifference {
   double difference = 0;
   Interval interval;

@@ -83,12 +83,23 @@ std::string OutcomeText(const OutcomeTable& table) {
   return text;
 }
 
+/// "failed: 1 crash, 2 time; they count as not successful", or nothing.
+std::string FailuresText(std::span<const EpisodeRecord> episodes) {
+  std::string reasons;
+  for (const auto& [reason, count] : CountFailures(episodes)) {
+    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+  }
+  if (reasons.empty()) return {};
+  return "failed: " + reasons + "; they count as not successful\n";
+}
+
 }  // namespace
 
 std::string MetricsText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
   if (episodes.empty()) return "no episodes\n";
   std::string text =
       fmt::format("{} episodes; per cent, with bootstrap 95 % intervals\n", episodes.size());
+  text += FailuresText(episodes);
   text += FiguresText(episodes, bootstrap);
   text += fmt::format("\n  {:<24} {:>5}  {:>6} {:>6} {:>6} {:>6}\n", "group", "n", "SR", "SPL",
                       "PR", "PPL");
@@ -123,14 +134,12 @@ std::string MetricsJson(std::span<const EpisodeRecord> episodes, const Bootstrap
     for (std::size_t i = 0; i < counts.size(); ++i) row[std::string(kOutcomeNames[i])] = counts[i];
     outcomes[goal] = std::move(row);
   }
-  const Json json = {{"episodes", metrics.episodes},
-                     {"goals", metrics.goals},
-                     {"metrics", FiguresJson(episodes, bootstrap)},
-                     {"reached", metrics.reached},
-                     {"groups", std::move(groups)},
-                     {"scenes", std::move(scenes)},
-                     {"categories", std::move(categories)},
-                     {"outcomes", std::move(outcomes)}};
+  const Json json = {
+      {"episodes", metrics.episodes},      {"goals", metrics.goals},
+      {"failed", CountFailures(episodes)}, {"metrics", FiguresJson(episodes, bootstrap)},
+      {"reached", metrics.reached},        {"groups", std::move(groups)},
+      {"scenes", std::move(scenes)},       {"categories", std::move(categories)},
+      {"outcomes", std::move(outcomes)}};
   return json.dump(1);
 }
 
@@ -144,6 +153,9 @@ std::string EpisodeText(const EpisodeRecord& record) {
     text += fmt::format("  {:<12} {:<13} {:>8} {:>9.2f} {:>8.2f} {:>6.3f} {:>4} > {}\n", stage.goal,
                         NameOf(stage.outcome), stage.actions, stage.length_m, stage.shortest_m,
                         StageSpl(stage), stage.floor_start, stage.floor_end);
+  }
+  if (record.failed) {
+    text += fmt::format("  failed ({}): {}\n", record.failed->reason, record.failed->message);
   }
   const Metrics m = ComputeMetrics({&record, 1});
   return text +

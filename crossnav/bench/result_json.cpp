@@ -121,6 +121,9 @@ Result<StageRecord> ReadStage(const Line& line) {
 /// What ComputeMetrics relies on.
 Result<void> CheckStages(const EpisodeRecord& episode, const std::string& where) {
   if (episode.goals.empty()) return Fail(ErrorCode::kInvalid, "key \"goals\" is empty", where);
+  if (episode.failed && !episode.stages.empty()) {
+    return Fail(ErrorCode::kInvalid, "a failed episode has no stages", where);
+  }
   if (episode.stages.size() > episode.goals.size()) {
     return Fail(ErrorCode::kInvalid, "more stages than goals", where);
   }
@@ -158,6 +161,16 @@ Result<EpisodeRecord> ReadEpisode(const Line& line, int number) {
   Take(line.GetOr<int>("actions", 0), episode.actions, error);
   Take(line.GetOr<double>("wall_s", 0.0), episode.wall_s, error);
   if (error) return tl::unexpected(*error);
+  if (const auto failed = line.json().find("failed"); failed != line.json().end()) {
+    if (!failed->is_object()) {
+      return Fail(ErrorCode::kMalformed, "key \"failed\" is no object", line.where());
+    }
+    const Line failure(*failed, line.where() + ", failed");
+    episode.failed.emplace();
+    Take(failure.Get<std::string>("reason"), episode.failed->reason, error);
+    Take(failure.GetOr<std::string>("message", ""), episode.failed->message, error);
+    if (error) return tl::unexpected(*error);
+  }
   const auto stages = line.json().find("stages");
   if (stages == line.json().end() || !stages->is_array()) {
     return Fail(ErrorCode::kMalformed, "key \"stages\" is missing or no list", line.where());
@@ -272,6 +285,9 @@ std::string ToJsonLine(const EpisodeRecord& record, bool with_timings) {
                {"goals", record.goals},
                {"actions", record.actions}};
   if (with_timings) json["wall_s"] = record.wall_s;
+  if (record.failed) {
+    json["failed"] = {{"reason", record.failed->reason}, {"message", record.failed->message}};
+  }
   json["stages"] = std::move(stages);
   if (with_timings) {
     Json timings = Json::object();
@@ -280,7 +296,14 @@ std::string ToJsonLine(const EpisodeRecord& record, bool with_timings) {
     }
     json["timing_ms"] = std::move(timings);
   }
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // messages may hold any bytes
+}
+
+Result<EpisodeRecord> EpisodeFromJsonLine(const std::string& text, const std::string& where) {
+  ResultFile file;
+  if (auto ok = ReadLineSafely(text, 2, where, file); !ok) return tl::unexpected(ok.error());
+  if (file.episodes.empty()) return Fail(ErrorCode::kMalformed, "is no episode", where);
+  return std::move(file.episodes.front());
 }
 
 Result<ResultFile> ReadResults(const std::filesystem::path& path) {
@@ -310,6 +333,7 @@ Result<ResultFile> ReadResults(const std::filesystem::path& path) {
     begin = end + 1;
     file.valid_bytes = begin;
   }
+  SortRecords(file.episodes);
   return file;
 }
 

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <set>
@@ -79,6 +80,11 @@ std::string HeaderDifference(const RunHeader& a, const RunHeader& b) {
   return {};
 }
 
+void SortRecords(std::vector<EpisodeRecord>& records) {
+  std::stable_sort(records.begin(), records.end(),
+                   [](const auto& a, const auto& b) { return a.episode_id < b.episode_id; });
+}
+
 Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bool require_all) {
   CROSSNAV_CHECK(!paths.empty(), "nothing to merge");
   ResultFile merged;
@@ -117,6 +123,7 @@ Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bo
                     " episodes are missing; run the remaining shards or resume",
                 paths[0].string());
   }
+  SortRecords(merged.episodes);
   return merged;
 }
 

@@ -41,6 +41,11 @@ std::string HexHash(std::uint64_t hash);
 /// One line without the line feed. `with_timings` off leaves out wall_s and timing_ms.
 std::string ToJsonLine(const RunHeader& header);
 std::string ToJsonLine(const EpisodeRecord& record, bool with_timings = true);
+/// Reads such a line; errors carry `where`.
+Result<EpisodeRecord> EpisodeFromJsonLine(const std::string& text, const std::string& where);
+
+/// By episode id: files hold records in the order in which the episodes were finished.
+void SortRecords(std::vector<EpisodeRecord>& records);
 
 struct ResultFile {
   std::optional<RunHeader> header;  ///< absent in files of other programs
@@ -49,16 +54,16 @@ struct ResultFile {
   bool has_torn_line = false;     ///< bytes after it
 };
 
-/// Reads a result file. Errors name file, line and key. A last line without line feed is torn: it
-/// is left out, not an error.
+/// Reads a result file, episodes sorted by id. Errors name file, line and key. A last line without
+/// line feed is torn: it is left out, not an error.
 Result<ResultFile> ReadResults(const std::filesystem::path& path);
 
 /// First field in which the headers differ ("config_hash: a, b"), or empty. `shard` is not
 /// compared.
 std::string HeaderDifference(const RunHeader& a, const RunHeader& b);
 
-/// The files' episodes together. Refuses mixed headers and duplicate episodes and, where
-/// `require_all`, missing ones.
+/// The files' episodes together, sorted by id. Refuses mixed headers and duplicate episodes and,
+/// where `require_all`, missing ones.
 Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bool require_all);
 
 class ResultWriter {
@@ -73,10 +78,9 @@ class ResultWriter {
   ~ResultWriter();
 
   Result<void> Append(const EpisodeRecord& record);
-  /// Appends a line made by ToJsonLine.
-  Result<void> AppendLine(std::string line);
 
  private:
+  Result<void> AppendLine(std::string line);
   ResultWriter(int descriptor, std::filesystem::path path);
   int descriptor_ = -1;
   std::filesystem::path path_;

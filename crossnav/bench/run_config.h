@@ -23,6 +23,7 @@ struct EvalConfig {
   double stuck_m = 0.05;                 ///< ... this far in as many steps
   int seen_px = 200;                     // chosen: pixels that make an instance "in view"
   std::string perception = "oracle";     ///< where detections come from: oracle
+  double episode_seconds = 1800;         // chosen: CPU time, many times that of an episode
   std::uint64_t seed = 1;
 };
 
@@ -54,6 +55,7 @@ void Visit(V& visit, EvalConfig& c) {
   visit("stuck_m", c.stuck_m, 0.0, 100.0);
   visit("seen_px", c.seen_px, 1, 1000000000);
   visit("perception", c.perception, {"oracle"});
+  visit("episode_seconds", c.episode_seconds, 0.0, 1e6);
   visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
 }
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <set>
-#include <sstream>
 
 #include "apps/cli_fixture.h"
 #include "support/zip_archive.h"
@@ -93,54 +92,6 @@ TEST_F(Cli, SceneViewsShowsGoalObjectsAndIsTheSameEachTime) {
   }
   WriteText(At("file"), "in the way");
   ExpectFailure("scene views scenes/00001-CrossnavHouse --out file/views", {"file/views"});
-}
-
-TEST_F(Cli, EvalIsTheSameForAnyNumberOfJobsAndShards) {
-  const std::string eval =
-      std::string("eval --quiet --json --scenes scenes --episodes e.json") + kSmall;
-  ASSERT_EQ(Run(eval + " --out a").exit_code, 0);
-  ASSERT_EQ(Run(eval + " --out b --jobs 3").exit_code, 0);
-  ASSERT_EQ(Run(eval + " --out c --shard 0/2").exit_code, 0);
-  ASSERT_EQ(Run(eval + " --out c --shard 1/2").exit_code, 0);
-  const auto records = [&](const std::string& file) {
-    std::istringstream stream(ReadText(At(file)));
-    std::vector<Json> lines;
-    for (std::string line; std::getline(stream, line);) {
-      lines.push_back(Json::parse(line));
-      lines.back().erase("wall_s");
-      lines.back().erase("timing_ms");
-    }
-    return lines;
-  };
-  const auto a = records("a/results.jsonl");
-  ASSERT_EQ(a.size(), 5u);
-  EXPECT_EQ(a[0]["kind"], "header");
-  EXPECT_EQ(a, records("b/results.jsonl"));
-  auto c = records("c/results.0-of-2.jsonl");
-  const auto rest = records("c/results.1-of-2.jsonl");
-  c.insert(c.end(), rest.begin() + 1, rest.end());
-  for (std::size_t i = 1; i < a.size(); ++i) EXPECT_EQ(a[i], c[i]);
-  // Both shards make one report; one alone does not.
-  EXPECT_EQ(Run("report a c --out report").exit_code, 0);
-  EXPECT_TRUE(fs::exists(At("report/report.md")));
-  EXPECT_EQ(Run("report c/results.0-of-2.jsonl --out other").exit_code, 1);
-}
-
-TEST_F(Cli, InterruptedEvalGoesOnAndGivesTheSameFile) {
-  const std::string eval =
-      std::string("eval --quiet --scenes scenes --episodes e.json --out run") + kSmall;
-  ASSERT_EQ(Run(eval).exit_code, 0);
-  const std::string whole = ReadText(At("run/results.jsonl"));
-  std::size_t second_line = whole.find('\n', whole.find('\n') + 1) + 1;
-  WriteText(At("run/results.jsonl"), whole.substr(0, second_line + 50));  // torn
-  ASSERT_EQ(Run(eval + " --resume").exit_code, 0);
-  const std::string again = ReadText(At("run/results.jsonl"));
-  EXPECT_EQ(again.substr(0, second_line), whole.substr(0, second_line));
-  EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), 5);
-  const Outcome other = Run(eval + " --set eval.seed=99");
-  EXPECT_EQ(other.exit_code, 1);
-  EXPECT_NE(other.err.find("another run"), std::string::npos) << other.err;
-  EXPECT_EQ(ReadText(At("run/results.jsonl")), again);
 }
 
 TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {

@@ -10,9 +10,9 @@
 namespace crossnav::bench {
 namespace {
 
-using test::MakeEpisode;
 using crossnav::test::ReadText;
 using crossnav::test::WriteText;
+using test::MakeEpisode;
 
 RunHeader MakeHeader() {
   RunHeader header;
@@ -173,6 +173,34 @@ TEST(ResultRecords, ContradictionsAreRefused) {
   for (const EpisodeRecord& bad : {after_failure, wrong_flag, wrong_goal}) {
     WriteText(path, ToJsonLine(bad) + "\n");
     EXPECT_FALSE(ReadResults(path)) << ToJsonLine(bad);
+  }
+}
+
+TEST(ResultRecords, FailedRecordRoundTripsAndHasNoStages) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  EpisodeRecord failed = MakeEpisode("a", 3, {});
+  failed.failed = EpisodeFailure{"crash", "signal 11 \xff"};  // any bytes
+  WriteText(path, ToJsonLine(failed) + "\n");
+  const auto file = ReadResults(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  ASSERT_TRUE(file->episodes[0].failed);
+  EXPECT_EQ(file->episodes[0].failed->reason, "crash");
+  EXPECT_EQ(ToJsonLine(file->episodes[0]), ToJsonLine(failed));
+  failed.stages = MakeEpisode("a", 3, {{true, 1, 1}}).stages;
+  WriteText(path, ToJsonLine(failed) + "\n");
+  EXPECT_FALSE(ReadResults(path));
+}
+
+TEST(ResultRecords, EpisodesAreSortedWhateverTheOrderOfTheFile) {
+  const crossnav::test::TempFolder folder;
+  std::string text = ToJsonLine(MakeHeader()) + "\n";
+  for (const char* id : {"c", "a", "b"}) text += ToJsonLine(MakeEpisode(id, 1, {})) + "\n";
+  WriteText(folder.path() / "r.jsonl", text);
+  const auto file = ReadResults(folder.path() / "r.jsonl");
+  ASSERT_TRUE(file) << file.error().Message();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(file->episodes[i].episode_id, std::string(1, static_cast<char>('a' + i)));
   }
 }
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "replay_log.h"
+
+namespace crossnav::app {
+namespace {
+
+trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episode& episode,
+                         const bench::RunConfig& config, const bench::RunHeader& header) {
+  trace::ReplayInfo info;
+  info.scene_id = context.scene().id;
+  info.episode_id = episode.episode_id;
+  info.goals = episode.goals;
+  info.variant = header.variant;
+  info.perception = header.perception;
+  info.version = header.version;
+  info.config_hash = header.config_hash;
+  info.seed = header.seed;
+  info.voxel_m = config.agent.map.voxel_m;
+  for (const std::string& goal : episode.goals) {
+    for (const bench::Target& target : context.TargetsOf(goal)) {
+      info.goal_instances.push_back({goal, target.box});
+    }
+  }
+  return info;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const bench::SceneContext& context,
+                                                   const bench::Episode& episode,
+                                                   const bench::RunConfig& config,
+                                                   const bench::RunHeader& header,
+                                                   const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  auto writer = trace::ReplayWriter::Open(path, InfoOf(context, episode, config, header));
+  if (!writer) return tl::unexpected(writer.error());
+  return std::unique_ptr<ReplayLog>(new ReplayLog(std::move(*writer)));
+}
+
+Result<void> ReplayLog::OnStep(const bench::StepView& step) {
+  last_step_ = step.trace.step;
+  goal_index_ = step.trace.goal_index;
+  return writer_.Write({step.trace, &step.observation});
+}
+
+Result<void> ReplayLog::OnStageEnd(const bench::StageRecord& stage) {
+  return writer_.WriteStage({goal_index_, stage.goal, std::string(bench::NameOf(stage.outcome)),
+                             stage.success, last_step_, stage.length_m, stage.shortest_m});
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/bench/output_path.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+namespace crossnav::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> Refuse(const fs::path& path, const std::string& option,
+                             const std::string& reason) {
+  return Fail(ErrorCode::kIo, option + ": cannot be written (" + reason + "); choose another path",
+              path.string());
+}
+
+/// Creates what is missing of `folder`; `created` gets the new folders, the deepest first.
+std::error_code MakeFolder(const fs::path& folder, std::vector<fs::path>& created) {
+  std::error_code error;
+  fs::path at = fs::absolute(folder, error).lexically_normal();
+  if (!at.has_filename()) at = at.parent_path();
+  while (!error && !fs::exists(at, error) && at != at.parent_path()) {
+    created.push_back(at);
+    at = at.parent_path();
+  }
+  error.clear();
+  fs::create_directories(folder, error);
+  return error;
+}
+
+/// Creates and removes an empty file; the errno where it cannot be done, or 0.
+int TryFile(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor < 0) return errno;
+  ::close(descriptor);
+  ::unlink(file.c_str());
+  return 0;
+}
+
+/// Empty where `name` can be created in `folder`. Removes only folders that it made and that are
+/// still empty: another process may use them by now, or have removed ours (then once more).
+std::string TryIn(const fs::path& folder, const std::string& name) {
+  const std::string file = name + ".try" + std::to_string(::getpid());
+  int failure = 0;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    std::vector<fs::path> created;
+    if (const auto error = MakeFolder(folder, created)) return error.message();
+    failure = TryFile(folder / file);
+    for (const fs::path& made : created) ::rmdir(made.c_str());
+    if (failure != ENOENT) break;
+  }
+  return failure == 0 ? std::string() : std::strerror(failure);
+}
+
+}  // namespace
+
+Result<void> CheckOutputFile(const fs::path& path, const std::string& option) {
+  if (path.empty()) return {};
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored) || !path.has_filename()) {
+    return Refuse(path, option, "it is a folder");
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::string reason = TryIn(folder, path.filename().string());
+  if (reason.empty() && fs::is_regular_file(path, ignored) && ::access(path.c_str(), W_OK) != 0) {
+    reason = std::strerror(errno);
+  }
+  if (!reason.empty()) return Refuse(path, option, reason);
+  return {};
+}
+
+Result<void> CheckOutputFolder(const fs::path& folder, const std::string& option) {
+  if (folder.empty()) return {};
+  const std::string reason = TryIn(folder, "crossnav");
+  if (!reason.empty()) return Refuse(folder, option, reason);
+  return {};
+}
+
+}  // namespace crossnav::bench

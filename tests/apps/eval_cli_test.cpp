@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Evaluations and reports as a user runs them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "apps/cli_fixture.h"
+
+namespace crossnav {
+namespace {
+
+using EvalCli = test::Cli;
+using test::Json;
+using test::kSmall;
+using test::Outcome;
+using test::ReadText;
+using test::WriteText;
+namespace fs = std::filesystem;
+
+TEST_F(EvalCli, EvalIsTheSameForAnyNumberOfJobsAndShards) {
+  const std::string eval =
+      std::string("eval --quiet --json --scenes scenes --episodes e.json") + kSmall;
+  ASSERT_EQ(Run(eval + " --out a").exit_code, 0);
+  ASSERT_EQ(Run(eval + " --out b --jobs 3").exit_code, 0);
+  ASSERT_EQ(Run(eval + " --out c --shard 0/2").exit_code, 0);
+  ASSERT_EQ(Run(eval + " --out c --shard 1/2").exit_code, 0);
+  const auto records = [&](const std::string& file) {
+    std::istringstream stream(ReadText(At(file)));
+    std::vector<Json> lines;
+    for (std::string line; std::getline(stream, line);) {
+      lines.push_back(Json::parse(line));
+      lines.back().erase("wall_s");
+      lines.back().erase("timing_ms");
+    }
+    std::sort(lines.begin() + 1, lines.end());  // written when finished
+    return lines;
+  };
+  const auto a = records("a/results.jsonl");
+  ASSERT_EQ(a.size(), 5u);
+  EXPECT_EQ(a[0]["kind"], "header");
+  EXPECT_EQ(a, records("b/results.jsonl"));
+  auto c = records("c/results.0-of-2.jsonl");
+  const auto rest = records("c/results.1-of-2.jsonl");
+  c.insert(c.end(), rest.begin() + 1, rest.end());
+  std::sort(c.begin() + 1, c.end());
+  for (std::size_t i = 1; i < a.size(); ++i) EXPECT_EQ(a[i], c[i]);
+  // Both shards make one report; one alone does not.
+  EXPECT_EQ(Run("report a c --out report").exit_code, 0);
+  EXPECT_TRUE(fs::exists(At("report/report.md")));
+  EXPECT_EQ(Run("report c/results.0-of-2.jsonl --out other").exit_code, 1);
+}
+
+TEST_F(EvalCli, InterruptedEvalGoesOnAndGivesTheSameFile) {
+  const std::string eval =
+      std::string("eval --quiet --scenes scenes --episodes e.json --out run") + kSmall;
+  ASSERT_EQ(Run(eval).exit_code, 0);
+  const std::string whole = ReadText(At("run/results.jsonl"));
+  std::size_t second_line = whole.find('\n', whole.find('\n') + 1) + 1;
+  WriteText(At("run/results.jsonl"), whole.substr(0, second_line + 50));  // torn
+  ASSERT_EQ(Run(eval + " --resume").exit_code, 0);
+  const std::string again = ReadText(At("run/results.jsonl"));
+  EXPECT_EQ(again.substr(0, second_line), whole.substr(0, second_line));
+  EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), 5);
+  const Outcome other = Run(eval + " --set eval.seed=99");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("another run"), std::string::npos) << other.err;
+  EXPECT_EQ(ReadText(At("run/results.jsonl")), again);
+}
+
+TEST_F(EvalCli, EvalKilledAtWorkGoesOnToTheSameRecords) {
+  const std::string eval =
+      std::string("eval --quiet --scenes scenes --episodes e.json --jobs 2") + kSmall;
+  ASSERT_EQ(Run(eval + " --out whole").exit_code, 0);
+  const std::string killed =
+      "cd '" + folder_.path().string() + "'; '" CROSSNAV_PROGRAM "' " + eval +
+      " --out killed & pid=$!; until [ \"$(cat killed/results.jsonl 2>/dev/null | wc -l)\" -ge 2 "
+      "]; "
+      "do kill -0 $pid || exit 1; sleep 0.02; done; kill -9 $pid; wait $pid 2>/dev/null; true";
+  ASSERT_EQ(std::system(killed.c_str()), 0);
+  EXPECT_LE(std::ranges::count(ReadText(At("killed/results.jsonl")), '\n'), 5);
+  ASSERT_EQ(Run(eval + " --out killed").exit_code, 0);
+  const Outcome a = Run("metrics whole/results.jsonl --json");
+  const Outcome b = Run("metrics killed/results.jsonl --json");
+  EXPECT_EQ(Json::parse(a.out)["episodes"], 4);
+  EXPECT_EQ(a.out, b.out);
+}
+
+TEST_F(EvalCli, AnEpisodeOutOfTimeIsAFailedRecord) {
+  const Outcome outcome =
+      Run(std::string("eval --json --scenes scenes --episodes e.json --out run --jobs 2 "
+                      "--keep-replays failures --set eval.episode_seconds=0.01") +
+          kSmall);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["failed"]["time"], 4);
+  EXPECT_EQ(Json::parse(outcome.out)["metrics"]["SR"]["value"], 0);
+  EXPECT_NE(outcome.err.find("failed (time)"), std::string::npos) << outcome.err;
+}
+
+TEST_F(EvalCli, KeepReplaysKeepsThoseOfEpisodesThatDidNotComplete) {
+  const std::string eval =
+      std::string("eval --quiet --json --scenes scenes --episodes e.json --keep-replays failures") +
+      kSmall;
+  ASSERT_EQ(Run(eval + " --out run --jobs 2").exit_code, 0);
+  std::istringstream stream(ReadText(At("run/results.jsonl")));
+  int kept = 0;
+  for (std::string line; std::getline(stream, line);) {
+    const Json record = Json::parse(line);
+    if (record["kind"] != "episode") continue;
+    bool is_complete = record["stages"].size() == record["goals"].size();
+    for (const Json& stage : record["stages"]) is_complete = is_complete && stage["success"];
+    const fs::path replay = At("run/replays/" + record["episode_id"].get<std::string>() + ".mcap");
+    EXPECT_EQ(fs::exists(replay), !is_complete) << replay;
+    if (is_complete) continue;
+    ++kept;
+    EXPECT_EQ(Run("replay export '" + replay.string() + "' --out page.html").exit_code, 0);
+  }
+  EXPECT_GT(kept, 0);  // 40 actions are not enough for three goals
+  for (const auto& entry : fs::directory_iterator(At("run/replays"))) {
+    EXPECT_EQ(entry.path().extension(), ".mcap") << entry.path();
+  }
+}
+
+TEST_F(EvalCli, BadOutputPathsAreRefusedBeforeTheFirstStep) {
+  WriteText(At("file"), "in the way");
+  const std::string run =
+      "run --scenes scenes --episodes e.json --quiet --episode " + FirstId() + kSmall;
+  ExpectFailure(run + " --out file/x", {"file/x", "--out"});
+  ExpectFailure(run + " --out ok --replay file/r.mcap", {"file/r.mcap", "--replay"});
+  ExpectFailure(run + " --out ok --save-map scenes", {"scenes", "--save-map"});
+  const std::string eval = "eval --quiet --scenes scenes --episodes e.json" + std::string(kSmall);
+  ExpectFailure(eval + " --out file", {"file", "--out"});
+  ExpectFailure("scene render scenes/00001-CrossnavHouse --out file/p.png", {"file/p.png"});
+  ExpectFailure("world generate --count 50 --furniture none --out file", {"file", "--out"});
+  ExpectFailure("world generate --furniture none --out houses --contact-sheet file/s.png",
+                {"file/s.png", "--contact-sheet"});
+  ExpectFailure("episodes generate --scenes scenes --out file/e.json", {"file/e.json"});
+  EXPECT_FALSE(fs::exists(At("ok")));
+  EXPECT_FALSE(fs::exists(At("houses")));
+}
+
+}  // namespace
+}  // namespace crossnav
