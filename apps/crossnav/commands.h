@@ -136,6 +136,7 @@ struct ReportOptions {
   std::vector<std::string> runs;
   std::string out;
   bool partial = false;  ///< accept runs with missing episodes
+  bool force = false;    ///< compare runs of different tasks
 };
 Result<void> Report(const ReportOptions& options, const CommonOptions& common, Console& console);
 

@@ -220,6 +220,8 @@ void AddResults(CLI::App& app, Options& o) {
   report->add_option("RUN", o.report.runs, "Run folders or result files")->required();
   report->add_option("--out", o.report.out, "Folder to write to")->required();
   report->add_flag("--partial", o.report.partial, "Accept runs that are not finished");
+  report->add_flag("--force", o.report.force,
+                   "Compare runs that differ in episodes, scenes, seed, version or task");
   CLI::App* metrics = AddVerb(app, o, "metrics", "The metrics of result records alone",
                               "crossnav metrics runs/full/results.jsonl --json",
                               [&o](Console& c) { return ShowMetrics(o.metrics, o.common, c); });

@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossnav/bench/comparison.h"
 #include "crossnav/bench/gzip_file.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/report.h"
 #include "crossnav/bench/result_records.h"
 
@@ -42,6 +44,7 @@ Result<bench::ReportRun> ReadRun(const std::filesystem::path& path, bool require
     run.config_hash = merged->header->config_hash;
     run.episodes_hash = merged->header->episodes_hash;
   }
+  run.header = std::move(merged->header);
   run.episodes = std::move(merged->episodes);
   return run;
 }
@@ -57,10 +60,10 @@ void MakeNamesUnique(std::vector<bench::ReportRun>& runs) {
 
 using Pages = std::vector<std::pair<std::string, std::string>>;  // file name, content
 
-Pages MakePages(const std::vector<bench::ReportRun>& runs) {
-  const bench::BootstrapConfig bootstrap;
-  const auto figures = bench::CollectFigures(runs, bootstrap);
-  Pages pages = {{"report.md", bench::ReportMarkdown(runs, figures, bootstrap)},
+Pages MakePages(const std::vector<bench::ReportRun>& runs,
+                const std::vector<bench::Comparison>& comparisons) {
+  const auto figures = bench::CollectFigures(runs, {});
+  Pages pages = {{"report.md", bench::ReportMarkdown(runs, figures)},
                  {"report.csv", bench::ReportCsv(figures)},
                  {"report.json", bench::ReportJson(runs, figures)},
                  {"conditional_sr.svg", bench::StagePlotSvg(runs, figures, "SR_cond")},
@@ -68,6 +71,12 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     pages.emplace_back("outcomes_" + std::to_string(r + 1) + ".svg",
                        bench::OutcomePlotSvg(runs[r]));
+  }
+  for (const bench::Comparison& comparison : comparisons) {
+    pages[0].second += bench::ComparisonMarkdown(comparison);
+  }
+  if (!comparisons.empty()) {
+    pages.emplace_back("comparison.json", bench::ComparisonsJson(comparisons));
   }
   pages[0].second += "\n## Plots\n\n";
   for (const auto& [name, content] : pages) {
@@ -77,10 +86,23 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs) {
   return pages;
 }
 
+/// Every run against the first.
+Result<std::vector<bench::Comparison>> CompareAll(const std::vector<bench::ReportRun>& runs,
+                                                  bool is_forced) {
+  std::vector<bench::Comparison> comparisons;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    auto comparison = bench::CompareRuns(runs[0], runs[i], {}, is_forced);
+    if (!comparison) return tl::unexpected(comparison.error());
+    comparisons.push_back(std::move(*comparison));
+  }
+  return comparisons;
+}
+
 }  // namespace
 
 Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*/,
                     Console& console) {
+  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
   std::vector<bench::ReportRun> runs;
   for (const std::string& path : options.runs) {
     auto run = ReadRun(path, !options.partial);
@@ -88,14 +110,21 @@ Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*
     runs.push_back(std::move(*run));
   }
   MakeNamesUnique(runs);
+  const auto comparisons = CompareAll(runs, options.force);
+  if (!comparisons) return tl::unexpected(comparisons.error());
+  for (const auto& comparison : *comparisons) console.Print(bench::ComparisonText(comparison));
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const auto& [name, content] : MakePages(runs)) {
+  for (const auto& [name, content] : MakePages(runs, *comparisons)) {
     const auto path = std::filesystem::path(options.out) / name;
     if (auto ok = bench::WriteTextFile(path, content); !ok) return ok;
     console.Print(path.string() + "\n");
     files.push_back(path.string());
   }
-  console.Document(nlohmann::ordered_json({{"files", files}}).dump());
+  console.Document(
+      nlohmann::ordered_json(
+          {{"files", files},
+           {"comparisons", nlohmann::ordered_json::parse(bench::ComparisonsJson(*comparisons))}})
+          .dump());
   return {};
 }
 

@@ -39,6 +39,27 @@ std::vector<int> Resample(Rng& rng, int n) {
   return indices;
 }
 
+/// Indices of the episodes of each scene, by scene.
+std::vector<std::vector<int>> SceneMembers(std::span<const EpisodeRecord> episodes) {
+  std::map<std::string, std::vector<int>> scenes;
+  for (std::size_t i = 0; i < episodes.size(); ++i) {
+    scenes[episodes[i].scene_id].push_back(static_cast<int>(i));
+  }
+  std::vector<std::vector<int>> members;
+  for (auto& [scene, indices] : scenes) members.push_back(std::move(indices));
+  return members;
+}
+
+/// As many scenes as there are, drawn with all their episodes.
+std::vector<int> ResampleScenes(Rng& rng, const std::vector<std::vector<int>>& scenes) {
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto& drawn = scenes[rng.Below(static_cast<std::uint32_t>(scenes.size()))];
+    indices.insert(indices.end(), drawn.begin(), drawn.end());
+  }
+  return indices;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, Statistic>> NamedStatistics(int goals) {
@@ -91,9 +112,11 @@ std::map<std::string, PairedDifference> ComparePaired(std::span<const EpisodeRec
   const Metrics all_a = ComputeMetrics(a), all_b = ComputeMetrics(b);
   const auto statistics = NamedStatistics(std::max(all_a.goals, all_b.goals));
   std::vector<std::vector<double>> samples(statistics.size());
+  const auto scenes = SceneMembers(a);
   Rng rng(config.seed);
   for (int r = 0; r < config.resamples; ++r) {
-    const auto indices = Resample(rng, static_cast<int>(a.size()));
+    const auto indices =
+        scenes.size() > 1 ? ResampleScenes(rng, scenes) : Resample(rng, static_cast<int>(a.size()));
     const Metrics metrics_a = ComputeMetricsOf(a, indices),
                   metrics_b = ComputeMetricsOf(b, indices);
     for (std::size_t s = 0; s < statistics.size(); ++s) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A report over one or more runs: tables per run, per stage, per floor requirement, per scene and
-// category, outcomes, paired comparison, with the paper's numbers beside; Markdown, CSV, JSON, SVG.
+// category, outcomes, with the paper's numbers beside; Markdown, CSV, JSON, SVG. Comparisons of two
+// runs: comparison.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "crossnav/bench/episode_record.h"
 #include "crossnav/bench/metrics.h"
+#include "crossnav/bench/result_records.h"
 
 namespace crossnav::bench {
 
@@ -17,6 +20,7 @@ struct ReportRun {
   std::string variant;  ///< full, no-history-poi, planar; empty where unknown
   std::string perception, config_hash, episodes_hash;
   std::vector<EpisodeRecord> episodes;
+  std::optional<RunHeader> header;  ///< absent in files of other programs
 };
 
 /// One figure, as a row of the CSV and the JSON file.
@@ -33,8 +37,7 @@ std::vector<ReportFigure> CollectFigures(const std::vector<ReportRun>& runs,
                                          const BootstrapConfig& bootstrap);
 
 std::string ReportMarkdown(const std::vector<ReportRun>& runs,
-                           const std::vector<ReportFigure>& figures,
-                           const BootstrapConfig& bootstrap);
+                           const std::vector<ReportFigure>& figures);
 std::string ReportCsv(const std::vector<ReportFigure>& figures);
 std::string ReportJson(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures);

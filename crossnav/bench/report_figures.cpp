@@ -90,7 +90,8 @@ std::string ReportJson(const std::vector<ReportRun>& runs,
                         {"perception", run.perception},
                         {"config_hash", run.config_hash},
                         {"episodes_hash", run.episodes_hash},
-                        {"episodes", run.episodes.size()}});
+                        {"episodes", run.episodes.size()},
+                        {"failed", CountFailures(run.episodes)}});
   }
   for (const ReportFigure& f : figures) {
     Json row = {{"run", f.run},

@@ -40,6 +40,13 @@ std::string Head(const std::vector<std::string>& cells) {
   return Row(cells) + rule + "\n";
 }
 
+/// Text that stays in its cell of a table.
+std::string OneCell(std::string text) {
+  std::replace(text.begin(), text.end(), '|', '/');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 int GoalsOf(const std::vector<ReportRun>& runs) {
   std::size_t goals = 0;
   for (const ReportRun& run : runs) {
@@ -135,32 +142,14 @@ std::string CategoryTableText(const ReportRun& run) {
   return text;
 }
 
-/// Episodes of both runs, in the same order.
-void Align(const ReportRun& a, const ReportRun& b, std::vector<EpisodeRecord>& in_a,
-           std::vector<EpisodeRecord>& in_b) {
-  std::map<std::string, const EpisodeRecord*> by_id;
-  for (const EpisodeRecord& episode : b.episodes) by_id[episode.episode_id] = &episode;
-  for (const EpisodeRecord& episode : a.episodes) {
-    const auto other = by_id.find(episode.episode_id);
-    if (other == by_id.end()) continue;
-    in_a.push_back(episode);
-    in_b.push_back(*other->second);
-  }
-}
-
-std::string PairedTable(const ReportRun& a, const ReportRun& b, const BootstrapConfig& bootstrap) {
-  std::vector<EpisodeRecord> in_a, in_b;
-  Align(a, b, in_a, in_b);
-  if (in_a.empty()) return "No episode is in both runs.\n";
-  const auto differences = ComparePaired(in_a, in_b, bootstrap);
-  std::string text = fmt::format("{} episodes in both; points of per cent.\n\n", in_a.size()) +
-                     Head({"metric", "difference", "95 %"});
-  for (const auto& [name, statistic] : NamedStatistics(ComputeMetrics(in_a).goals)) {
-    const auto found = differences.find(name);
-    if (found == differences.end() || name == "distance_to_goal_m") continue;
-    text += Row({name, fmt::format("{:+.2f}", 100 * found->second.difference),
-                 fmt::format("[{:+.2f}, {:+.2f}]", 100 * found->second.interval.low,
-                             100 * found->second.interval.high)});
+/// The episodes of a run that have no result; nothing where all have one.
+std::string FailedEpisodes(const ReportRun& run) {
+  if (CountFailures(run.episodes).empty()) return {};
+  std::string text = "\n### Failed episodes\n\nThey count as not successful.\n\n" +
+                     Head({"episode", "reason", "message"});
+  for (const EpisodeRecord& episode : run.episodes) {
+    if (!episode.failed) continue;
+    text += Row({episode.episode_id, episode.failed->reason, OneCell(episode.failed->message)});
   }
   return text;
 }
@@ -172,14 +161,14 @@ std::string RunSection(const ReportRun& run) {
                      run.config_hash, run.episodes_hash) +
          "\n### Floor requirement\n\n" + GroupTable(GroupByCrossFloor(run.episodes)) +
          "\n### Scenes\n\n" + GroupTable(GroupByScene(run.episodes)) + "\n### Categories\n\n" +
-         CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run);
+         CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run) +
+         FailedEpisodes(run);
 }
 
 }  // namespace
 
 std::string ReportMarkdown(const std::vector<ReportRun>& runs,
-                           const std::vector<ReportFigure>& figures,
-                           const BootstrapConfig& bootstrap) {
+                           const std::vector<ReportFigure>& figures) {
   std::string text =
       "# Report\n\nPer cent, with bootstrap 95 % intervals over episodes. The paper's numbers were "
       "taken on HM3D with networks; they stand beside ours and are no target.\n";
@@ -194,10 +183,6 @@ std::string ReportMarkdown(const std::vector<ReportRun>& runs,
             StageTable(runs, figures, "cfr", metric, kPaperCrossFloor);
   }
   for (const ReportRun& run : runs) text += RunSection(run);
-  for (std::size_t i = 1; i < runs.size(); ++i) {
-    text += fmt::format("\n## {} against {}, paired\n\n", runs[i].name, runs[0].name) +
-            PairedTable(runs[0], runs[i], bootstrap);
-  }
   return text;
 }
 

@@ -95,6 +95,8 @@ TEST_F(EvalCli, AnEpisodeOutOfTimeIsAFailedRecord) {
   EXPECT_EQ(Json::parse(outcome.out)["failed"]["time"], 4);
   EXPECT_EQ(Json::parse(outcome.out)["metrics"]["SR"]["value"], 0);
   EXPECT_NE(outcome.err.find("failed (time)"), std::string::npos) << outcome.err;
+  EXPECT_EQ(Run("report run --out report").exit_code, 0);
+  EXPECT_NE(ReadText(At("report/report.md")).find("### Failed episodes"), std::string::npos);
 }
 
 TEST_F(EvalCli, KeepReplaysKeepsThoseOfEpisodesThatDidNotComplete) {
@@ -137,6 +139,25 @@ TEST_F(EvalCli, BadOutputPathsAreRefusedBeforeTheFirstStep) {
   ExpectFailure("episodes generate --scenes scenes --out file/e.json", {"file/e.json"});
   EXPECT_FALSE(fs::exists(At("ok")));
   EXPECT_FALSE(fs::exists(At("houses")));
+}
+
+TEST_F(EvalCli, ReportComparesRunsAndRefusesAnotherTask) {
+  const std::string eval =
+      std::string("eval --quiet --scenes scenes --episodes e.json --jobs 2") + kSmall;
+  ASSERT_EQ(Run(eval + " --out a").exit_code, 0);
+  ASSERT_EQ(Run(eval + " --out b --set policy.poi.use_history=false").exit_code, 0);
+  const Outcome fair = Run("report a b --out report");
+  EXPECT_EQ(fair.exit_code, 0) << fair.err;
+  EXPECT_NE(fair.out.find("compared: policy.poi.use_history: true and false"), std::string::npos)
+      << fair.out;
+  EXPECT_NE(fair.out.find("episodes flipped"), std::string::npos);
+  ASSERT_EQ(Run(eval + " --out c --set eval.success_radius_m=2").exit_code, 0);
+  ExpectFailure("report a c --out other", {"eval.success_radius_m", "--force"});
+  EXPECT_FALSE(fs::exists(At("other")));
+  const Outcome forced = Run("report a c --out other --force --json");
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  EXPECT_EQ(Json::parse(forced.out)["comparisons"][0]["unfair"].size(), 1u);
+  EXPECT_NE(ReadText(At("other/report.md")).find("**Forced"), std::string::npos);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace crossnav::bench {
 namespace {
 
 std::vector<ReportRun> TwoRuns() {
-  ReportRun full{"full", "full", "oracle-perception", "aa", "bb", {}};
+  ReportRun full{"full", "full", "oracle-perception", "aa", "bb", {}, {}};
   for (int i = 0; i < 10; ++i) {
     auto episode = test::MakeEpisode(std::to_string(i), 3, {{i < 5, 2.0, 4.0}});
     episode.cross_floor_required = i % 2 == 0;
@@ -45,11 +45,24 @@ TEST(Report, FiguresCarryThePapersNumberOfTheirVariant) {
 TEST(Report, MarkdownHasEverySection) {
   const auto runs = TwoRuns();
   const auto figures = CollectFigures(runs, {50, 1});
-  const std::string text = ReportMarkdown(runs, figures, {50, 1});
+  const std::string text = ReportMarkdown(runs, figures);
   for (const char* part : {"## All episodes", "floor change", "Conditional SR", "Conditional SPL",
-                           "### Scenes", "### Categories", "### Outcomes", "paired", "29.13"}) {
+                           "### Scenes", "### Categories", "### Outcomes", "29.13"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
+}
+
+TEST(Report, FailedEpisodesAreListedWithTheirReason) {
+  auto runs = TwoRuns();
+  runs[1].episodes[3].stages.clear();
+  runs[1].episodes[3].failed = EpisodeFailure{"time", "took | long"};
+  const std::string text = ReportMarkdown(runs, CollectFigures(runs, {50, 1}));
+  EXPECT_NE(text.find("### Failed episodes"), std::string::npos);
+  EXPECT_NE(text.find("| 3 | time | took / long |"), std::string::npos) << text;
+  EXPECT_NE(MetricsText(runs[1].episodes, {50, 1}).find("failed: 1 time"), std::string::npos);
+  const auto metrics = nlohmann::json::parse(MetricsJson(runs[1].episodes, {50, 1}));
+  EXPECT_EQ(metrics["failed"]["time"], 1);
+  EXPECT_EQ(ReportMarkdown({runs[0]}, {}).find("Failed"), std::string::npos);
 }
 
 TEST(Report, CsvHasOneRowPerFigure) {
