@@ -62,6 +62,7 @@ ADAPTERS = {
                                       "crossnav/bench/metrics_report.cpp",
                                       "crossnav/bench/report_figures.cpp",
                                       "crossnav/bench/result_json.cpp",
+                                      "crossnav/bench/suite.cpp",
                                       "crossnav/homes/objects_file.cpp",
                                       "crossnav/world/furniture_pack.cpp",
                                       "crossnav/world/glb_writer.cpp",

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -129,8 +130,26 @@ struct EvalOptions {
   std::string keep_replays = "none";  ///< none | failures
   int jobs = 1;
   bool resume = false;  ///< the default anyway; says so in scripts
+  // What the files must be; empty = anything.
+  std::string episodes_hash;
+  std::map<std::string, std::string> mesh_hashes;  ///< name of the scene: hash
 };
 Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Console& console);
+
+struct SuiteOptions {
+  std::string name, out = "out/suites";
+  std::string furniture;  ///< as in WorldOptions, for suites that use a pack
+  std::string variant = "full", keep_replays = "none";
+  int jobs = 1;
+  bool partial = false, force = false;  ///< as in ReportOptions
+};
+/// Makes the suite, unless it is there.
+Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& common, Console& console);
+/// The same, and runs it to its end.
+Result<void> SuiteRun(const SuiteOptions& options, const CommonOptions& common, Console& console);
+/// The same, and reports on every run that it has.
+Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& common,
+                         Console& console);
 
 struct ReportOptions {
   std::vector<std::string> runs;

@@ -46,15 +46,18 @@ void Write(std::FILE* stream, const std::string& text) {
 
 }  // namespace
 
-Console::Console(bool json, bool quiet)
-    : json_(json), quiet_(quiet), is_terminal_(::isatty(STDERR_FILENO) != 0) {}
+Console::Console(bool json, bool quiet, bool is_silent)
+    : json_(json),
+      quiet_(quiet),
+      is_silent_(is_silent),
+      is_terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 void Console::Print(const std::string& text) const {
-  if (!json_) Write(stdout, text);
+  if (!json_ && !is_silent_) Write(stdout, text);
 }
 
 void Console::Document(const std::string& json) const {
-  if (json_) Write(stdout, json + "\n");
+  if (json_ && !is_silent_) Write(stdout, json + "\n");
 }
 
 void Console::Log(const std::string& text) {

@@ -11,7 +11,8 @@ namespace crossnav::app {
 
 class Console {
  public:
-  Console(bool json, bool quiet);
+  /// `is_silent` keeps stdout free: for a step on the way to the result that is asked for.
+  Console(bool json, bool quiet, bool is_silent = false);
 
   bool json() const { return json_; }
   /// Text for people, on stdout; nothing under --json.
@@ -26,7 +27,7 @@ class Console {
   void Fail(const Error& error);
 
  private:
-  bool json_, quiet_, is_terminal_;
+  bool json_, quiet_, is_silent_, is_terminal_;
   bool has_line_ = false;
   double last_ms_ = -1e12;
 };

@@ -76,6 +76,27 @@ Result<void> PlayAll(std::vector<bench::Episode> episodes, int jobs, SceneCache&
   return bench::Evaluate(evaluation, writer);
 }
 
+/// Of a suite: the files must be those of its manifest.
+Result<void> CheckHashes(const EvalOptions& options, const bench::RunHeader& header) {
+  const char* remedy = "; these are not the suite's files: remove its folder and make it anew";
+  if (!options.episodes_hash.empty() && header.episodes_hash != options.episodes_hash) {
+    return Fail(ErrorCode::kMismatch,
+                "hash is " + header.episodes_hash + ", not " + options.episodes_hash + remedy,
+                options.episodes);
+  }
+  for (const auto& [scene, hashes] : header.scenes) {
+    const auto wanted = options.mesh_hashes.find(scene);
+    if (options.mesh_hashes.empty()) return {};
+    if (wanted != options.mesh_hashes.end() && wanted->second == hashes.mesh_hash) continue;
+    return Fail(ErrorCode::kMismatch,
+                "mesh hash is " + hashes.mesh_hash + ", not " +
+                    (wanted == options.mesh_hashes.end() ? "in the manifest" : wanted->second) +
+                    remedy,
+                options.scenes + ": " + scene);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Console& console) {
@@ -95,6 +116,7 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
   if (auto ok = replays.Check(); !ok) return ok;
   SceneCache cache(options.scenes, *config);
   if (auto ok = PrepareEval(cache, options.jobs, episodes, header, console); !ok) return ok;
+  if (auto ok = CheckHashes(options, header); !ok) return ok;
 
   std::error_code error;
   std::filesystem::create_directories(options.out, error);

@@ -23,6 +23,7 @@ struct Options {
   RunOptions run;
   DemoOptions demo;
   EvalOptions eval;
+  SuiteOptions suite;
   ReportOptions report;
   MetricsOptions metrics;
   ReplayOptions replay;
@@ -213,6 +214,37 @@ void AddRuns(CLI::App& app, Options& o) {
   AddProtocol(eval, o.eval);
 }
 
+void AddSuites(CLI::App& app, Options& o) {
+  CLI::App* suite = app.add_subcommand("suite", "Named benchmarks, the same files anywhere");
+  suite->require_subcommand(1);
+  CLI::App* make = AddVerb(*suite, o, "make", "Houses and episodes of a suite, with their hash",
+                           "crossnav suite make crossnav-mfmon-1-mini --jobs 4",
+                           [&o](Console& c) { return SuiteMake(o.suite, o.common, c); });
+  CLI::App* run = AddVerb(*suite, o, "run", "Makes what is missing and runs the episodes",
+                          "crossnav suite run crossnav-mfmon-1-mini --variant planar --jobs 4",
+                          [&o](Console& c) { return SuiteRun(o.suite, o.common, c); });
+  CLI::App* report = AddVerb(*suite, o, "report", "From nothing to a report over all its runs",
+                             "crossnav suite report crossnav-mfmon-1-mini --jobs 4",
+                             [&o](Console& c) { return SuiteReport(o.suite, o.common, c); });
+  for (CLI::App* verb : {make, run, report}) {
+    verb->add_option("NAME", o.suite.name,
+                     "crossnav-mfmon-1, crossnav-mfmon-1-mini or crossnav-mfmon-1-val, with -pack "
+                     "behind it for furniture of a pack")
+        ->required();
+    verb->add_option("--out", o.suite.out, "Folder of suites; default: out/suites");
+    verb->add_option("--furniture", o.suite.furniture, "Furniture pack of a -pack suite")
+        ->type_name("DIR");
+    verb->add_option("--jobs", o.suite.jobs, "Processes")->check(CLI::Range(1, 1024));
+  }
+  for (CLI::App* verb : {run, report}) {
+    verb->add_option("--variant", o.suite.variant, "full, no-history-poi or planar");
+    verb->add_option("--keep-replays", o.suite.keep_replays, "none or failures")
+        ->check(CLI::IsMember({"none", "failures"}));
+  }
+  report->add_flag("--partial", o.suite.partial, "Accept other runs that are not finished");
+  report->add_flag("--force", o.suite.force, "Compare runs that differ in their task");
+}
+
 void AddResults(CLI::App& app, Options& o) {
   CLI::App* report = AddVerb(app, o, "report", "Tables and plots, with the paper's numbers beside",
                              "crossnav report runs/full runs/no-history-poi --out report",
@@ -288,6 +320,7 @@ int Main(int argc, char** argv) {
   AddScene(app, options);
   AddEpisodes(app, options);
   AddRuns(app, options);
+  AddSuites(app, options);
   AddResults(app, options);
   AddMap(app, options);
   AddTools(app, options);

@@ -32,7 +32,8 @@ TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
                            "episodes check", "run",           "eval",
                            "report",         "metrics",       "replay export",
                            "map info",       "map query",     "map export",
-                           "bench",          "demo"}) {
+                           "bench",          "demo",          "suite make",
+                           "suite run",      "suite report"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;

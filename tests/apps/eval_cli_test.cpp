@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Evaluations and reports as a user runs them.
+// Evaluations, reports and suites as a user runs them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -158,6 +158,15 @@ TEST_F(EvalCli, ReportComparesRunsAndRefusesAnotherTask) {
   EXPECT_EQ(forced.exit_code, 0) << forced.err;
   EXPECT_EQ(Json::parse(forced.out)["comparisons"][0]["unfair"].size(), 1u);
   EXPECT_NE(ReadText(At("other/report.md")).find("**Forced"), std::string::npos);
+}
+
+TEST_F(EvalCli, SuitesAreNamedAndAForeignManifestIsRefused) {
+  ExpectFailure("suite make nowhere", {"nowhere", "crossnav-mfmon-1-mini"});
+  WriteText(At("file"), "in the way");
+  ExpectFailure("suite make crossnav-mfmon-1 --out file", {"file", "--out"});
+  fs::create_directories(At("out/suites/crossnav-mfmon-1-mini"));
+  WriteText(At("out/suites/crossnav-mfmon-1-mini/manifest.json"), R"({"format": 1, "suite": "x"})");
+  ExpectFailure("suite run crossnav-mfmon-1-mini", {"manifest.json"});
 }
 
 }  // namespace
