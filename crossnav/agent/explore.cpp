@@ -59,7 +59,10 @@ class Sweep {
     Candidate candidate = policy::GroundFrontierAround(now_.world.ground, key, &clustered_);
     candidate.p_focus_world = nearest.p_focus_world;
     const bool is_local = IsOnLevel(now_, CenterOf(key, voxel_m_));
-    const bool is_crumb = candidate.size < config_.min_cluster;
+    const bool is_crumb =
+        candidate.size < config_.min_cluster ||
+        policy::UnseenBehind(now_.world.ground, beyond, config_.pocket_columns) <
+            config_.pocket_columns;
     candidate.kind = is_local ? CandidateKind::kTraversableFrontier : CandidateKind::kStairFrontier;
     Offer(std::move(candidate), key, cost_m,
           (is_local ? 0 : config_.elsewhere_m) + (is_crumb ? config_.crumb_m : 0));

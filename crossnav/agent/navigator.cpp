@@ -40,10 +40,16 @@ void NoteBump(Situation& now) {
   const AgentPose before = *std::exchange(now.world.before_forward, std::nullopt);
   const double moved_m = (now.agent.p_world - before.p_world).head<2>().norm();
   if (moved_m >= now.config.policy.motion.bump_m) return;
-  const Vector3d ahead(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0);
+  const Vector3d ahead(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0),
+      left(-ahead.y(), ahead.x(), 0);
   const double voxel_m = now.config.map.voxel_m;
-  now.world.ground.Block(now.agent.p_world +
-                         (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead);
+  const Vector3d p_contact =
+      now.agent.p_world + (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead;
+  // Where that is known already, the obstacle is wider than was thought.
+  for (double aside_m = 0; aside_m <= 2 * voxel_m; aside_m += voxel_m) {
+    const bool is_new = now.world.ground.Block(p_contact + aside_m * left);
+    if (now.world.ground.Block(p_contact - aside_m * left) || is_new) break;
+  }
   now.goal.activity.motion.clear();
   now.goal.events.push_back("bump");
 }
@@ -314,7 +320,8 @@ std::optional<Action> ActOnVisit(Situation& now) {
   constexpr Action kWobble[kWobbles] = {Action::kTurnLeft, Action::kTurnRight, Action::kTurnRight};
   if (poi.looked < kWobbles) return kWobble[poi.looked++];
   poi.is_exhausted = true;
-  now.goal.events.push_back("history POI without success");
+  now.goal.events.push_back("history POI without success, similarity " +
+                            std::to_string(poi.similarity) + " score " + std::to_string(poi.score));
   End(now, Ending::kReached);
   return Action::kTurnLeft;
 }
@@ -394,6 +401,10 @@ bool Prove(Situation& now, Decision& decision) {
     if (poi->id == now.goal.active_live || verification.passed)
       decision.verification = verification;
     if (!verification.passed) continue;
+    if (const auto similarity = SimilarityAt(now.world, now.goal, poi->voxels)) {
+      double& confirmed = now.world.confirmed_similarity;
+      confirmed = confirmed < 0 ? *similarity : std::min(confirmed, *similarity);
+    }
     now.goal.active_live = poi->id;
     decision.p_claimed_world = poi->p_center_world;
     decision.action = Action::kStop;
@@ -414,6 +425,12 @@ void ChooseActivity(Situation& now, Decision& decision) {
     if (live->candidate.id != now.goal.active_live) {
       now.goal.tried_viewpoints.clear();
       now.goal.failed_views = 0;
+    }
+    if (activity.kind == ActivityKind::kVisit) {
+      const HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(activity.candidate.id)];
+      now.goal.events.push_back("history POI led to the goal, similarity " +
+                                std::to_string(poi.similarity) + " score " +
+                                std::to_string(poi.score));
     }
     now.goal.active_live = live->candidate.id;
     now.goal.script.clear();

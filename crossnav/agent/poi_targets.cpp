@@ -113,6 +113,9 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
     for (std::size_t i = 0; i < now.goal.history.size(); ++i) {
       const HistoryPoi& poi = now.goal.history[i];
       if (poi.is_exhausted || poi.score < share * best_score) continue;
+      if (poi.similarity < now.world.confirmed_similarity - now.config.policy.poi.similarity_slack &&
+          now.goal.last_resorts == 0)
+        continue;
       if (IsBlacklisted(now.goal.blacklist, poi.p_center_world)) continue;
       for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
         auto target = NearestView(now, start, poi.voxels, range_m, {});

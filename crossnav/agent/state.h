@@ -42,6 +42,7 @@ struct World {
   int step = 0;
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
   int flat_frames = 0;     ///< consecutive frames on flat ground off the exploration level
+  double confirmed_similarity = -1;  ///< lowest of an object that was found and its goal's text
   double looked_around_m = -1e9;  ///< height of the last look around on arrival
   std::optional<AgentPose> before_forward;  ///< pose before the last forward step
   policy::BumpMonitor bumps;                ///< policy.profile = paper
@@ -64,6 +65,7 @@ struct HistoryPoi {
   std::vector<geometry::VoxelKey> voxels;
   Vector3d p_center_world = Vector3d::Zero();
   double score = 0;
+  double similarity = 0;  ///< mean cosine of its best quarter [-1, 1]
   bool is_exhausted = false;
   int looked = 0;  ///< frames spent looking at it on arrival
 };

@@ -184,10 +184,9 @@ Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const
   const int lowest = kBelow - climb_ - 1;
   int at = kBelow + climb_;
   while (at >= kBelow && (air >> at & 1) == 0) --at;
-  if (at < kBelow) {
-    // A surface below tells nothing: it may be the ceiling of the storey underneath.
-    return (surface & Span(kBelow, kBelow + climb_ - 1)) != 0 ? Side::kBlocked : Side::kUnknown;
-  }
+  // No air: a surface below tells nothing, it may be the ceiling of the storey underneath, and one
+  // within the climb limit may be the riser of a step whose tread is hidden.
+  if (at < kBelow) return Side::kUnknown;
   while (at >= lowest && (air >> at & 1) != 0) --at;
   if (at < lowest) return Side::kDrop;
   return (surface >> at & 1) != 0 ? Side::kBlocked : Side::kUnknown;
@@ -243,10 +242,14 @@ double GroundMap::DistanceToObstacle(const Vector3d& p_world_foot, int z, double
   return nearest;
 }
 
-void GroundMap::Block(const Vector3d& p_world) {
+bool GroundMap::Block(const Vector3d& p_world) {
   const VoxelKey key = geometry::KeyOf(p_world, voxel_m_);
-  for (int dz = -climb_; dz <= climb_ + 1; ++dz) blocked_.insert({key.x, key.y, key.z + dz});
-  ++revision_;
+  // From a step below to two steps above: how high it is was not felt.
+  bool is_new = false;
+  for (int dz = -climb_; dz <= 2 * climb_ + 1; ++dz)
+    is_new = blocked_.insert({key.x, key.y, key.z + dz}).second || is_new;
+  if (is_new) ++revision_;
+  return is_new;
 }
 
 void GroundMap::ForgetBlocked() {

@@ -66,8 +66,9 @@ class GroundMap {
   /// standing at height `z`, at most `cap_m` [m].
   double DistanceToObstacle(const Vector3d& p_world_foot, int z, double cap_m) const;
 
-  /// Takes the column under `p_world` for an obstacle at the body's height, until Forget.
-  void Block(const Vector3d& p_world);
+  /// Takes the column under `p_world` for an obstacle to a foot at that height, until ForgetBlocked.
+  /// False if it was one already.
+  bool Block(const Vector3d& p_world);
   void ForgetBlocked();
   bool HasBlocked() const { return !blocked_.empty(); }
 

@@ -65,7 +65,6 @@ class GroundSearch {
   const GroundMap& ground_;
   const PlannerConfig& config_;
   GroundRules rules_;
-  VoxelKey start_;
   std::vector<Node> nodes_;
   std::vector<std::int32_t> table_;  // open addressing, -1 = empty
   std::vector<Open> queue_;          // heap

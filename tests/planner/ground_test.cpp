@@ -105,9 +105,19 @@ TEST(GroundMap, TheCeilingOfTheStoreyBelowIsNoWall) {
   const GroundMap ground = GroundOf(map);
   int z = 0;
   EXPECT_EQ(ground.SideOf({2, 1, 1}, 1, 0, &z), Side::kUnknown);
-  // Something low of which only the foot was seen is one.
-  SetState(map, {3, 1, 1}, VoxelState::kOccupied);
-  EXPECT_EQ(GroundOf(map).SideOf({2, 1, 1}, 1, 0, &z), Side::kBlocked);
+}
+
+// The last riser below a landing, seen from below: the tread behind it is not (house 16).
+TEST(GroundMap, ARiserWithoutSeenAirAboveIsUnseenGround) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 3, 3, 0);
+  for (int y = 0; y < 3; ++y)
+    for (const int z : {1, 2}) SetState(map, {3, y, z}, VoxelState::kOccupied);
+  AddGround(map, 4, 0, 6, 3, 2);
+  const GroundMap ground = GroundOf(map);
+  int z = 0;
+  EXPECT_EQ(ground.SideOf({2, 1, 1}, 1, 0, &z), Side::kUnknown);
+  EXPECT_EQ(ground.Bridge({2, 1, 1}, 1, 0, 4), (VoxelKey{4, 1, 3}));
 }
 
 TEST(GroundMap, NoBridgeLeadsThroughAWallOrOverAStoreysDrop) {
@@ -194,7 +204,7 @@ std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& s
           const VoxelKey to{from.x + dx, from.y + dy, z};
           if (to.x < 0 || to.y < 0 || to.x >= side || to.y >= side) continue;
           const Clearance room = ground.ClearanceOf(to);
-          if (room == Clearance::kPinch && VoxelDistance(to, start) > 4) continue;
+          if (room == Clearance::kPinch && ground.ClearanceOf(from) != Clearance::kPinch) continue;
           const double next = cost + GroundEdgeCost(from, to, room, ground.climb(), config);
           const auto it = costs.find(to);
           if (it != costs.end() && it->second <= next + 1e-9) continue;
