@@ -44,7 +44,7 @@ class Sweep {
     VoxelKey beyond;
     if (policy::IsGroundFrontier(now_.world.ground, key, &beyond)) {
       if (!clustered_.contains(key)) OfferFrontier(key, beyond, cost_m);
-    } else if (!now_.goal.coverage.IsInspected(key)) {
+    } else if (!now_.world.coverage.IsInspected(key)) {
       OfferUninspected(key, cost_m);
     }
     for (const policy::LivePoi& hint : now_.goal.hints.all()) OfferSighting(key, hint, cost_m);
@@ -73,7 +73,7 @@ class Sweep {
     for (int dx = -2; dx <= 2; ++dx)
       for (int dy = -2; dy <= 2; ++dy) {
         const auto z = now_.world.ground.StandingNear(key.x + dx, key.y + dy, key.z, 1);
-        count += z && !now_.goal.coverage.IsInspected({key.x + dx, key.y + dy, *z});
+        count += z && !now_.world.coverage.IsInspected({key.x + dx, key.y + dy, *z});
       }
     if (count < config_.min_uninspected) return;
     Candidate candidate;
@@ -180,7 +180,7 @@ bool IsStillOpen(const Situation& now, const Candidate& candidate) {
                                   policy::IsGroundFrontier(now.world.ground, key, &beyond);
                          });
     case CandidateKind::kUninspected:
-      return !now.goal.coverage.IsInspected(candidate.standing.front());
+      return !now.world.coverage.IsInspected(candidate.standing.front());
     default:
       return true;
   }

@@ -379,7 +379,7 @@ bool TryLastResort(Situation& now) {
         goal.live.ForgiveDiscarded();
         goal.tried_viewpoints.clear();
         goal.failed_views = 0;
-        goal.coverage.Clear();
+        now.world.coverage.Clear();
         goal.inspect_range_m *= 0.6;  // chosen: near enough for the smallest category
         now.world.ground.ForgetBlocked();
         goal.events.push_back("nothing left: trying once more with relaxed limits");

@@ -36,6 +36,7 @@ struct World {
   planner::GroundMap ground;
   memory::SemanticMemory memory;
   policy::StairEvidence stairs;
+  policy::Coverage coverage;  ///< what was seen from near; without history POIs, for this goal
   std::vector<StairLink> links;
   double level_m = 0;  ///< height of the exploration level
   bool has_level = false;
@@ -118,7 +119,6 @@ struct GoalState {
   Activity activity;
   std::vector<Attempt> attempts;  ///< everything that was tried and ended
   policy::LivePois hints;         ///< sightings too weak for a live POI
-  policy::Coverage coverage;
   int last_resorts = 0;  ///< of the things to try when nothing is left, how many were used
   double inspect_range_m = 0;
 };
