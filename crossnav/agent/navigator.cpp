@@ -296,8 +296,9 @@ std::optional<Action> ActOnExploration(Situation& now) {
     return Action::kTurnLeft;
   }
   if (auto look = LookAt(now, activity.candidate.p_focus_world, kLooksAtTarget)) return look;
-  // The last metre of the way may still show it.
-  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && activity.looks <= kLooksAtTarget) {
+  activity.looks = kLooksAtTarget;  // looked at: once is enough
+  // The last part of the way may still show it.
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
     if (auto action = Walk(now)) return action;
   }
   const bool is_sighting = activity.candidate.kind == CandidateKind::kSighting;
@@ -406,6 +407,14 @@ bool Prove(Situation& now, Decision& decision) {
       confirmed = confirmed < 0 ? *similarity : std::min(confirmed, *similarity);
     }
     now.goal.active_live = poi->id;
+    policy::Candidate claimed;
+    claimed.kind = CandidateKind::kLivePoi;
+    claimed.id = poi->id;
+    claimed.p_focus_world = poi->p_center_world;
+    claimed.size = static_cast<int>(poi->voxels.size());
+    claimed.score = poi->confidence;
+    decision.shown.push_back(claimed);
+    decision.target = std::move(claimed);
     decision.p_claimed_world = poi->p_center_world;
     decision.action = Action::kStop;
     decision.mode = {Mode::kTargetApproach, ModeReason::kNearTarget, true};

@@ -71,9 +71,9 @@ struct ExploreConfig {
   int min_cluster = 4;           // chosen: columns; less is no way through for the body
   double elsewhere_m = 12;       // chosen: another level, the length of a flight and its approach
   double crumb_m = 40;           // chosen: frontiers under min_cluster or before a pocket: last
-  int pocket_columns = 50;       // chosen: half a square metre of unseen ground is a pocket
+  int pocket_columns = 200;      // chosen: two square metres of unseen ground are no room
   double sighting_m = 0;         // chosen: a weak detection is as good as a frontier
-  double uninspected_m = 6;      // chosen: ground seen from too far for the detector
+  double uninspected_m = 10;     // chosen: ground seen from too far for the detector
   double turn_back_m = 20;       // chosen: on a flight, what lies the other way
   double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
   double inspect_range_m = 3.5;  // chosen: where detectors answer for a chair
