@@ -132,6 +132,10 @@ const memory::SemanticMemory& Agent::memory() const {
   return impl_->world.memory;
 }
 
+const std::vector<geometry::StairFlight>& Agent::flights() const {
+  return impl_->world.flights;
+}
+
 Result<void> Agent::SetGoal(const std::string& name) {
   auto text = impl_->perception.encoder->EncodeText(name);
   if (!text) return tl::unexpected(text.error());
@@ -155,7 +159,8 @@ Result<void> Agent::SetGoal(const std::string& name) {
   return {};
 }
 
-Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memory) {
+Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memory,
+                            std::vector<geometry::StairFlight> flights) {
   World& world = impl_->world;
   CROSSNAV_CHECK(world.step == 0, "a saved memory is given before the first step");
   if (map.config().voxel_m != impl_->config.map.voxel_m)
@@ -167,6 +172,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   world.map = std::move(map);
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
+  world.flights = std::move(flights);
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include "crossnav/agent/explore.h"
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/policy/flights.h"
 #include "crossnav/policy/ground_motion.h"
 #include "crossnav/policy/stair_geometry.h"
 #include "crossnav/policy/steering.h"
@@ -77,15 +78,25 @@ void NoteLevel(Situation& now) {
     QueueLookAround(now);
     return;
   }
+  auto& way = world.way_off_level_world;
   if (std::abs(z_m - world.level_m) < kSameLevel_m) {
     world.flat_frames = 1;
+    way.assign(1, now.agent.p_world);
     return;
   }
+  if (way.empty() || (way.back() - now.agent.p_world).norm() > 0.5 * now.config.map.voxel_m)
+    way.push_back(now.agent.p_world);
   const bool is_flat = policy::IsFlatAround(world.map, now.agent.p_world);
   world.flat_frames = is_flat ? world.flat_frames + 1 : 0;
   if (world.flat_frames < kLandingFrames) return;
   world.last_direction = z_m > world.level_m ? 1 : -1;
   now.goal.events.push_back(world.last_direction > 0 ? "new level above" : "new level below");
+  if (way.size() > 1) {
+    const auto& flight = policy::NoteWalk(way, world.stairs, now.config.map.voxel_m, &world.flights);
+    const int walks = flight.walked_up + flight.walked_down;
+    now.goal.events.push_back(walks == 1 ? "a flight is known" : "a known flight was walked again");
+  }
+  way.assign(1, now.agent.p_world);
   world.level_m = z_m;
   if (std::abs(z_m - world.looked_around_m) >= now.config.policy.explore.storey_m)
     QueueLookAround(now);

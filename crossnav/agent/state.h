@@ -10,6 +10,7 @@
 
 #include "crossnav/agent/activity.h"
 #include "crossnav/agent/config.h"
+#include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/semantic_memory.h"
@@ -37,6 +38,8 @@ struct World {
   memory::SemanticMemory memory;
   policy::StairEvidence stairs;
   policy::Coverage coverage;  ///< what was seen from near; without history POIs, for this goal
+  std::vector<geometry::StairFlight> flights;  ///< that were walked
+  std::vector<Vector3d> way_off_level_world;   ///< foot positions since the level was left
   std::vector<StairLink> links;
   double level_m = 0;  ///< height of the exploration level
   bool has_level = false;

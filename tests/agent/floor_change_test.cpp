@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Floors change in small built worlds, with and without a stair mask: geometry leads.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "agent/storeys.h"
@@ -17,6 +19,7 @@ using testing::Walk;
 
 /// Finds `couch` in the walker's house, without any stair mask, within `limit` steps.
 void ExpectFound(BoxWalker walker, const Box3& couch, int limit) {
+  const double start_m = walker.pose.p_world.z();
   walker.rooms.solids.push_back(couch);
   FakeSight sight;
   test::SeeBox(couch, "couch", &sight);
@@ -26,6 +29,10 @@ void ExpectFound(BoxWalker walker, const Box3& couch, int limit) {
   EXPECT_EQ(walk.last_action, Action::kStop)
       << "after " << walk.traces.size() << " steps at " << walker.pose.p_world.transpose();
   EXPECT_LE(couch.HorizontalDistance(walker.pose.p_world), 1.3);
+  if (std::abs(start_m - walker.pose.p_world.z()) < 2) return;
+  ASSERT_EQ(agent.flights().size(), 1u);  // the flight is an object by now
+  EXPECT_NEAR(agent.flights()[0].p_foot_world.z(), 0, 0.25);
+  EXPECT_NEAR(agent.flights()[0].p_top_world.z(), 2.8, 0.25);
 }
 
 TEST(FloorChange, AFlightIsClimbedWithoutAnyStairMask) {
