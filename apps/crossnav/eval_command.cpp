@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <set>
 
+#include "crossnav/bench/cause.h"
 #include "crossnav/bench/metrics_report.h"
 #include "crossnav/bench/runner.h"
 #include "crossnav/bench/timing.h"
@@ -114,12 +115,17 @@ class Evaluation {
     task.work = [&](int item) {
       return Play(episodes_[static_cast<std::size_t>(item)], jobs == 1);
     };
-    task.deliver = [&](int, std::string line) { return writer.AppendLine(std::move(line)); };
+    task.deliver = [&](int, const std::string& text) {
+      const std::size_t end = text.find('\n');
+      if (end != std::string::npos) console_.Log(text.substr(end + 1));
+      return writer.AppendLine(text.substr(0, end));
+    };
     task.arrived = [&](int) { ShowProgress(); };
     return bench::RunPool(task);
   }
 
  private:
+  /// The record, and in further lines why stages failed.
   Result<std::string> Play(const bench::Episode& episode, bool is_alone) {
     const auto context = cache_.Get(episode.scene_id);
     if (!context) return tl::unexpected(context.error());
@@ -134,7 +140,9 @@ class Evaluation {
       error.where = episode.episode_id + (error.where.empty() ? "" : ": " + error.where);
       return tl::unexpected(error);
     }
-    return bench::ToJsonLine(*record);
+    std::string text = bench::ToJsonLine(*record);
+    for (const std::string& line : bench::CauseLines(*record)) text += "\n" + line;
+    return text;
   }
 
   void ShowProgress() {

@@ -62,6 +62,7 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs) {
   const auto figures = bench::CollectFigures(runs, bootstrap);
   Pages pages = {{"report.md", bench::ReportMarkdown(runs, figures, bootstrap)},
                  {"report.csv", bench::ReportCsv(figures)},
+                 {"causes.csv", bench::CausesCsv(runs)},
                  {"report.json", bench::ReportJson(runs, figures)},
                  {"conditional_sr.svg", bench::StagePlotSvg(runs, figures, "SR_cond")},
                  {"conditional_spl.svg", bench::StagePlotSvg(runs, figures, "SPL_cond")}};

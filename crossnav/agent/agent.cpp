@@ -248,6 +248,7 @@ void Agent::Impl::Record(StepResult& result, const Decision& decision) {
   t.action = result.action;
   t.mode = NameOf(decision.mode.mode);
   t.reason = NameOf(decision.mode.reason);
+  t.activity = decision.activity;
   t.level_m = world.level_m;
   t.all_explored = result.all_explored;
   for (const policy::Candidate& candidate : decision.shown) {

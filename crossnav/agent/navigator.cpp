@@ -536,6 +536,7 @@ Decision Navigate(Situation& now) {
     if (!decision.action && TryLastResort(now)) decision.action = Action::kTurnLeft;
   }
   if (decision.action == Action::kMoveForward) now.world.before_forward = now.agent;
+  decision.activity = now.goal.script.empty() ? NameOf(now.goal.activity.kind) : "look_around";
   return decision;
 }
 

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crossnav/bench/cause.h"
+
 namespace crossnav::bench {
 namespace {
 
@@ -145,6 +147,7 @@ std::string EpisodeText(const EpisodeRecord& record) {
                         NameOf(stage.outcome), stage.actions, stage.length_m, stage.shortest_m,
                         StageSpl(stage), stage.floor_start, stage.floor_end);
   }
+  for (const std::string& line : CauseLines(record)) text += "  " + line + "\n";
   const Metrics m = ComputeMetrics({&record, 1});
   return text +
          fmt::format("  SR {:.0f}  SPL {:.3f}  PR {:.3f}  PPL {:.3f}\n", m.sr, m.spl, m.pr, m.ppl);

@@ -36,6 +36,8 @@ std::string ReportMarkdown(const std::vector<ReportRun>& runs,
                            const std::vector<ReportFigure>& figures,
                            const BootstrapConfig& bootstrap);
 std::string ReportCsv(const std::vector<ReportFigure>& figures);
+/// How many stages failed of which cause and with which outcome (cause.h), as rows.
+std::string CausesCsv(const std::vector<ReportRun>& runs);
 std::string ReportJson(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures);
 
