@@ -72,7 +72,8 @@ Result<void> CheckPercept(const perception::Percept& percept, const Observation&
     return bad("the stair image has another size than the frame", "perception.stairs");
   const auto& grid = percept.features;
   if (grid.rows < 1 || grid.cols < 1 || grid.dim < 1 ||
-      grid.data.size() != static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.cols) *
+      grid.data.size() != static_cast<std::size_t>(grid.rows) *
+                              static_cast<std::size_t>(grid.cols) *
                               static_cast<std::size_t>(grid.dim))
     return bad("the feature grid does not hold rows x cols x dim numbers", "perception.encoder");
   return {};
@@ -207,7 +208,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
   goal.hints.Update(sightings, HintConfig(config.policy.object), config.map.voxel_m, world.step);
   world.coverage.Add(end_voxels, obs.T_world_camera.translation(), goal.inspect_range_m,
-                    config.map.voxel_m);
+                     config.map.voxel_m);
   clock.Stop("evidence");
   return Seen{std::move(sightings), static_cast<int>(percept->detections.size())};
 }

@@ -59,10 +59,9 @@ class Sweep {
     Candidate candidate = policy::GroundFrontierAround(now_.world.ground, key, &clustered_);
     candidate.p_focus_world = nearest.p_focus_world;
     const bool is_local = IsOnLevel(now_, CenterOf(key, voxel_m_));
-    const bool is_crumb =
-        candidate.size < config_.min_cluster ||
-        policy::UnseenBehind(now_.world.ground, beyond, config_.pocket_columns) <
-            config_.pocket_columns;
+    const bool is_crumb = candidate.size < config_.min_cluster ||
+                          policy::UnseenBehind(now_.world.ground, beyond, config_.pocket_columns) <
+                              config_.pocket_columns;
     candidate.kind = is_local ? CandidateKind::kTraversableFrontier : CandidateKind::kStairFrontier;
     Offer(std::move(candidate), key, cost_m,
           (is_local ? 0 : config_.elsewhere_m) + (is_crumb ? config_.crumb_m : 0));
@@ -172,13 +171,13 @@ bool IsStillOpen(const Situation& now, const Candidate& candidate) {
   switch (candidate.kind) {
     case CandidateKind::kTraversableFrontier:
     case CandidateKind::kStairFrontier:
-      return std::any_of(candidate.standing.begin(), candidate.standing.end(),
-                         [&](const VoxelKey& key) {
-                           return (CenterOf(key, now.config.map.voxel_m) - candidate.p_focus_world)
-                                          .norm() < now.config.policy.explore.same_place_m &&
-                                  now.world.ground.IsStanding(key) &&
-                                  policy::IsGroundFrontier(now.world.ground, key, &beyond);
-                         });
+      return std::any_of(
+          candidate.standing.begin(), candidate.standing.end(), [&](const VoxelKey& key) {
+            return (CenterOf(key, now.config.map.voxel_m) - candidate.p_focus_world).norm() <
+                       now.config.policy.explore.same_place_m &&
+                   now.world.ground.IsStanding(key) &&
+                   policy::IsGroundFrontier(now.world.ground, key, &beyond);
+          });
     case CandidateKind::kUninspected:
       return !now.world.coverage.IsInspected(candidate.standing.front());
     default:

@@ -30,7 +30,8 @@ std::optional<double> SimilarityAt(const World& world, const GoalState& goal,
   const auto field = memory::RelevancyField(world.memory, goal.text, {});
   std::vector<float> here;
   for (const VoxelKey& key : voxels)
-    if (const auto row = world.memory.RowOf(key)) here.push_back(field[static_cast<std::size_t>(*row)]);
+    if (const auto row = world.memory.RowOf(key))
+      here.push_back(field[static_cast<std::size_t>(*row)]);
   if (here.empty()) return std::nullopt;
   std::sort(here.begin(), here.end(), std::greater<>());
   here.resize(std::max<std::size_t>(1, here.size() / 4));

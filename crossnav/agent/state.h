@@ -47,7 +47,7 @@ struct World {
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
   int flat_frames = 0;     ///< consecutive frames on flat ground off the exploration level
   double confirmed_similarity = -1;  ///< lowest of an object that was found and its goal's text
-  double looked_around_m = -1e9;  ///< height of the last look around on arrival
+  double looked_around_m = -1e9;     ///< height of the last look around on arrival
   std::optional<AgentPose> before_forward;  ///< pose before the last forward step
   policy::BumpMonitor bumps;                ///< policy.profile = paper
 
@@ -122,7 +122,7 @@ struct GoalState {
   Activity activity;
   std::vector<Attempt> attempts;  ///< everything that was tried and ended
   policy::LivePois hints;         ///< sightings too weak for a live POI
-  int last_resorts = 0;  ///< of the things to try when nothing is left, how many were used
+  int last_resorts = 0;           ///< of the things to try when nothing is left, how many were used
   double inspect_range_m = 0;
 };
 

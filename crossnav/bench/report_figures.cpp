@@ -98,8 +98,8 @@ std::string CausesCsv(const std::vector<ReportRun>& runs) {
     for (const auto& [cause, count] : CountCauses(run.episodes)) {
       for (std::size_t i = 0; i < count.outcomes.size(); ++i) {
         if (count.outcomes[i] == 0) continue;
-        text += fmt::format("{},{},{},{}\n", CsvField(run.name), CsvField(cause),
-                            kOutcomeNames[i], count.outcomes[i]);
+        text += fmt::format("{},{},{},{}\n", CsvField(run.name), CsvField(cause), kOutcomeNames[i],
+                            count.outcomes[i]);
       }
     }
   }

@@ -135,9 +135,8 @@ std::string CauseTableText(const ReportRun& run) {
   const auto counts = CountCauses(run.episodes);
   if (counts.empty()) return "No stage failed.\n";
   std::vector<std::pair<std::string, CauseCount>> rows(counts.begin(), counts.end());
-  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-    return a.second.stages > b.second.stages;
-  });
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto& a, const auto& b) { return a.second.stages > b.second.stages; });
   std::string text = Head(head);
   for (const auto& [cause, count] : rows) {
     std::vector<std::string> cells = {cause, std::to_string(count.stages)};

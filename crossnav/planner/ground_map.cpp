@@ -13,8 +13,8 @@ namespace {
 using geometry::IsSurface;
 using geometry::VoxelState;
 
-constexpr int kBelow = 8;         // voxels of a window below the place it is about
-constexpr int kHeadSlack = 1;     // chosen: a ceiling may start one voxel low
+constexpr int kBelow = 8;             // voxels of a window below the place it is about
+constexpr int kHeadSlack = 1;         // chosen: a ceiling may start one voxel low
 constexpr double kFootReach_m = 0.5;  // chosen: an agent is never farther from its floor
 
 int ColumnOf(int x, int y) {
@@ -36,8 +36,8 @@ GroundMap::GroundMap(const geometry::MapConfig& config)
 GroundMap::Tile& GroundMap::TouchTile(int x, int y) {
   constexpr int kMargin = 8;  // tiles of room on each side, so that growing is rare
   const int tx = x >> 3, ty = y >> 3;
-  const bool is_inside = tx >= first_x_ && ty >= first_y_ && tx < first_x_ + columns_ &&
-                         ty < first_y_ + rows_;
+  const bool is_inside =
+      tx >= first_x_ && ty >= first_y_ && tx < first_x_ + columns_ && ty < first_y_ + rows_;
   if (!is_inside) {
     const bool is_first = index_.empty();
     const int x0 = is_first ? tx - kMargin : std::min(first_x_, tx - kMargin);
@@ -48,8 +48,7 @@ GroundMap::Tile& GroundMap::TouchTile(int x, int y) {
         static_cast<std::size_t>(x1 - x0 + 1) * static_cast<std::size_t>(y1 - y0 + 1), -1);
     for (int row = 0; row < rows_; ++row)
       std::copy_n(index_.begin() + static_cast<std::ptrdiff_t>(row) * columns_, columns_,
-                  grown.begin() +
-                      static_cast<std::ptrdiff_t>(row + first_y_ - y0) * (x1 - x0 + 1) +
+                  grown.begin() + static_cast<std::ptrdiff_t>(row + first_y_ - y0) * (x1 - x0 + 1) +
                       (first_x_ - x0));
     index_ = std::move(grown);
     first_x_ = x0;
@@ -57,9 +56,9 @@ GroundMap::Tile& GroundMap::TouchTile(int x, int y) {
     columns_ = x1 - x0 + 1;
     rows_ = y1 - y0 + 1;
   }
-  std::int32_t& tile = index_[static_cast<std::size_t>(ty - first_y_) *
-                                  static_cast<std::size_t>(columns_) +
-                              static_cast<std::size_t>(tx - first_x_)];
+  std::int32_t& tile =
+      index_[static_cast<std::size_t>(ty - first_y_) * static_cast<std::size_t>(columns_) +
+             static_cast<std::size_t>(tx - first_x_)];
   if (tile < 0) {
     tile = static_cast<std::int32_t>(tiles_.size());
     tiles_.emplace_back();
@@ -92,7 +91,8 @@ void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
       }
     tile = std::move(grown);
   }
-  const auto at = static_cast<std::size_t>(ColumnOf(key.x, key.y) * tile.words + word - tile.first_word);
+  const auto at =
+      static_cast<std::size_t>(ColumnOf(key.x, key.y) * tile.words + word - tile.first_word);
   const std::uint64_t bit = std::uint64_t{1} << (key.z & 63);
   tile.surface[at] = is_surface ? tile.surface[at] | bit : tile.surface[at] & ~bit;
   tile.air[at] = is_air ? tile.air[at] | bit : tile.air[at] & ~bit;

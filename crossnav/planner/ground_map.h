@@ -65,8 +65,8 @@ class GroundMap {
   /// standing at height `z`, at most `cap_m` [m].
   double DistanceToObstacle(const Vector3d& p_world_foot, int z, double cap_m) const;
 
-  /// Takes the column under `p_world` for an obstacle to a foot at that height, until ForgetBlocked.
-  /// False if it was one already.
+  /// Takes the column under `p_world` for an obstacle to a foot at that height, until
+  /// ForgetBlocked. False if it was one already.
   bool Block(const Vector3d& p_world);
   void ForgetBlocked();
   bool HasBlocked() const { return !blocked_.empty(); }
@@ -88,8 +88,9 @@ class GroundMap {
   const Tile* FindTile(int x, int y) const {
     const int column = (x >> 3) - first_x_, row = (y >> 3) - first_y_;
     if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
-    const std::int32_t tile = index_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                                     static_cast<std::size_t>(column)];
+    const std::int32_t tile =
+        index_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column)];
     return tile < 0 ? nullptr : &tiles_[static_cast<std::size_t>(tile)];
   }
   Tile& TouchTile(int x, int y);

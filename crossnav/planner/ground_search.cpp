@@ -8,7 +8,7 @@
 namespace crossnav::planner {
 namespace {
 
-constexpr int kBridge_vox = 4;         // chosen: the deepest tread
+constexpr int kBridge_vox = 4;  // chosen: the deepest tread
 constexpr std::array<std::array<int, 2>, 8> kSteps = {
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
@@ -72,8 +72,7 @@ std::int32_t GroundSearch::NodeOf(const VoxelKey& key) {
 }
 
 void GroundSearch::LookUpRoom(Node& node) const {
-  if (node.clearance < 0)
-    node.clearance = static_cast<std::int8_t>(ground_.ClearanceOf(node.key));
+  if (node.clearance < 0) node.clearance = static_cast<std::int8_t>(ground_.ClearanceOf(node.key));
 }
 
 std::optional<VoxelKey> GroundSearch::Next() {
@@ -105,8 +104,8 @@ void GroundSearch::Expand(std::int32_t from_index) {
       case Side::kUnknown:
       case Side::kDrop: {
         const bool is_diagonal = step[0] != 0 && step[1] != 0;
-        const auto to = ground_.Bridge(from.key, step[0], step[1],
-                                       is_diagonal ? kBridge_vox - 1 : kBridge_vox);
+        const auto to =
+            ground_.Bridge(from.key, step[0], step[1], is_diagonal ? kBridge_vox - 1 : kBridge_vox);
         if (to) Relax(from_index, *to, config_.bridge_cost_factor);
         break;
       }

@@ -34,8 +34,9 @@ double EvidenceShare(const std::vector<Vector3d>& points_world, const StairEvide
   const auto seen = std::count_if(points_world.begin(), points_world.end(), [&](const Vector3d& p) {
     return HasEvidence(p, evidence, voxel_m);
   });
-  return points_world.empty() ? 0
-                              : static_cast<double>(seen) / static_cast<double>(points_world.size());
+  return points_world.empty()
+             ? 0
+             : static_cast<double>(seen) / static_cast<double>(points_world.size());
 }
 
 const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
@@ -48,9 +49,8 @@ const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
   walked.p_foot_world = walked.steps_world.front();
   walked.p_top_world = walked.steps_world.back();
   walked.confidence = EvidenceShare(walked.steps_world, evidence, voxel_m);
-  auto known = std::find_if(flights->begin(), flights->end(), [&](const geometry::StairFlight& f) {
-    return IsSame(f, walked);
-  });
+  auto known = std::find_if(flights->begin(), flights->end(),
+                            [&](const geometry::StairFlight& f) { return IsSame(f, walked); });
   if (known == flights->end()) {
     flights->push_back(std::move(walked));
     known = flights->end() - 1;

@@ -18,7 +18,7 @@ struct ObjectConfig {
 };
 
 struct PoiConfig {
-  bool use_history = true;  ///< false = the paper's "w/o H-POI"
+  bool use_history = true;         ///< false = the paper's "w/o H-POI"
   double similarity_slack = 0.08;  // chosen: below what confirmed objects answered with; full only
   double live_takeover_m = 1.0;
   double blacklist_xy_m = 0.8, blacklist_z_m = 0.6;

@@ -5,8 +5,8 @@
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/geometry/sparse_grid.h"
 #include "crossnav/store/block_codec.h"
-#include "crossnav/store/map_file.h"
 #include "crossnav/store/flight_table.h"
+#include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
 #include "crossnav/store/sqlite_file.h"
 

@@ -80,8 +80,8 @@ TEST(FloorChange, ARestoredMemoryKnowsTheWayToTheOtherFloor) {
       const Vector3d p =
           obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
       const bool is_couch = testing::kUpperCouch.HorizontalDistance(p) < 0.05 && p.z() > 2.85;
-      const std::vector<float> cell = is_couch ? std::vector<float>{1, 0, 0, 0}
-                                               : std::vector<float>{0, 0.8F, 0.6F, 0};
+      const std::vector<float> cell =
+          is_couch ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0.8F, 0.6F, 0};
       grid.data.insert(grid.data.end(), cell.begin(), cell.end());
     }
     return grid;

@@ -76,7 +76,7 @@ std::vector<CandidateTrace> OfKind(const StepTrace& trace, const std::string& ki
 /// path, verification, events and action, and the candidates of classes that were not asked.
 std::string Untouched(StepTrace trace) {
   trace.action = Action::kStop;
-  trace.mode = trace.reason = "";
+  trace.mode = trace.reason = trace.activity = "";
   trace.path_world.clear();
   trace.verification = {};
   trace.events.clear();

@@ -10,9 +10,9 @@
 namespace crossnav::bench {
 namespace {
 
-using test::MakeEpisode;
 using crossnav::test::ReadText;
 using crossnav::test::WriteText;
+using test::MakeEpisode;
 
 RunHeader MakeHeader() {
   RunHeader header;
@@ -43,7 +43,7 @@ EpisodeRecord RichEpisode() {
   stage.transitions = 1;
   stage.actions = 200;
   stage.extra = {true, true, "lost_on_flight", 2.75, StageCause{}};
-  *stage.extra.cause = {{{"climb", 40}, {"go_to", 160}}, "climb", true, "go_to: no progress",
+  *stage.extra.cause = {{{"climb", 40}, {"go_to", 160}},      "climb", true, "go_to: no progress",
                         FlightCause{1, 2, true, true, false}, 0.625};
   return episode;
 }

@@ -58,7 +58,7 @@ TEST(GroundMap, OneStandsOnASurfaceWithAirAndHeadRoom) {
 TEST(GroundMap, TellsGroundWallsDropsAndTheUnseen) {
   VoxelMap map;
   AddGround(map, 0, 0, 3, 1, 0);
-  AddColumn(map, 0, 1, 0, 15);   // a wall
+  AddColumn(map, 0, 1, 0, 15);    // a wall
   AddGround(map, 1, 1, 2, 2, 3);  // a step of 0.3 m
   AddGround(map, 2, 1, 3, 2, 4);  // a bench of 0.4 m
   for (int z = -8; z <= 10; ++z) SetState(map, {3, 0, z}, VoxelState::kTraversableFake);  // a drop
@@ -95,8 +95,8 @@ TEST(GroundMap, ATreadThatHidesBetweenSeenAirIsUnseenGroundAndIsBridged) {
   EXPECT_TRUE(CostsFrom(ground, {0, 1, 1}).contains({8, 1, 4}));
 }
 
-// The ceiling of the storey underneath, 0.3 m below a floor that was not seen yet, walled in the top
-// of a flight (house 1).
+// The ceiling of the storey underneath, 0.3 m below a floor that was not seen yet, walled in the
+// top of a flight (house 1).
 TEST(GroundMap, TheCeilingOfTheStoreyBelowIsNoWall) {
   VoxelMap map;
   AddGround(map, 0, 0, 3, 3, 0);
@@ -172,8 +172,8 @@ TEST(GroundMap, ChangesGiveWhatARebuildGives) {
       for (int z = -72; z <= 72; ++z) {
         const VoxelKey key{x, y, z};
         ASSERT_EQ(changed.IsStanding(key), rebuilt.IsStanding(key));
-        const bool is_supported = IsSurface(map.StateAt({x, y, z - 1})) &&
-                                  map.StateAt(key) == VoxelState::kTraversable;
+        const bool is_supported =
+            IsSurface(map.StateAt({x, y, z - 1})) && map.StateAt(key) == VoxelState::kTraversable;
         ASSERT_TRUE(is_supported || !rebuilt.IsStanding(key));
       }
 }

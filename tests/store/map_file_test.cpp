@@ -78,9 +78,9 @@ TEST(MapFileTest, ADamagedFlightIsNamedAndTheRestLoads) {
   ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
   sqlite3* db = nullptr;
   ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(db, "UPDATE flight SET hash = hash + 1 WHERE id = 1", nullptr, nullptr,
-                         nullptr),
-            SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(db, "UPDATE flight SET hash = hash + 1 WHERE id = 1", nullptr, nullptr, nullptr),
+      SQLITE_OK);
   sqlite3_close(db);
   const auto refused = LoadMemory(file.path());
   ASSERT_FALSE(refused);

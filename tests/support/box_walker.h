@@ -66,8 +66,9 @@ struct BoxWalker {
     if (what != Action::kMoveForward) return;
     // In five parts, as far as the way is free: steps may be climbed, drops are not jumped down.
     for (int part = 0; part < 5; ++part) {
-      Vector3d next = pose.p_world + action.forward_m / 5 *
-                                         Vector3d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad), 0);
+      Vector3d next =
+          pose.p_world +
+          action.forward_m / 5 * Vector3d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad), 0);
       next.z() = GroundAt(next, pose.p_world.z());
       if (next.z() < pose.p_world.z() - 0.3 - 1e-9 || !IsFree(next)) return;
       pose.p_world = next;
