@@ -36,7 +36,7 @@ def play_stage(agent: _core.Agent, simulator: _core.Simulator, goal: str, budget
         if stopped:
             reached = simulator.is_reached(goal)
             claimed = result.p_claimed_world
-            claim_near = claimed is not None and simulator.is_claim_near(goal, tuple(claimed))
+            claim_near = claimed is not None and simulator.is_claim_near(goal, claimed)
         else:
             recent_m.append(simulator.step(result.action))
             length_m += recent_m[-1]
@@ -44,7 +44,7 @@ def play_stage(agent: _core.Agent, simulator: _core.Simulator, goal: str, budget
                                 simulator.config)
     return {"goal": goal, "outcome": outcome, "success": outcome == "success",
             "start": start.tolist(), "end": simulator.pose.p_world.tolist(),
-            "shortest_m": simulator.scene.distance_to_goal(tuple(start), goal),
+            "shortest_m": simulator.scene.distance_to_goal(start, goal),
             "length_m": length_m, "actions": actions}
 
 

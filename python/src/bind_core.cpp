@@ -146,7 +146,6 @@ void BindConfig(nb::module_& m) {
       .def(
           "to_dict", [](const bench::RunConfig& c) { return FromJson(bench::DumpJson(c)); },
           nb::sig("def to_dict(self) -> dict[str, typing.Any]"), "Every field, nested.")
-      .def("to_toml", &bench::DumpToml)
       .def_prop_ro("hash", &bench::ConfigHash, "16 hex digits over every key and value.");
 }
 

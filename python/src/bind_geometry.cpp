@@ -65,7 +65,7 @@ StatesOut StatesAt(const MapHandle& self, const PointsIn& p_world) {
   VoxelMap::Cursor cursor(*self.map);
   const double voxel_m = self.map->config().voxel_m;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Vector3d p = ToPoint({p_world(i, 0), p_world(i, 1), p_world(i, 2)}, "p_world");
+    const Vector3d p = ToPoint({{p_world(i, 0), p_world(i, 1), p_world(i, 2)}}, "p_world");
     states[i] = static_cast<std::uint8_t>(cursor.At(geometry::KeyOf(p, voxel_m)).state);
   }
   return ToArray<StatesOut>(std::move(states), {p_world.shape(0)});

@@ -35,7 +35,7 @@ KeysOut ToArray(std::span<const geometry::VoxelKey> keys) {
 }
 
 Vector3d ToPoint(const Point& p, const char* name) {
-  const Vector3d point = ToVector(p);
+  const Vector3d point(p.xyz[0], p.xyz[1], p.xyz[2]);
   if (!point.allFinite() || point.cwiseAbs().maxCoeff() > 1e6)
     Raise(ErrorCode::kInvalid, "must be three finite numbers of metres", name);
   return point;

@@ -75,6 +75,11 @@ struct PathIn {
   std::filesystem::path path;
 };
 
+/// A point as users give it: three numbers in a tuple, a list or an array.
+struct Point {
+  std::array<double, 3> xyz{};
+};
+
 // --- Arrays -------------------------------------------------------------------------------------
 
 using RgbIn = nb::ndarray<const std::uint8_t, nb::shape<-1, -1, 3>, nb::c_contig, nb::device::cpu>;
@@ -82,7 +87,6 @@ using DepthIn = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::
 using PoseIn = nb::ndarray<const double, nb::shape<4, 4>, nb::c_contig, nb::device::cpu>;
 using VectorIn = nb::ndarray<const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using GridIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
-using Point = std::array<double, 3>;
 
 template <class T, class... Shape>
 using Array = nb::ndarray<nb::numpy, T, Shape..., nb::c_contig>;
@@ -107,9 +111,6 @@ inline PointOut ToArray(const Vector3d& p) {
 PoseOut ToArray(const Pose& T);
 KeysOut ToArray(std::span<const geometry::VoxelKey> keys);
 
-inline Vector3d ToVector(const Point& p) {
-  return {p[0], p[1], p[2]};
-}
 /// Raises where the point is not finite.
 Vector3d ToPoint(const Point& p, const char* name);
 /// Raises where it is no finite rigid transform within the map's reach.
@@ -142,6 +143,19 @@ struct type_caster<crossnav::python::Settings> {
 
   bool from_python(handle source, std::uint32_t, cleanup_list*) noexcept {
     value.value = borrow(source);
+    return true;
+  }
+};
+
+template <>
+struct type_caster<crossnav::python::Point> {
+  NB_TYPE_CASTER(crossnav::python::Point,
+                 const_name("collections.abc.Sequence[float] | numpy.typing.NDArray[typing.Any]"))
+
+  bool from_python(handle source, std::uint32_t flags, cleanup_list* cleanup) noexcept {
+    make_caster<std::array<double, 3>> inner;
+    if (!inner.from_python(source, flags, cleanup)) return false;
+    value.xyz = inner.value;
     return true;
   }
 };

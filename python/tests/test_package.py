@@ -18,11 +18,12 @@ needs_wheel = pytest.mark.skipif(not WHEEL, reason="scripts/test_python.sh names
 
 USER = '''
 import numpy as np
+from numpy.typing import NDArray
 import crossnav
 
 
 class NoStairs(crossnav.StairSegmenter):
-    def segment_stairs(self, observation: crossnav.Observation) -> "np.typing.NDArray[np.float32]":
+    def segment_stairs(self, observation: crossnav.Observation) -> NDArray[np.float32]:
         return np.zeros(observation.depth_m.shape, np.float32)
 
 
@@ -71,7 +72,7 @@ def test_types_of_a_users_file_hold(tmp_path: Path) -> None:
                     encoding="utf-8")
     done = subprocess.run([*command, str(file)], cwd=tmp_path, capture_output=True, text=True,
                           check=False)
-    assert done.returncode == 1 and "user.py:25" in done.stdout, done.stdout
+    assert done.returncode == 1 and "user.py:24" in done.stdout, done.stdout
 
 
 @needs_wheel

@@ -24,10 +24,9 @@ def test_mapping_dotted_keys_text_and_file_mean_the_same(tmp_path: Path) -> None
     assert hashes != {crossnav.Config().hash}
 
 
-def test_settings_survive_the_way_through_a_mapping_and_through_toml() -> None:
+def test_settings_survive_the_way_through_a_mapping() -> None:
     config = crossnav.Config({"policy.poi.use_history": False, "fusion.storage": "float"})
     assert crossnav.Config(config.to_dict()).hash == config.hash
-    assert crossnav.Config(config.to_toml()).hash == config.hash
     assert crossnav.Config(config).hash == config.hash
 
 
