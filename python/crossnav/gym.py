@@ -114,7 +114,7 @@ class CrossFloorNavEnv(gymnasium.Env[Obs, np.int64]):
         there = {o["category"] for o in self.scene.objects}
         known = [c for c in crossnav.CATEGORIES if c in there]
         for _ in range(_TRIES):
-            p_world = tuple(self.scene.random_point(int(self.np_random.integers(1 << 62))))
+            p_world = self.scene.random_point(int(self.np_random.integers(1 << 62)))
             yaw_rad = float(self.np_random.uniform(-np.pi, np.pi))
             order = [known[i] for i in self.np_random.permutation(len(known))]
             goals = [g for g in order if self.scene.distance_to_goal(p_world, g) is not None]

@@ -136,7 +136,7 @@ class HabitatAgent:
         """One dictionary of Habitat's as our observation, in the episode's world."""
         p_foot = foot_from_gps(self._read(observations, "gps"), self._flat_world)
         yaw_rad = yaw_from_compass(self._read(observations, "compass"))
-        pose = crossnav.AgentPose(tuple(p_foot), yaw_rad, self._looking_rad)
+        pose = crossnav.AgentPose(p_foot, yaw_rad, self._looking_rad)
         rgb = np.ascontiguousarray(np.asarray(self._read(observations, "rgb"))[..., :3],
                                    dtype=np.uint8)
         return crossnav.Observation(self._depth.metres(self._read(observations, "depth")),

@@ -89,7 +89,7 @@ def test_heights_of_another_floor_come_back(scene: crossnav.Scene,
     recorder = Recorder(simulator)
     floors = [f["height_m"] for f in scene.floors]
     for seed in range(1, 40):
-        p_world = tuple(scene.random_point(seed))
+        p_world = scene.random_point(seed)
         simulator.reset(crossnav.AgentPose(p_world, 1.0))
         gps = recorder.record("bed")["gps"]
         foot = habitat.foot_from_gps(gps)
