@@ -177,7 +177,6 @@ void Visit(V& visit, ExploreConfig& c) {
 }
 template <class V>
 void Visit(V& visit, PolicyConfig& c) {
-  visit("profile", c.profile, {"full", "paper"});
   visit.Section("motion", c.motion);
   visit.Section("explore", c.explore);
   visit.Section("object", c.object);
@@ -185,6 +184,7 @@ void Visit(V& visit, PolicyConfig& c) {
   visit.Section("frontier", c.frontier);
   visit.Section("stair", c.stair);
   visit.Section("approach", c.approach);
+  visit("profile", c.profile, {"full", "paper"});
   visit("planar", c.planar);
 }
 
