@@ -11,14 +11,11 @@ DEMO ?= 1
 # One compiler per core, as far as 1.5 GB of free memory each goes.
 JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
   END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
-SOURCES := $(shell find crossnav apps tests benchmarks -name '*.h' -o -name '*.cpp' | sort)
+SOURCES := $(shell find crossnav apps tests benchmarks python -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-# The compiler cache then hits from another checkout too.
-export CCACHE_BASEDIR := $(CURDIR)
-export CCACHE_NOHASHDIR := 1
-
-.PHONY: help setup demo test test-long bench format lint asan tsan docs clean program everything
+.PHONY: help setup demo test test-long bench wheel format lint asan tsan docs clean \
+  program everything
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' Makefile
@@ -53,6 +50,10 @@ bench:  ## timings of the kernels and of the whole step (see BENCHMARKS.md)
 	@for program in $$(find build/bench/benchmarks -maxdepth 1 -type f -executable | sort); do \
 	  "$$program"; done
 	@build/bench/apps/crossnav/crossnav bench
+
+wheel: setup $(BUILD)/build.ninja  ## the Python package as a wheel under build/wheel
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms
+	@scripts/build_wheel.sh $(BUILD)
 
 format:  ## clang-format, in place
 	@scripts/setup.sh lint

@@ -71,6 +71,7 @@ ADAPTERS = {
     "Assimp": (r"^assimp/", ["crossnav/homes/assimp_reader.cpp"]),
     "toml++": (r"^toml", ["crossnav/bench/config_file.cpp"]),
     "CLI11": (r"^CLI/", ["apps/crossnav/*"]),
+    "nanobind": (r"^nanobind/", ["python/src/*"]),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
@@ -157,8 +158,9 @@ def check(root):
         if lists.exists():
             problems += [f"crossnav/{room}/CMakeLists.txt: {p}"
                          for p in check_cmake_deps(lists, room)]
-    for path in sorted(p for p in (root / "apps").rglob("*") if p.suffix in (".h", ".cpp")):
-        problems += check_file(root, path, None)
+    for folder in ("apps", "python"):
+        for path in sorted(p for p in (root / folder).rglob("*") if p.suffix in (".h", ".cpp")):
+            problems += check_file(root, path, None)
     return problems
 
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "crossnav/bench/cause.h"
 #include "crossnav/bench/metrics_report.h"
 #include "crossnav/bench/output_path.h"
 #include "eval_prepare.h"
@@ -71,6 +72,7 @@ Result<void> PlayAll(std::vector<bench::Episode> episodes, int jobs, SceneCache&
   };
   evaluation.finished = [&](const bench::EpisodeRecord& record) {
     replays.Finish(record);
+    for (const std::string& line : bench::CauseLines(record)) console.Log(line);
     shown.Add(record);
   };
   return bench::Evaluate(evaluation, writer);

@@ -49,7 +49,8 @@ class MemoryLoader : public bench::RunObserver {
     options.fusion = config_.agent.fusion;
     auto loaded = store::LoadMemory(path_, options);
     if (!loaded) return tl::unexpected(loaded.error());
-    return state.Restore(std::move(loaded->map), std::move(loaded->memory));
+    return state.Restore(std::move(loaded->map), std::move(loaded->memory),
+                         std::move(loaded->flights));
   }
 
  private:
@@ -75,6 +76,7 @@ class MapLog : public bench::RunObserver {
     store::SaveInfo info;
     info.encoder_name = encoder_;
     info.frame = frame_;
+    info.flights = state.flights();
     const auto saved = store::SaveMemory(path_, state.map(), state.memory(), info);
     if (!saved) return tl::unexpected(saved.error());
     return {};

@@ -65,6 +65,7 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs,
   const auto figures = bench::CollectFigures(runs, {});
   Pages pages = {{"report.md", bench::ReportMarkdown(runs, figures)},
                  {"report.csv", bench::ReportCsv(figures)},
+                 {"causes.csv", bench::CausesCsv(runs)},
                  {"report.json", bench::ReportJson(runs, figures)},
                  {"conditional_sr.svg", bench::StagePlotSvg(runs, figures, "SR_cond")},
                  {"conditional_spl.svg", bench::StagePlotSvg(runs, figures, "SPL_cond")}};

@@ -42,9 +42,10 @@ struct Activity {
   std::vector<Action> motion;            ///< what was planned along it, next action last
   double best_m = 1e9;                   ///< smallest remaining way so far
   int steps = 0;
-  int idle_steps = 0;  ///< since the remaining way last got shorter
-  int looks = 0;       ///< turns and pitches spent on looking at the target
-  int replans = 0;     ///< times the way got longer by what was seen of it
+  int idle_steps = 0;                 ///< since the remaining way last got shorter
+  int looks = 0;                      ///< turns and pitches spent on looking at the target
+  int replans = 0;                    ///< times the way got longer by what was seen of it
+  bool is_path_closed = false;        ///< something that was seen since stands on it
   std::uint64_t ground_revision = 0;  ///< for which `path` was last found to hold
 };
 

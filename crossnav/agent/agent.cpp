@@ -2,6 +2,7 @@
 #include "crossnav/agent/agent.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <utility>
 
@@ -35,9 +36,14 @@ class StageClock {
   double last_;
 };
 
+constexpr double kFarthest_m = 1e5;  // chosen: far beyond any house, far within a voxel index
+
 Result<void> CheckObservation(const Observation& obs) {
   if (!IsValidPose(obs.T_world_camera))
     return Fail(ErrorCode::kInvalid, "the camera pose is not a finite rigid transform",
+                "observation.T_world_camera");
+  if (obs.T_world_camera.translation().cwiseAbs().maxCoeff() > kFarthest_m)
+    return Fail(ErrorCode::kInvalid, "the camera is more than 100 km from the origin",
                 "observation.T_world_camera");
   const bool has_sizes = obs.depth_m.width == obs.camera.width_px &&
                          obs.depth_m.height == obs.camera.height_px &&
@@ -45,6 +51,31 @@ Result<void> CheckObservation(const Observation& obs) {
   if (!has_sizes || obs.depth_m.empty())
     return Fail(ErrorCode::kInvalid, "colour, depth and intrinsics must have one size",
                 "observation.depth_m");
+  return {};
+}
+
+/// What a network answered must fit the frame: an error that names it, never a read out of bounds.
+Result<void> CheckPercept(const perception::Percept& percept, const Observation& obs) {
+  const auto bad = [](const char* what, const char* who) {
+    return Fail(ErrorCode::kMismatch, what, who);
+  };
+  const int width = obs.depth_m.width, height = obs.depth_m.height;
+  for (const auto& detection : percept.detections) {
+    if (detection.mask.width != width || detection.mask.height != height)
+      return bad("a mask has another size than the frame", "perception.segmenter");
+    if (!std::isfinite(detection.confidence) || !std::isfinite(detection.mask_quality))
+      return bad("a confidence is not finite", "perception.detector");
+  }
+  const auto& stairs = percept.stair_probability;
+  if (stairs.width != width || stairs.height != height ||
+      stairs.data.size() != obs.depth_m.data.size())
+    return bad("the stair image has another size than the frame", "perception.stairs");
+  const auto& grid = percept.features;
+  if (grid.rows < 1 || grid.cols < 1 || grid.dim < 1 ||
+      grid.data.size() != static_cast<std::size_t>(grid.rows) *
+                              static_cast<std::size_t>(grid.cols) *
+                              static_cast<std::size_t>(grid.dim))
+    return bad("the feature grid does not hold rows x cols x dim numbers", "perception.encoder");
   return {};
 }
 
@@ -102,6 +133,10 @@ const memory::SemanticMemory& Agent::memory() const {
   return impl_->world.memory;
 }
 
+const std::vector<geometry::StairFlight>& Agent::flights() const {
+  return impl_->world.flights;
+}
+
 Result<void> Agent::SetGoal(const std::string& name) {
   auto text = impl_->perception.encoder->EncodeText(name);
   if (!text) return tl::unexpected(text.error());
@@ -120,10 +155,13 @@ Result<void> Agent::SetGoal(const std::string& name) {
   impl_->goal = std::move(fresh);
   impl_->goal.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
   impl_->world.bumps.Clear();
+  // The memory answers for what was seen from near; without it every goal looks for itself.
+  if (!impl_->config.policy.poi.use_history) impl_->world.coverage.Clear();
   return {};
 }
 
-Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memory) {
+Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memory,
+                            std::vector<geometry::StairFlight> flights) {
   World& world = impl_->world;
   CROSSNAV_CHECK(world.step == 0, "a saved memory is given before the first step");
   if (map.config().voxel_m != impl_->config.map.voxel_m)
@@ -135,6 +173,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   world.map = std::move(map);
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
+  world.flights = std::move(flights);
   return {};
 }
 
@@ -142,6 +181,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
 Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, StageClock& clock) {
   auto percept = perception.Look(obs, goal.goal);  // boxes, masks, stair pixels, dense features
   if (!percept) return tl::unexpected(percept.error());
+  if (auto ok = CheckPercept(*percept, obs); !ok) return tl::unexpected(ok.error());
   clock.Stop("perceive");
 
   // Sec. "RGB-D Projection and Sparse Voxelization", then eq:supp_support_classification.
@@ -167,8 +207,8 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
                              config.policy.object.secondary_confidence);
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
   goal.hints.Update(sightings, HintConfig(config.policy.object), config.map.voxel_m, world.step);
-  goal.coverage.Add(end_voxels, obs.T_world_camera.translation(), goal.inspect_range_m,
-                    config.map.voxel_m);
+  world.coverage.Add(end_voxels, obs.T_world_camera.translation(), goal.inspect_range_m,
+                     config.map.voxel_m);
   clock.Stop("evidence");
   return Seen{std::move(sightings), static_cast<int>(percept->detections.size())};
 }
@@ -209,6 +249,7 @@ void Agent::Impl::Record(StepResult& result, const Decision& decision) {
   t.action = result.action;
   t.mode = NameOf(decision.mode.mode);
   t.reason = NameOf(decision.mode.reason);
+  t.activity = decision.activity;
   t.level_m = world.level_m;
   t.all_explored = result.all_explored;
   for (const policy::Candidate& candidate : decision.shown) {

@@ -13,6 +13,7 @@
 #include "crossnav/core/action.h"
 #include "crossnav/core/observation.h"
 #include "crossnav/core/result.h"
+#include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/perception/perception.h"
@@ -44,7 +45,8 @@ class Agent {
   /// Starts from a saved memory, the lifelong case: the map's states, stairs and features are known
   /// before the first goal. Call before SetGoal. The world frame is the saved one. Errors: another
   /// voxel size or feature dimension.
-  Result<void> Restore(geometry::VoxelMap map, memory::SemanticMemory memory);
+  Result<void> Restore(geometry::VoxelMap map, memory::SemanticMemory memory,
+                       std::vector<geometry::StairFlight> flights = {});
 
   /// One step. Errors: a malformed observation (sizes, NaN pose) or a failing network.
   Result<StepResult> Step(const Observation& obs);
@@ -52,6 +54,8 @@ class Agent {
   const Config& config() const;
   const geometry::VoxelMap& map() const;
   const memory::SemanticMemory& memory() const;
+  /// The flights that were walked, in order of their first walk.
+  const std::vector<geometry::StairFlight>& flights() const;
 
  private:
   std::unique_ptr<Impl> impl_;

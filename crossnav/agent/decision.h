@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "crossnav/agent/state.h"
@@ -30,6 +31,7 @@ struct Decision {
   double path_cost = 0;  ///< [voxels]
   policy::Verification verification;
   std::optional<Vector3d> p_claimed_world;  ///< with kStop
+  std::string activity;                     ///< as in trace::StepTrace
 };
 
 }  // namespace crossnav::agent

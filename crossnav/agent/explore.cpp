@@ -44,7 +44,7 @@ class Sweep {
     VoxelKey beyond;
     if (policy::IsGroundFrontier(now_.world.ground, key, &beyond)) {
       if (!clustered_.contains(key)) OfferFrontier(key, beyond, cost_m);
-    } else if (!now_.goal.coverage.IsInspected(key)) {
+    } else if (!now_.world.coverage.IsInspected(key)) {
       OfferUninspected(key, cost_m);
     }
     for (const policy::LivePoi& hint : now_.goal.hints.all()) OfferSighting(key, hint, cost_m);
@@ -59,7 +59,9 @@ class Sweep {
     Candidate candidate = policy::GroundFrontierAround(now_.world.ground, key, &clustered_);
     candidate.p_focus_world = nearest.p_focus_world;
     const bool is_local = IsOnLevel(now_, CenterOf(key, voxel_m_));
-    const bool is_crumb = candidate.size < config_.min_cluster;
+    const bool is_crumb = candidate.size < config_.min_cluster ||
+                          policy::UnseenBehind(now_.world.ground, beyond, config_.pocket_columns) <
+                              config_.pocket_columns;
     candidate.kind = is_local ? CandidateKind::kTraversableFrontier : CandidateKind::kStairFrontier;
     Offer(std::move(candidate), key, cost_m,
           (is_local ? 0 : config_.elsewhere_m) + (is_crumb ? config_.crumb_m : 0));
@@ -70,7 +72,7 @@ class Sweep {
     for (int dx = -2; dx <= 2; ++dx)
       for (int dy = -2; dy <= 2; ++dy) {
         const auto z = now_.world.ground.StandingNear(key.x + dx, key.y + dy, key.z, 1);
-        count += z && !now_.goal.coverage.IsInspected({key.x + dx, key.y + dy, *z});
+        count += z && !now_.world.coverage.IsInspected({key.x + dx, key.y + dy, *z});
       }
     if (count < config_.min_uninspected) return;
     Candidate candidate;
@@ -169,15 +171,15 @@ bool IsStillOpen(const Situation& now, const Candidate& candidate) {
   switch (candidate.kind) {
     case CandidateKind::kTraversableFrontier:
     case CandidateKind::kStairFrontier:
-      return std::any_of(candidate.standing.begin(), candidate.standing.end(),
-                         [&](const VoxelKey& key) {
-                           return (CenterOf(key, now.config.map.voxel_m) - candidate.p_focus_world)
-                                          .norm() < now.config.policy.explore.same_place_m &&
-                                  now.world.ground.IsStanding(key) &&
-                                  policy::IsGroundFrontier(now.world.ground, key, &beyond);
-                         });
+      return std::any_of(
+          candidate.standing.begin(), candidate.standing.end(), [&](const VoxelKey& key) {
+            return (CenterOf(key, now.config.map.voxel_m) - candidate.p_focus_world).norm() <
+                       now.config.policy.explore.same_place_m &&
+                   now.world.ground.IsStanding(key) &&
+                   policy::IsGroundFrontier(now.world.ground, key, &beyond);
+          });
     case CandidateKind::kUninspected:
-      return !now.goal.coverage.IsInspected(candidate.standing.front());
+      return !now.world.coverage.IsInspected(candidate.standing.front());
     default:
       return true;
   }

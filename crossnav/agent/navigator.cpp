@@ -8,9 +8,9 @@
 
 #include "crossnav/agent/explore.h"
 #include "crossnav/agent/poi_targets.h"
+#include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/policy/ground_motion.h"
-#include "crossnav/policy/stair_geometry.h"
 #include "crossnav/policy/steering.h"
 
 namespace crossnav::agent {
@@ -22,168 +22,10 @@ using policy::ModeReason;
 
 namespace {
 
-constexpr double kStray_m = 0.6;       // chosen: two steps off the way, and it is planned anew
-constexpr double kNear_m = 1.0;        // chosen: of the viewpoint: aim and verify
-constexpr double kArrived_m = 0.35;    // chosen: one forward step and a voxel
-constexpr double kProgress_m = 0.1;    // chosen: one voxel
-constexpr int kMaxReplans = 5;         // chosen: longer ways that what was seen may explain
-constexpr int kLooksAtTarget = 6;      // chosen: half a turn, or less and a pitch
-constexpr int kLandingFrames = 3;
-constexpr int kWobbles = 3;            // chosen: one more than a live POI needs to be stable
-constexpr double kSameLevel_m = 0.35;  // chosen: less is a step
-
-// --- What the last action did ------------------------------------------------------------------
-
-/// A forward step that met something teaches where that is.
-void NoteBump(Situation& now) {
-  if (!now.world.before_forward) return;
-  const AgentPose before = *std::exchange(now.world.before_forward, std::nullopt);
-  const double moved_m = (now.agent.p_world - before.p_world).head<2>().norm();
-  if (moved_m >= now.config.policy.motion.bump_m) return;
-  const Vector3d ahead(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0);
-  const double voxel_m = now.config.map.voxel_m;
-  now.world.ground.Block(now.agent.p_world +
-                         (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead);
-  now.goal.activity.motion.clear();
-  now.goal.events.push_back("bump");
-}
-
-void QueueLookAround(Situation& now) {
-  const auto& action = now.config.action;
-  GoalState& goal = now.goal;
-  goal.script.clear();
-  const double down_rad = DegToRad(now.config.policy.motion.travel_pitch_deg);
-  if (const auto pitch = policy::PitchTowards(now.agent, down_rad, action))
-    goal.script.push_back(*pitch);
-  const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
-  goal.script.insert(goal.script.end(), static_cast<std::size_t>(turns), Action::kTurnLeft);
-  goal.p_looked_around_world = now.agent.p_world;
-  now.world.looked_around_m = now.agent.p_world.z();
-}
-
-/// The exploration level is the one that supports the agent, however it got there.
-void NoteLevel(Situation& now) {
-  World& world = now.world;
-  const double z_m = now.agent.p_world.z();
-  if (!world.has_level) {
-    world.has_level = true;
-    world.level_m = z_m;
-    QueueLookAround(now);
-    return;
-  }
-  if (std::abs(z_m - world.level_m) < kSameLevel_m) {
-    world.flat_frames = 1;
-    return;
-  }
-  const bool is_flat = policy::IsFlatAround(world.map, now.agent.p_world);
-  world.flat_frames = is_flat ? world.flat_frames + 1 : 0;
-  if (world.flat_frames < kLandingFrames) return;
-  world.last_direction = z_m > world.level_m ? 1 : -1;
-  now.goal.events.push_back(world.last_direction > 0 ? "new level above" : "new level below");
-  world.level_m = z_m;
-  if (std::abs(z_m - world.looked_around_m) >= now.config.policy.explore.storey_m)
-    QueueLookAround(now);
-}
-
-// --- Activities --------------------------------------------------------------------------------
-
-void End(Situation& now, Ending ending) {
-  Activity& activity = now.goal.activity;
-  if (activity.kind == ActivityKind::kNone) return;
-  now.goal.attempts.push_back({activity.candidate.kind, activity.candidate.p_focus_world,
-                               now.agent.p_world, ending, now.world.step});
-  if (ending != Ending::kSuperseded && ending != Ending::kGone)
-    now.goal.events.push_back(std::string(NameOf(activity.kind)) + ": " +
-                              std::string(NameOf(ending)));
-  activity = Activity{};
-}
-
-double RemainingOf(const Situation& now, const std::vector<VoxelKey>& path) {
-  const double voxel_m = now.config.map.voxel_m;
-  double rest_m = 0;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    rest_m += voxel_m * geometry::VoxelDistance(path[i - 1], path[i]);
-  if (path.empty()) return 0;
-  return rest_m + (CenterOf(path.front(), voxel_m) - now.agent.p_world).head<2>().norm();
-}
-
-/// Takes up `target`, or goes on with it along a new way.
-void Begin(Situation& now, ActivityKind kind, GroundTarget target) {
-  Activity& activity = now.goal.activity;
-  const bool is_same =
-      activity.kind == kind && activity.candidate.kind == target.candidate.kind &&
-      activity.candidate.id == target.candidate.id &&
-      (activity.candidate.p_focus_world - target.candidate.p_focus_world).norm() <=
-          now.config.policy.explore.same_place_m;
-  if (!is_same) {
-    End(now, Ending::kSuperseded);
-    activity.kind = kind;
-  }
-  const double rest_m = RemainingOf(now, target.path);
-  if (!is_same || rest_m < activity.best_m) {
-    activity.best_m = rest_m;
-    activity.idle_steps = 0;
-  } else if (rest_m > activity.best_m + 1 && activity.replans < kMaxReplans) {
-    // What was seen since made the way longer: that is no lack of progress.
-    ++activity.replans;
-    activity.best_m = rest_m;
-  }
-  if (target.path != activity.path) activity.motion.clear();
-  activity.candidate = std::move(target.candidate);
-  activity.path = std::move(target.path);
-  activity.ground_revision = now.world.ground.revision();
-}
-
-/// Drops what was walked of the way. False if the agent is off it, or something stands on it now.
-bool KeepToPath(Situation& now) {
-  Activity& activity = now.goal.activity;
-  const double voxel_m = now.config.map.voxel_m;
-  std::size_t nearest = 0;
-  double nearest_m = 1e9;
-  for (std::size_t i = 0; i < std::min<std::size_t>(activity.path.size(), 30); ++i) {
-    const double d = (CenterOf(activity.path[i], voxel_m) - now.agent.p_world).head<2>().norm();
-    if (d > nearest_m) continue;
-    nearest = i;
-    nearest_m = d;
-  }
-  if (nearest_m > kStray_m) return false;
-  activity.path.erase(activity.path.begin(),
-                      activity.path.begin() + static_cast<std::ptrdiff_t>(nearest));
-  const auto& ground = now.world.ground;
-  if (activity.ground_revision == ground.revision()) return true;
-  for (std::size_t i = 1; i < activity.path.size(); ++i) {
-    const VoxelKey &from = activity.path[i - 1], &to = activity.path[i];
-    int z = 0;
-    if (ground.SideOf(from, to.x - from.x, to.y - from.y, &z) != planner::Side::kGround ||
-        z != to.z)
-      return false;
-  }
-  activity.ground_revision = ground.revision();
-  return true;
-}
-
-/// Counts steps; ends an activity whose way does not get shorter.
-void MeasureProgress(Situation& now) {
-  Activity& activity = now.goal.activity;
-  if (activity.kind == ActivityKind::kNone) return;
-  ++activity.steps;
-  const double rest_m = RemainingOf(now, activity.path);
-  if (rest_m < activity.best_m - kProgress_m) {
-    activity.best_m = rest_m;
-    activity.idle_steps = 0;
-    return;
-  }
-  ++activity.idle_steps;
-  const auto& explore = now.config.policy.explore;
-  const bool is_bounded =
-      activity.kind == ActivityKind::kApproach || activity.kind == ActivityKind::kVisit;
-  const int allowed = is_bounded ? 2 * explore.progress_steps : explore.progress_steps;
-  if (activity.idle_steps <= allowed) return;
-  if (activity.kind == ActivityKind::kVisit)
-    now.goal.history[static_cast<std::size_t>(activity.candidate.id)].is_exhausted = true;
-  if (activity.kind == ActivityKind::kApproach) now.goal.live.Discard(activity.candidate.id);
-  End(now, Ending::kNoProgress);
-}
+constexpr double kNear_m = 1.0;      // chosen: of the viewpoint: aim and verify
+constexpr double kArrived_m = 0.35;  // chosen: one forward step and a voxel
+constexpr int kLooksAtTarget = 6;    // chosen: half a turn, or less and a pitch
+constexpr int kWobbles = 3;          // chosen: one more than a live POI needs to be stable
 
 /// The next action along the way; nullopt at its end, or where no step helps.
 std::optional<Action> Walk(Situation& now) {
@@ -192,13 +34,11 @@ std::optional<Action> Walk(Situation& now) {
   if (auto pitch =
           policy::PitchTowards(now.agent, DegToRad(motion.travel_pitch_deg), now.config.action))
     return pitch;
-  const bool is_clear =
-      !activity.motion.empty() &&
-      (activity.motion.back() != Action::kMoveForward ||
-       IsStepClear(now.world.ground, now.agent, motion, now.config.action));
+  const bool is_clear = !activity.motion.empty() &&
+                        (activity.motion.back() != Action::kMoveForward ||
+                         IsStepClear(now.world.ground, now.agent, motion, now.config.action));
   if (!is_clear) {
-    activity.motion =
-        MotionAlong(now.world.ground, activity.path, now.agent, motion,
+    activity.motion = MotionAlong(now.world.ground, activity.path, now.agent, motion,
                                   now.config.planner, now.config.action);
     std::reverse(activity.motion.begin(), activity.motion.end());
   }
@@ -221,18 +61,11 @@ std::optional<Action> LookAt(Situation& now, const Vector3d& p_world, int max_lo
   return look;
 }
 
-double DistanceToEnd(const Situation& now) {
-  const Activity& activity = now.goal.activity;
-  if (activity.path.empty()) return 0;
-  const Vector3d p = CenterOf(activity.path.back(), now.config.map.voxel_m);
-  return (p - now.agent.p_world).head<2>().norm();
-}
-
 // --- Choosing ----------------------------------------------------------------------------------
 
 ActivityKind KindFor(const Situation& now, const policy::Candidate& candidate) {
-  const bool is_elsewhere = !IsOnLevel(now, CenterOf(candidate.standing.front(),
-                                                     now.config.map.voxel_m));
+  const bool is_elsewhere =
+      !IsOnLevel(now, CenterOf(candidate.standing.front(), now.config.map.voxel_m));
   return is_elsewhere ? ActivityKind::kClimb : ActivityKind::kGoTo;
 }
 
@@ -247,7 +80,8 @@ void Explore(Situation& now, const VoxelKey& start, Decision& decision) {
   if (IsExploring(activity)) {
     if (!IsStillOpen(now, activity.candidate)) {
       End(now, Ending::kGone);
-    } else if (KeepToPath(now) && activity.steps % now.config.policy.explore.reconsider_steps != 0) {
+    } else if (KeepToPath(now) &&
+               activity.steps % now.config.policy.explore.reconsider_steps != 0) {
       return;
     }
   }
@@ -290,8 +124,9 @@ std::optional<Action> ActOnExploration(Situation& now) {
     return Action::kTurnLeft;
   }
   if (auto look = LookAt(now, activity.candidate.p_focus_world, kLooksAtTarget)) return look;
-  // The last metre of the way may still show it.
-  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && activity.looks <= kLooksAtTarget) {
+  activity.looks = kLooksAtTarget;  // looked at: once is enough
+  // The last part of the way may still show it.
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
     if (auto action = Walk(now)) return action;
   }
   const bool is_sighting = activity.candidate.kind == CandidateKind::kSighting;
@@ -305,8 +140,7 @@ std::optional<Action> ActOnVisit(Situation& now) {
   if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && poi.looked == 0) {
     if (auto action = Walk(now)) return action;
   }
-  const Vector3d p_aim =
-      policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
+  const Vector3d p_aim = policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
   if (poi.looked == 0) {
     if (auto look = LookAt(now, p_aim, 2 * kLooksAtTarget)) return look;
   }
@@ -314,7 +148,8 @@ std::optional<Action> ActOnVisit(Situation& now) {
   constexpr Action kWobble[kWobbles] = {Action::kTurnLeft, Action::kTurnRight, Action::kTurnRight};
   if (poi.looked < kWobbles) return kWobble[poi.looked++];
   poi.is_exhausted = true;
-  now.goal.events.push_back("history POI without success");
+  now.goal.events.push_back("history POI without success, similarity " +
+                            std::to_string(poi.similarity) + " score " + std::to_string(poi.score));
   End(now, Ending::kReached);
   return Action::kTurnLeft;
 }
@@ -326,8 +161,7 @@ std::optional<Action> ActOnApproach(Situation& now, const policy::Verification& 
   if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
     if (auto action = Walk(now)) return action;
   }
-  const Vector3d p_aim =
-      policy::AimPoint(poi->voxels, now.agent.p_world, now.config.map.voxel_m);
+  const Vector3d p_aim = policy::AimPoint(poi->voxels, now.agent.p_world, now.config.map.voxel_m);
   if (auto look = LookAt(now, p_aim, 2 * kLooksAtTarget)) return look;
   goal.tried_viewpoints.push_back(now.agent.p_world);
   goal.events.push_back("view failed: " + verification.failed_check);
@@ -372,7 +206,7 @@ bool TryLastResort(Situation& now) {
         goal.live.ForgiveDiscarded();
         goal.tried_viewpoints.clear();
         goal.failed_views = 0;
-        goal.coverage.Clear();
+        now.world.coverage.Clear();
         goal.inspect_range_m *= 0.6;  // chosen: near enough for the smallest category
         now.world.ground.ForgetBlocked();
         goal.events.push_back("nothing left: trying once more with relaxed limits");
@@ -388,13 +222,24 @@ bool TryLastResort(Situation& now) {
 bool Prove(Situation& now, Decision& decision) {
   const auto& config = now.config;
   for (const policy::LivePoi* poi : now.goal.live.Stable(config.policy.object)) {
-    const auto verification =
-        policy::Verify(*poi, now.sightings, now.obs, config.policy, config.sensor.camera_height_m,
-                       config.map.voxel_m);
+    const auto verification = policy::Verify(*poi, now.sightings, now.obs, config.policy,
+                                             config.sensor.camera_height_m, config.map.voxel_m);
     if (poi->id == now.goal.active_live || verification.passed)
       decision.verification = verification;
     if (!verification.passed) continue;
+    if (const auto similarity = SimilarityAt(now.world, now.goal, poi->voxels)) {
+      double& confirmed = now.world.confirmed_similarity;
+      confirmed = confirmed < 0 ? *similarity : std::min(confirmed, *similarity);
+    }
     now.goal.active_live = poi->id;
+    policy::Candidate claimed;
+    claimed.kind = CandidateKind::kLivePoi;
+    claimed.id = poi->id;
+    claimed.p_focus_world = poi->p_center_world;
+    claimed.size = static_cast<int>(poi->voxels.size());
+    claimed.score = poi->confidence;
+    decision.shown.push_back(claimed);
+    decision.target = std::move(claimed);
     decision.p_claimed_world = poi->p_center_world;
     decision.action = Action::kStop;
     decision.mode = {Mode::kTargetApproach, ModeReason::kNearTarget, true};
@@ -414,6 +259,12 @@ void ChooseActivity(Situation& now, Decision& decision) {
     if (live->candidate.id != now.goal.active_live) {
       now.goal.tried_viewpoints.clear();
       now.goal.failed_views = 0;
+    }
+    if (activity.kind == ActivityKind::kVisit) {
+      const HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(activity.candidate.id)];
+      now.goal.events.push_back("history POI led to the goal, similarity " +
+                                std::to_string(poi.similarity) + " score " +
+                                std::to_string(poi.score));
     }
     now.goal.active_live = live->candidate.id;
     now.goal.script.clear();
@@ -499,6 +350,7 @@ Decision Navigate(Situation& now) {
     if (!decision.action && TryLastResort(now)) decision.action = Action::kTurnLeft;
   }
   if (decision.action == Action::kMoveForward) now.world.before_forward = now.agent;
+  decision.activity = now.goal.script.empty() ? NameOf(now.goal.activity.kind) : "look_around";
   return decision;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// policy.profile = paper. What the agent does in each mode, once a target is chosen: one action per call. Also the checks
-// that decide about modes: is this entrance a stair, is the session over.
+// policy.profile = paper. What the agent does in each mode, once a target is chosen: one action per
+// call. Also the checks that decide about modes: is this entrance a stair, is the session over.
 #pragma once
 
 #include <optional>

@@ -65,7 +65,6 @@ ModeInputs InputsFor(const Situation& now, const Options& options, SessionVerdic
   return in;
 }
 
-
 void UpdateLevel(Situation& now) {
   World& world = now.world;
   GoalState& goal = now.goal;
@@ -88,8 +87,8 @@ void NoticeBump(Situation& now) {
   if (!bumps.Update(now.agent, now.world.step, now.config.map)) return;
   now.goal.events.push_back("bump");
   if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
-  const auto escape = policy::EscapeActions(now.world.map, now.agent, bumps.bumped_yaws(),
-                                            now.config.action);
+  const auto escape =
+      policy::EscapeActions(now.world.map, now.agent, bumps.bumped_yaws(), now.config.action);
   now.goal.script.assign(escape.begin(), escape.end());
   now.goal.events.push_back("stuck: stepping aside");
 }

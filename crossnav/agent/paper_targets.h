@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// policy.profile = paper. From candidates to a planned target: which frontier, which POI, which stair frontier. Functions
-// of the world and the goal's state; each returns a target with its plan, or nothing.
+// policy.profile = paper. From candidates to a planned target: which frontier, which POI, which
+// stair frontier. Functions of the world and the goal's state; each returns a target with its plan,
+// or nothing.
 #pragma once
 
 #include <optional>

@@ -16,8 +16,8 @@ using policy::CandidateKind;
 
 namespace {
 
-constexpr double kSlack_m = 0.1;      // chosen: the agent stops that near to where it was sent
-constexpr double kBestShare = 0.6;    // chosen: of the best score, remembered places that count alike
+constexpr double kSlack_m = 0.1;    // chosen: the agent stops that near to where it was sent
+constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
   return std::any_of(tried.begin(), tried.end(),
@@ -33,8 +33,8 @@ Vector3d FootOf(const VoxelKey& key, double voxel_m) {
 planner::GroundRules RulesOf(const Situation& now) {
   planner::GroundRules rules;
   if (now.config.policy.planar) {
-    rules.level = policy::BandAround(now.world.level_m, now.config.policy.frontier,
-                                     now.config.map.voxel_m);
+    rules.level =
+        policy::BandAround(now.world.level_m, now.config.policy.frontier, now.config.map.voxel_m);
   }
   return rules;
 }
@@ -88,9 +88,9 @@ std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& 
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
     if (IsBlacklisted(now.goal.blacklist, poi->p_center_world)) continue;
     const bool is_active = poi->id == now.goal.active_live;
-    auto target = NearestView(now, start, poi->voxels,
-                              now.config.policy.approach.range_m - kSlack_m,
-                              is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{});
+    auto target =
+        NearestView(now, start, poi->voxels, now.config.policy.approach.range_m - kSlack_m,
+                    is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{});
     if (!target) continue;
     target->candidate.kind = CandidateKind::kLivePoi;
     target->candidate.id = poi->id;
@@ -113,6 +113,10 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
     for (std::size_t i = 0; i < now.goal.history.size(); ++i) {
       const HistoryPoi& poi = now.goal.history[i];
       if (poi.is_exhausted || poi.score < share * best_score) continue;
+      if (poi.similarity <
+              now.world.confirmed_similarity - now.config.policy.poi.similarity_slack &&
+          now.goal.last_resorts == 0)
+        continue;
       if (IsBlacklisted(now.goal.blacklist, poi.p_center_world)) continue;
       for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
         auto target = NearestView(now, start, poi.voxels, range_m, {});

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/agent/remembered_places.h"
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
 namespace crossnav::agent {
+
+using geometry::VoxelKey;
 
 std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& goal,
                                          const Config& config) {
@@ -13,9 +19,23 @@ std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& go
     poi.voxels = cluster.voxels;
     poi.p_center_world = cluster.p_center_world;
     poi.score = cluster.score;
+    poi.similarity = cluster.similarity;
     places.push_back(std::move(poi));
   }
   return places;
+}
+
+std::optional<double> SimilarityAt(const World& world, const GoalState& goal,
+                                   const std::vector<geometry::VoxelKey>& voxels) {
+  const auto field = memory::RelevancyField(world.memory, goal.text, {});
+  std::vector<float> here;
+  for (const VoxelKey& key : voxels)
+    if (const auto row = world.memory.RowOf(key))
+      here.push_back(field[static_cast<std::size_t>(*row)]);
+  if (here.empty()) return std::nullopt;
+  std::sort(here.begin(), here.end(), std::greater<>());
+  here.resize(std::max<std::size_t>(1, here.size() / 4));
+  return std::accumulate(here.begin(), here.end(), 0.0) / static_cast<double>(here.size());
 }
 
 }  // namespace crossnav::agent

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// History POIs for the goal's text, from the memory as it is (paper, "Query-Conditioned Retrieval").
+// History POIs for the goal's text, from the memory as it is (paper, "Query-Conditioned
+// Retrieval").
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "crossnav/agent/state.h"
@@ -11,5 +13,11 @@ namespace crossnav::agent {
 /// Best first; empty where the variant has no history POIs.
 std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& goal,
                                          const Config& config);
+
+/// What the memory holds at `voxels` against the goal's text: mean cosine of the best quarter of
+/// its rows there, or nothing where it holds none. With it the agent learns from every object it
+/// finds how strongly the encoder answers to the real thing.
+std::optional<double> SimilarityAt(const World& world, const GoalState& goal,
+                                   const std::vector<geometry::VoxelKey>& voxels);
 
 }  // namespace crossnav::agent

@@ -10,6 +10,7 @@
 
 #include "crossnav/agent/activity.h"
 #include "crossnav/agent/config.h"
+#include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/semantic_memory.h"
@@ -36,13 +37,17 @@ struct World {
   planner::GroundMap ground;
   memory::SemanticMemory memory;
   policy::StairEvidence stairs;
+  policy::Coverage coverage;  ///< what was seen from near; without history POIs, for this goal
+  std::vector<geometry::StairFlight> flights;  ///< that were walked
+  std::vector<Vector3d> way_off_level_world;   ///< foot positions since the level was left
   std::vector<StairLink> links;
   double level_m = 0;  ///< height of the exploration level
   bool has_level = false;
   int step = 0;
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
   int flat_frames = 0;     ///< consecutive frames on flat ground off the exploration level
-  double looked_around_m = -1e9;  ///< height of the last look around on arrival
+  double confirmed_similarity = -1;  ///< lowest of an object that was found and its goal's text
+  double looked_around_m = -1e9;     ///< height of the last look around on arrival
   std::optional<AgentPose> before_forward;  ///< pose before the last forward step
   policy::BumpMonitor bumps;                ///< policy.profile = paper
 
@@ -64,6 +69,7 @@ struct HistoryPoi {
   std::vector<geometry::VoxelKey> voxels;
   Vector3d p_center_world = Vector3d::Zero();
   double score = 0;
+  double similarity = 0;  ///< mean cosine of its best quarter [-1, 1]
   bool is_exhausted = false;
   int looked = 0;  ///< frames spent looking at it on arrival
 };
@@ -116,8 +122,7 @@ struct GoalState {
   Activity activity;
   std::vector<Attempt> attempts;  ///< everything that was tried and ended
   policy::LivePois hints;         ///< sightings too weak for a live POI
-  policy::Coverage coverage;
-  int last_resorts = 0;  ///< of the things to try when nothing is left, how many were used
+  int last_resorts = 0;           ///< of the things to try when nothing is left, how many were used
   double inspect_range_m = 0;
 };
 

@@ -31,6 +31,27 @@ inline std::optional<Outcome> OutcomeFromName(std::string_view name) {
   return std::nullopt;
 }
 
+/// The flight that the agent had still to take, or had taken, for a goal on another floor.
+struct FlightCause {
+  int floor = 0;       ///< it leads to from where the stage ended: the next one on the way
+  int goal_floor = 0;  ///< nearest floor that holds an instance
+  bool seen = false;   ///< its ground is in the agent's map
+  bool begun = false;  ///< the agent set out on it: a climb, or a stair session
+  bool climbed = false;
+  friend bool operator==(const FlightCause&, const FlightCause&) = default;
+};
+
+/// What a failed stage was doing, for whoever looks into it (cause.h makes it and words it).
+struct StageCause {
+  std::map<std::string, int> steps;  ///< by activity; by mode where the policy names no activity
+  std::string last_activity;         ///< the last that was none but "none"
+  bool is_under_way = false;         ///< it had not ended when the stage did
+  std::string last_ending;  ///< event of the last activity that ended, e.g. "go_to: no progress"
+  std::optional<FlightCause> flight;  ///< where the goal's floors are not all that was walked on
+  double seen_share = 0;              ///< of the scene's walkable area that the agent's map holds
+  friend bool operator==(const StageCause&, const StageCause&) = default;
+};
+
 /// Beside the outcome, never instead of it.
 struct StageExtra {
   bool passed_target = false;  ///< a true instance was in view within the success radius, unclaimed
@@ -39,6 +60,7 @@ struct StageExtra {
   /// entrance_rejected, lost_on_flight or landing_not_confirmed. Empty otherwise.
   std::string stairs;
   std::optional<double> distance_to_goal_m;  ///< geodesic, from the end to the nearest viewpoint
+  std::optional<StageCause> cause;           ///< of failed stages; old records lack it
 };
 
 struct StageRecord {

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crossnav/bench/cause.h"
+
 namespace crossnav::bench {
 namespace {
 
@@ -157,6 +159,7 @@ std::string EpisodeText(const EpisodeRecord& record) {
   if (record.failed) {
     text += fmt::format("  failed ({}): {}\n", record.failed->reason, record.failed->message);
   }
+  for (const std::string& line : CauseLines(record)) text += "  " + line + "\n";
   const Metrics m = ComputeMetrics({&record, 1});
   return text +
          fmt::format("  SR {:.0f}  SPL {:.3f}  PR {:.3f}  PPL {:.3f}\n", m.sr, m.spl, m.pr, m.ppl);

@@ -18,7 +18,7 @@ std::string MetricsText(std::span<const EpisodeRecord> episodes, const Bootstrap
 ///  scenes, categories: {name: {executed, sr, spl}}, outcomes: {category: {outcome: count}}}.
 std::string MetricsJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap);
 
-/// One line per stage of one episode.
+/// One line per stage of one episode, and one of cause for a stage that failed.
 std::string EpisodeText(const EpisodeRecord& record);
 
 }  // namespace crossnav::bench

@@ -50,6 +50,7 @@ Outcome JudgeStage(const StageEnd& end, const EvalConfig& eval) {
 }
 
 void StairWatch::Add(const trace::StepTrace& step) {
+  has_session_ = has_session_ || step.mode == "stair_explore";
   for (const std::string& event : step.events) {
     has_session_ = has_session_ || event == "stairs up verified" || event == "stairs down verified";
     has_rejection_ = has_rejection_ || event == "entrance rejected";

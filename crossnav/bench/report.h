@@ -39,6 +39,8 @@ std::vector<ReportFigure> CollectFigures(const std::vector<ReportRun>& runs,
 std::string ReportMarkdown(const std::vector<ReportRun>& runs,
                            const std::vector<ReportFigure>& figures);
 std::string ReportCsv(const std::vector<ReportFigure>& figures);
+/// How many stages failed of which cause and with which outcome (cause.h), as rows.
+std::string CausesCsv(const std::vector<ReportRun>& runs);
 std::string ReportJson(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures);
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crossnav/bench/cause.h"
 #include "crossnav/bench/paper_numbers.h"
 #include "crossnav/bench/report.h"
 
@@ -51,6 +52,17 @@ std::string CsvField(const std::string& text) {
   return quoted + "\"";
 }
 
+nlohmann::ordered_json CausesJson(const ReportRun& run) {
+  auto causes = nlohmann::ordered_json::object();
+  for (const auto& [cause, count] : CountCauses(run.episodes)) {
+    auto& row = causes[cause] = {{"stages", count.stages}, {"seen_share", count.seen_share}};
+    for (std::size_t i = 0; i < count.outcomes.size(); ++i) {
+      if (count.outcomes[i] > 0) row["outcomes"][std::string(kOutcomeNames[i])] = count.outcomes[i];
+    }
+  }
+  return causes;
+}
+
 }  // namespace
 
 std::vector<ReportFigure> CollectFigures(const std::vector<ReportRun>& runs,
@@ -80,6 +92,20 @@ std::string ReportCsv(const std::vector<ReportFigure>& figures) {
   return text;
 }
 
+std::string CausesCsv(const std::vector<ReportRun>& runs) {
+  std::string text = "run,cause,outcome,stages\n";
+  for (const ReportRun& run : runs) {
+    for (const auto& [cause, count] : CountCauses(run.episodes)) {
+      for (std::size_t i = 0; i < count.outcomes.size(); ++i) {
+        if (count.outcomes[i] == 0) continue;
+        text += fmt::format("{},{},{},{}\n", CsvField(run.name), CsvField(cause), kOutcomeNames[i],
+                            count.outcomes[i]);
+      }
+    }
+  }
+  return text;
+}
+
 std::string ReportJson(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures) {
   using Json = nlohmann::ordered_json;
@@ -91,7 +117,8 @@ std::string ReportJson(const std::vector<ReportRun>& runs,
                         {"config_hash", run.config_hash},
                         {"episodes_hash", run.episodes_hash},
                         {"episodes", run.episodes.size()},
-                        {"failed", CountFailures(run.episodes)}});
+                        {"failed", CountFailures(run.episodes)},
+                        {"causes", CausesJson(run)}});
   }
   for (const ReportFigure& f : figures) {
     Json row = {{"run", f.run},

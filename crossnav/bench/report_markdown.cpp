@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "crossnav/bench/cause.h"
 #include "crossnav/bench/paper_numbers.h"
 #include "crossnav/bench/report.h"
 
@@ -133,6 +134,28 @@ std::string OutcomeTableText(const ReportRun& run) {
   return text;
 }
 
+/// Why stages failed; one line per cause, the most frequent first.
+std::string CauseTableText(const ReportRun& run) {
+  std::vector<std::string> head = {"cause", "stages"};
+  for (std::size_t i = 1; i < kOutcomeNames.size(); ++i) head.emplace_back(kOutcomeNames[i]);
+  head.emplace_back("walkable area seen, %");
+  const auto counts = CountCauses(run.episodes);
+  if (counts.empty()) return "No stage failed.\n";
+  std::vector<std::pair<std::string, CauseCount>> rows(counts.begin(), counts.end());
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto& a, const auto& b) { return a.second.stages > b.second.stages; });
+  std::string text = Head(head);
+  for (const auto& [cause, count] : rows) {
+    std::vector<std::string> cells = {cause, std::to_string(count.stages)};
+    for (std::size_t i = 1; i < count.outcomes.size(); ++i) {
+      cells.push_back(std::to_string(count.outcomes[i]));
+    }
+    cells.push_back(fmt::format("{:.0f}", 100 * count.seen_share));
+    text += Row(cells);
+  }
+  return text;
+}
+
 std::string CategoryTableText(const ReportRun& run) {
   std::string text = Head({"goal", "executed", "SR", "SPL"});
   for (const auto& [name, category] : PerCategory(run.episodes)) {
@@ -162,7 +185,8 @@ std::string RunSection(const ReportRun& run) {
          "\n### Floor requirement\n\n" + GroupTable(GroupByCrossFloor(run.episodes)) +
          "\n### Scenes\n\n" + GroupTable(GroupByScene(run.episodes)) + "\n### Categories\n\n" +
          CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run) +
-         FailedEpisodes(run);
+         FailedEpisodes(run) +
+         "\n### Causes of failure\n\n" + CauseTableText(run);
 }
 
 }  // namespace

@@ -16,11 +16,29 @@ Json ToJson(const Vector3d& p) {
   return Json::array({p.x(), p.y(), p.z()});
 }
 
+Json ToJson(const StageCause& cause) {
+  Json json = {{"last_activity", cause.last_activity},
+               {"under_way", cause.is_under_way},
+               {"last_ending", cause.last_ending}};
+  if (cause.flight) {
+    json["flight"] = {{"floor", cause.flight->floor},
+                      {"goal_floor", cause.flight->goal_floor},
+                      {"seen", cause.flight->seen},
+                      {"begun", cause.flight->begun},
+                      {"climbed", cause.flight->climbed}};
+  }
+  json["seen_share"] = cause.seen_share;
+  json["steps"] = Json::object();
+  for (const auto& [activity, steps] : cause.steps) json["steps"][activity] = steps;
+  return json;
+}
+
 Json ToJson(const StageRecord& stage) {
   Json extra = {{"passed_target", stage.extra.passed_target},
                 {"wrong_floor", stage.extra.wrong_floor}};
   if (!stage.extra.stairs.empty()) extra["stairs"] = stage.extra.stairs;
   if (stage.extra.distance_to_goal_m) extra["distance_to_goal_m"] = *stage.extra.distance_to_goal_m;
+  if (stage.extra.cause) extra["cause"] = ToJson(*stage.extra.cause);
   return {{"goal", stage.goal},
           {"outcome", NameOf(stage.outcome)},
           {"success", stage.success},
@@ -85,6 +103,33 @@ Vector3d ToVector(const std::vector<double>& values) {
   return values.size() == 3 ? Vector3d(values[0], values[1], values[2]) : Vector3d::Zero();
 }
 
+FlightCause ReadFlight(const Line& line, std::optional<Error>& error) {
+  FlightCause flight;
+  Take(line.Get<int>("floor"), flight.floor, error);
+  Take(line.Get<int>("goal_floor"), flight.goal_floor, error);
+  Take(line.Get<bool>("seen"), flight.seen, error);
+  Take(line.Get<bool>("begun"), flight.begun, error);
+  Take(line.Get<bool>("climbed"), flight.climbed, error);
+  return flight;
+}
+
+/// `extra.cause`; absent in files from before there were causes.
+std::optional<StageCause> ReadCause(const Line& extra, std::optional<Error>& error) {
+  const auto found = extra.json().find("cause");
+  if (found == extra.json().end() || found->is_null()) return std::nullopt;
+  const Line line(*found, extra.where() + ".cause");
+  StageCause cause;
+  Take(line.Get<std::string>("last_activity"), cause.last_activity, error);
+  Take(line.Get<bool>("under_way"), cause.is_under_way, error);
+  Take(line.Get<std::string>("last_ending"), cause.last_ending, error);
+  Take(line.Get<double>("seen_share"), cause.seen_share, error);
+  Take(line.Get<std::map<std::string, int>>("steps"), cause.steps, error);
+  if (const auto flight = found->find("flight"); flight != found->end()) {
+    cause.flight = ReadFlight(Line(*flight, line.where() + ".flight"), error);
+  }
+  return cause;
+}
+
 Result<StageRecord> ReadStage(const Line& line) {
   StageRecord stage;
   std::optional<Error> error;
@@ -108,6 +153,7 @@ Result<StageRecord> ReadStage(const Line& line) {
   Take(extra.GetOr<std::string>("stairs", ""), stage.extra.stairs, error);
   double distance_m = -1;
   Take(extra.GetOr<double>("distance_to_goal_m", -1.0), distance_m, error);
+  stage.extra.cause = ReadCause(extra, error);
   if (error) return tl::unexpected(*error);
   if (distance_m >= 0) stage.extra.distance_to_goal_m = distance_m;
   const auto known = OutcomeFromName(outcome);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "crossnav/bench/cause.h"
 #include "crossnav/bench/outcome.h"
 #include "crossnav/bench/timing.h"
 #include "crossnav/sim/ground_truth.h"
@@ -57,7 +58,9 @@ class EpisodeRun {
 
  private:
   struct StageState {
+    explicit StageState(const std::vector<sim::Floor>& floors) : cause(floors) {}
     StageRecord record;
+    CauseWatch cause;
     StairWatch stairs;
     bool was_in_view = false;
     int actions_before = 0;
@@ -130,7 +133,7 @@ Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
 
 Result<StageRecord> EpisodeRun::RunStage(const std::string& goal) {
   if (auto ok = agent_.SetGoal(goal); !ok) return tl::unexpected(ok.error());
-  StageState stage;
+  StageState stage(context_.navmesh().Floors());
   stage.actions_before = actions_;
   stage.record.goal = goal;
   stage.record.start_world = simulator_.agent().p_world;
@@ -162,6 +165,7 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
   if (!step) return tl::unexpected(step.error());
   const Stopwatch::Lap decided = watch.Next();
   stage.stairs.Add(step->trace);
+  stage.cause.Add(step->trace, floors_->floor());
   NotePassing(stage);
   for (RunObserver* observer : observers_) {
     const StepView view{observation, step->trace, step->timing, simulator_.agent(), agent_};
@@ -203,7 +207,9 @@ void EpisodeRun::Move(Action action, StageState& stage) {
   stage.record.length_m += moved_m;
   recent_m_.push_back(moved_m);
   while (static_cast<int>(recent_m_.size()) > config_.eval.stuck_steps) recent_m_.pop_front();
+  const int floor_before = floors_->floor();
   floors_->Move(simulator_.agent().p_world);
+  if (floors_->floor() != floor_before) stage.cause.Arrive(floor_before, floors_->floor());
 }
 
 /// Was a true instance in view and within the success radius?
@@ -246,6 +252,9 @@ void EpisodeRun::FinishStage(const StageEnd& end, StageState& stage) const {
     record.extra.stairs = stage.stairs.Verdict(record.transitions);
   }
   record.extra.distance_to_goal_m = context_.DistanceToGoal(record.end_world, record.goal);
+  if (!record.success) {
+    record.extra.cause = JudgeCause(stage.cause, context_, agent_.map(), record);
+  }
 }
 
 }  // namespace

@@ -73,6 +73,27 @@ std::optional<double> SceneContext::DistanceToGoal(const Vector3d& p_world,
   return navmesh_->Geodesic(p_world, viewpoints);
 }
 
+const std::vector<Vector3d>& SceneContext::WalkablePoints() const {
+  if (!walkable_world_.empty()) return walkable_world_;
+  constexpr double kGrid_m = 0.2;  // chosen: a fifth of a flight's width
+  Box3 box;
+  for (const auto& triangle : navmesh_->Triangles()) {
+    for (const Vector3f& p : triangle.p_world) box.Add(p.cast<double>());
+  }
+  if (box.empty()) return walkable_world_;
+  const auto first = [](double m) { return static_cast<int>(std::ceil(m / kGrid_m)); };
+  for (int x = first(box.min.x()); x * kGrid_m <= box.max.x(); ++x) {
+    for (int y = first(box.min.y()); y * kGrid_m <= box.max.y(); ++y) {
+      const double x_m = x * kGrid_m, y_m = y * kGrid_m;
+      for (const double z_m :
+           navmesh_->HeightsAt(x_m, y_m, box.min.z() - kGrid_m, box.max.z() + kGrid_m)) {
+        walkable_world_.emplace_back(x_m, y_m, z_m);
+      }
+    }
+  }
+  return walkable_world_;
+}
+
 int SceneContext::FloorUnder(const Vector3d& p_world) const {
   constexpr double kSlack_m = 0.3;  // chosen: voxel centres and steps lie a little below a floor
   int under = navmesh_->Floors().empty() ? 0 : navmesh_->Floors().front().id;

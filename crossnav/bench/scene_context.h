@@ -49,6 +49,10 @@ class SceneContext {
   /// d*: shortest path from `p_world` to a viewpoint of `goal`; empty where there is none.
   std::optional<double> DistanceToGoal(const Vector3d& p_world, const std::string& goal) const;
 
+  /// Points of the walkable surface on a 0.2 m grid, by x, y, z: a measure of its area. Computed
+  /// once.
+  const std::vector<Vector3d>& WalkablePoints() const;
+
   /// Floor under a point that may be up to a room's height above it.
   int FloorUnder(const Vector3d& p_world) const;
 
@@ -59,6 +63,7 @@ class SceneContext {
   std::unique_ptr<sim::RayCaster> caster_;
   SensorConfig sensor_;
   mutable std::map<std::string, std::vector<Target>> targets_;
+  mutable std::vector<Vector3d> walkable_world_;
 };
 
 /// Ids ("<folder>/<file>.glb") of all scenes below `scenes_dir`, sorted.

@@ -13,14 +13,10 @@ namespace {
 using geometry::IsSurface;
 using geometry::VoxelState;
 
-constexpr int kBelow = 8;         // voxels of a window below the place it is about
-constexpr int kHeadSlack = 1;     // chosen: a ceiling may start one voxel low
+constexpr int kBelow = 8;             // voxels of a window below the place it is about
+constexpr int kHeadSlack = 1;         // chosen: a ceiling may start one voxel low
 constexpr double kFootReach_m = 0.5;  // chosen: an agent is never farther from its floor
 
-std::uint64_t TileKey(int x, int y) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x >> 3)) << 32 |
-         static_cast<std::uint32_t>(y >> 3);
-}
 int ColumnOf(int x, int y) {
   return (y & 7) * 8 + (x & 7);
 }
@@ -37,21 +33,48 @@ GroundMap::GroundMap(const geometry::MapConfig& config)
       height_(std::min(CellsFloor(config.agent_height_m, config.voxel_m), 63 - kBelow)),
       inflation_(CellsFloor(config.inflation_m, config.voxel_m)) {}
 
-const GroundMap::Tile* GroundMap::FindTile(int x, int y) const {
-  const auto it = index_.find(TileKey(x, y));
-  return it == index_.end() ? nullptr : &tiles_[it->second];
+GroundMap::Tile& GroundMap::TouchTile(int x, int y) {
+  constexpr int kMargin = 8;  // tiles of room on each side, so that growing is rare
+  const int tx = x >> 3, ty = y >> 3;
+  const bool is_inside =
+      tx >= first_x_ && ty >= first_y_ && tx < first_x_ + columns_ && ty < first_y_ + rows_;
+  if (!is_inside) {
+    const bool is_first = index_.empty();
+    const int x0 = is_first ? tx - kMargin : std::min(first_x_, tx - kMargin);
+    const int y0 = is_first ? ty - kMargin : std::min(first_y_, ty - kMargin);
+    const int x1 = is_first ? tx + kMargin : std::max(first_x_ + columns_, tx + kMargin);
+    const int y1 = is_first ? ty + kMargin : std::max(first_y_ + rows_, ty + kMargin);
+    std::vector<std::int32_t> grown(
+        static_cast<std::size_t>(x1 - x0 + 1) * static_cast<std::size_t>(y1 - y0 + 1), -1);
+    for (int row = 0; row < rows_; ++row)
+      std::copy_n(index_.begin() + static_cast<std::ptrdiff_t>(row) * columns_, columns_,
+                  grown.begin() + static_cast<std::ptrdiff_t>(row + first_y_ - y0) * (x1 - x0 + 1) +
+                      (first_x_ - x0));
+    index_ = std::move(grown);
+    first_x_ = x0;
+    first_y_ = y0;
+    columns_ = x1 - x0 + 1;
+    rows_ = y1 - y0 + 1;
+  }
+  std::int32_t& tile =
+      index_[static_cast<std::size_t>(ty - first_y_) * static_cast<std::size_t>(columns_) +
+             static_cast<std::size_t>(tx - first_x_)];
+  if (tile < 0) {
+    tile = static_cast<std::int32_t>(tiles_.size());
+    tiles_.emplace_back();
+  }
+  return tiles_[static_cast<std::size_t>(tile)];
 }
 
 void GroundMap::Clear() {
   index_.clear();
   tiles_.clear();
+  columns_ = rows_ = 0;
   ++revision_;
 }
 
 void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
-  const auto [it, is_new] = index_.try_emplace(TileKey(key.x, key.y), tiles_.size());
-  if (is_new) tiles_.emplace_back();
-  Tile& tile = tiles_[it->second];
+  Tile& tile = TouchTile(key.x, key.y);
   const int word = key.z >> 6;
   const int lo = tile.words ? std::min(tile.first_word, word) : word;
   const int hi = tile.words ? std::max(tile.first_word + tile.words - 1, word) : word;
@@ -68,7 +91,8 @@ void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
       }
     tile = std::move(grown);
   }
-  const auto at = static_cast<std::size_t>(ColumnOf(key.x, key.y) * tile.words + word - tile.first_word);
+  const auto at =
+      static_cast<std::size_t>(ColumnOf(key.x, key.y) * tile.words + word - tile.first_word);
   const std::uint64_t bit = std::uint64_t{1} << (key.z & 63);
   tile.surface[at] = is_surface ? tile.surface[at] | bit : tile.surface[at] & ~bit;
   tile.air[at] = is_air ? tile.air[at] | bit : tile.air[at] & ~bit;
@@ -184,10 +208,9 @@ Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const
   const int lowest = kBelow - climb_ - 1;
   int at = kBelow + climb_;
   while (at >= kBelow && (air >> at & 1) == 0) --at;
-  if (at < kBelow) {
-    // A surface below tells nothing: it may be the ceiling of the storey underneath.
-    return (surface & Span(kBelow, kBelow + climb_ - 1)) != 0 ? Side::kBlocked : Side::kUnknown;
-  }
+  // No air: a surface below tells nothing, it may be the ceiling of the storey underneath, and one
+  // within the climb limit may be the riser of a step whose tread is hidden.
+  if (at < kBelow) return Side::kUnknown;
   while (at >= lowest && (air >> at & 1) != 0) --at;
   if (at < lowest) return Side::kDrop;
   return (surface >> at & 1) != 0 ? Side::kBlocked : Side::kUnknown;
@@ -243,10 +266,14 @@ double GroundMap::DistanceToObstacle(const Vector3d& p_world_foot, int z, double
   return nearest;
 }
 
-void GroundMap::Block(const Vector3d& p_world) {
+bool GroundMap::Block(const Vector3d& p_world) {
   const VoxelKey key = geometry::KeyOf(p_world, voxel_m_);
-  for (int dz = -climb_; dz <= climb_ + 1; ++dz) blocked_.insert({key.x, key.y, key.z + dz});
-  ++revision_;
+  // From a step below to two steps above: how high it is was not felt.
+  bool is_new = false;
+  for (int dz = -climb_; dz <= 2 * climb_ + 1; ++dz)
+    is_new = blocked_.insert({key.x, key.y, key.z + dz}).second || is_new;
+  if (is_new) ++revision_;
+  return is_new;
 }
 
 void GroundMap::ForgetBlocked() {

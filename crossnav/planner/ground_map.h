@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <unordered_map>
 #include <vector>
 
 #include "crossnav/geometry/voxel_map.h"
@@ -66,8 +65,9 @@ class GroundMap {
   /// standing at height `z`, at most `cap_m` [m].
   double DistanceToObstacle(const Vector3d& p_world_foot, int z, double cap_m) const;
 
-  /// Takes the column under `p_world` for an obstacle at the body's height, until Forget.
-  void Block(const Vector3d& p_world);
+  /// Takes the column under `p_world` for an obstacle to a foot at that height, until
+  /// ForgetBlocked. False if it was one already.
+  bool Block(const Vector3d& p_world);
   void ForgetBlocked();
   bool HasBlocked() const { return !blocked_.empty(); }
 
@@ -85,7 +85,15 @@ class GroundMap {
     std::vector<std::uint64_t> surface, air;  // [column][word]
   };
 
-  const Tile* FindTile(int x, int y) const;
+  const Tile* FindTile(int x, int y) const {
+    const int column = (x >> 3) - first_x_, row = (y >> 3) - first_y_;
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
+    const std::int32_t tile =
+        index_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column)];
+    return tile < 0 ? nullptr : &tiles_[static_cast<std::size_t>(tile)];
+  }
+  Tile& TouchTile(int x, int y);
   void Set(const VoxelKey& key, bool is_surface, bool is_air);
   void Clear();
   /// Bits z_lo .. z_lo + 63 of the column.
@@ -98,7 +106,9 @@ class GroundMap {
 
   double voxel_m_;
   int climb_, height_, inflation_;
-  std::unordered_map<std::uint64_t, std::size_t> index_;
+  // Window of tiles around those there are: index into `tiles_`, -1 = none.
+  std::vector<std::int32_t> index_;
+  int first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;  // [tiles]
   std::vector<Tile> tiles_;
   std::set<VoxelKey> blocked_;
   std::uint64_t revision_ = 0;

@@ -8,8 +8,7 @@
 namespace crossnav::planner {
 namespace {
 
-constexpr double kLeaveTight_vox = 4;  // chosen: from a tight spot the first steps may be pinched
-constexpr int kBridge_vox = 4;         // chosen: the deepest tread
+constexpr int kBridge_vox = 4;  // chosen: the deepest tread
 constexpr std::array<std::array<int, 2>, 8> kSteps = {
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
@@ -33,10 +32,11 @@ double GroundEdgeCost(const VoxelKey& from, const VoxelKey& to, Clearance room, 
 
 GroundSearch::GroundSearch(const GroundMap& ground, const PlannerConfig& config,
                            const VoxelKey& start, const GroundRules& rules)
-    : ground_(ground), config_(config), rules_(rules), start_(start), table_(1024, -1) {
+    : ground_(ground), config_(config), rules_(rules), table_(1024, -1) {
   nodes_.reserve(1024);
   const std::int32_t first = NodeOf(start);
   nodes_[static_cast<std::size_t>(first)].cost = 0;
+  LookUpRoom(nodes_[static_cast<std::size_t>(first)]);
   queue_.push_back({0, start, first});
 }
 
@@ -72,8 +72,7 @@ std::int32_t GroundSearch::NodeOf(const VoxelKey& key) {
 }
 
 void GroundSearch::LookUpRoom(Node& node) const {
-  if (node.clearance < 0)
-    node.clearance = static_cast<std::int8_t>(ground_.ClearanceOf(node.key));
+  if (node.clearance < 0) node.clearance = static_cast<std::int8_t>(ground_.ClearanceOf(node.key));
 }
 
 std::optional<VoxelKey> GroundSearch::Next() {
@@ -105,8 +104,8 @@ void GroundSearch::Expand(std::int32_t from_index) {
       case Side::kUnknown:
       case Side::kDrop: {
         const bool is_diagonal = step[0] != 0 && step[1] != 0;
-        const auto to = ground_.Bridge(from.key, step[0], step[1],
-                                       is_diagonal ? kBridge_vox - 1 : kBridge_vox);
+        const auto to =
+            ground_.Bridge(from.key, step[0], step[1], is_diagonal ? kBridge_vox - 1 : kBridge_vox);
         if (to) Relax(from_index, *to, config_.bridge_cost_factor);
         break;
       }
@@ -122,7 +121,10 @@ void GroundSearch::Relax(std::int32_t from_index, const VoxelKey& to, double fac
   if (node.is_closed) return;
   LookUpRoom(node);
   const auto room = static_cast<Clearance>(node.clearance);
-  if (room == Clearance::kPinch && VoxelDistance(to, start_) > kLeaveTight_vox) return;
+  // A start in a pinch may leave it; nothing else leads in, or what can be reached would depend on
+  // where one happens to stand.
+  const bool is_leaving = static_cast<Clearance>(from.clearance) == Clearance::kPinch;
+  if (room == Clearance::kPinch && !is_leaving) return;
   const double cost =
       from.cost + factor * GroundEdgeCost(from.key, to, room, ground_.climb(), config_);
   if (cost >= node.cost - 1e-12 || cost > rules_.max_cost) return;

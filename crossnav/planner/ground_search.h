@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cheapest ways over the ground, on all floors: one Dijkstra from where the agent stands, visited in
-// order of cost, so that "the nearest place for which ..." stops as soon as it is found. An edge
+// Cheapest ways over the ground, on all floors: one Dijkstra from where the agent stands, visited
+// in order of cost, so that "the nearest place for which ..." stops as soon as it is found. An edge
 // costs its length in voxels (eq:supp_astar_edge_cost), more where the body has little room
 // (the paper's price of inflated space) or takes a high step. Lengths and costs in voxels.
 #pragma once
@@ -26,7 +26,8 @@ class GroundSearch {
   GroundSearch(const GroundMap& ground, const PlannerConfig& config, const VoxelKey& start,
                const GroundRules& rules = {});
 
-  /// The next place in order of cost; ties by key. nullopt when all that can be reached was visited.
+  /// The next place in order of cost; ties by key. nullopt when all that can be reached was
+  /// visited.
   std::optional<VoxelKey> Next();
 
   /// Cost of the place that Next() gave last.
@@ -65,7 +66,6 @@ class GroundSearch {
   const GroundMap& ground_;
   const PlannerConfig& config_;
   GroundRules rules_;
-  VoxelKey start_;
   std::vector<Node> nodes_;
   std::vector<std::int32_t> table_;  // open addressing, -1 = empty
   std::vector<Open> queue_;          // heap

@@ -8,9 +8,9 @@ struct PlannerConfig {
   double stair_edge_radius_m = 1.0;
   double inflated_cost_factor = 2;
   double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
-  double high_step_cost = 2;     // chosen: [voxels] a step at the climb limit; stairs have lower ones
+  double high_step_cost = 2;  // chosen: [voxels] a step at the climb limit; stairs have lower ones
   double bridge_cost_factor = 2;  // chosen: as inflated space; over a tread that was not seen
-  int max_expansions = 400000;  // chosen: several times a 400 m2 two-floor house; 0 = no limit
+  int max_expansions = 400000;    // chosen: several times a 400 m2 two-floor house; 0 = no limit
 };
 
 template <class V>

@@ -27,7 +27,8 @@ void Coverage::Add(const geometry::EndVoxels& ends, const Vector3d& p_camera_wor
 }
 
 bool Coverage::IsInspected(const VoxelKey& key) const {
-  const VoxelKey support = CellOf({key.x, key.y, key.z - 1}), above = CellOf({key.x, key.y, key.z + 4});
+  const VoxelKey support = CellOf({key.x, key.y, key.z - 1}),
+                 above = CellOf({key.x, key.y, key.z + 4});
   return cells_.contains(support) || (above != support && cells_.contains(above));
 }
 

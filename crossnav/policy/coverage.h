@@ -5,9 +5,9 @@
 
 #include <unordered_set>
 
+#include "crossnav/core/pose.h"
 #include "crossnav/geometry/end_voxel_list.h"
 #include "crossnav/geometry/voxel_key.h"
-#include "crossnav/core/pose.h"
 
 namespace crossnav::policy {
 

@@ -24,6 +24,25 @@ bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, Vox
   return false;
 }
 
+int UnseenBehind(const planner::GroundMap& ground, const VoxelKey& beyond, int limit) {
+  std::set<VoxelKey> seen{beyond};
+  std::vector<VoxelKey> stack{beyond};
+  while (!stack.empty() && static_cast<int>(seen.size()) < limit) {
+    const VoxelKey key = stack.back();
+    stack.pop_back();
+    for (const auto& side : kSides) {
+      const VoxelKey next{key.x + side[0], key.y + side[1], key.z};
+      int z = 0;
+      if (seen.contains(next) ||
+          ground.SideOf(key, side[0], side[1], &z) != planner::Side::kUnknown)
+        continue;
+      seen.insert(next);
+      stack.push_back(next);
+    }
+  }
+  return static_cast<int>(seen.size());
+}
+
 Candidate GroundFrontierAround(const planner::GroundMap& ground, const VoxelKey& seed,
                                std::set<VoxelKey>* visited) {
   std::map<VoxelKey, VoxelKey> border;  // place -> what it borders on

@@ -20,4 +20,8 @@ bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, Vox
 Candidate GroundFrontierAround(const planner::GroundMap& ground, const VoxelKey& seed,
                                std::set<VoxelKey>* visited);
 
+/// Area of the unseen ground that begins at `beyond`, in columns, counted up to `limit`: what lies
+/// behind a chair is a pocket, what lies behind a door is not.
+int UnseenBehind(const planner::GroundMap& ground, const VoxelKey& beyond, int limit);
+
 }  // namespace crossnav::policy

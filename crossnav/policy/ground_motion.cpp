@@ -16,11 +16,11 @@ namespace {
 using geometry::VoxelKey;
 using planner::GroundMap;
 
-constexpr double kCell_m = 0.05;      // chosen: positions nearer than this are one
-constexpr double kBeside_vox = 15;    // chosen: room to turn around in beside the way
-constexpr int kMaxExpansions = 600;   // chosen: a few times what a turn around in a corridor takes
-constexpr double kUnseenCost = 3;     // chosen: [steps] onto ground that was not seen
-constexpr int kWindow = 30;           // chosen: places of the way that are looked at
+constexpr double kCell_m = 0.05;     // chosen: positions nearer than this are one
+constexpr double kBeside_vox = 15;   // chosen: room to turn around in beside the way
+constexpr int kMaxExpansions = 600;  // chosen: a few times what a turn around in a corridor takes
+constexpr double kUnseenCost = 3;    // chosen: [steps] onto ground that was not seen
+constexpr int kWindow = 30;          // chosen: places of the way that are looked at
 
 /// Cost-to-go [m] around the near part of a way: what is left from its end on, for every position
 /// from which that can be walked to.
@@ -104,8 +104,8 @@ std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d
     }
     const double clear_m = room(p, z);
     if (clear_m < config.min_clearance_m && clear_m < room_before + 1e-6) return std::nullopt;
-    penalty = std::max(penalty, config.clearance_weight *
-                                    (config.wanted_clearance_m - clear_m) / config.wanted_clearance_m);
+    penalty = std::max(penalty, config.clearance_weight * (config.wanted_clearance_m - clear_m) /
+                                    config.wanted_clearance_m);
   }
   *z_to = z;
   return penalty;
@@ -115,14 +115,19 @@ class LatticeSearch {
  public:
   LatticeSearch(const GroundMap& ground, const WayAhead& way, const AgentPose& agent,
                 const MotionConfig& config, const ActionConfig& action)
-      : ground_(ground), way_(way), agent_(agent), config_(config), action_(action),
+      : ground_(ground),
+        way_(way),
+        agent_(agent),
+        config_(config),
+        action_(action),
         turns_(static_cast<int>(std::lround(360.0 / action.turn_deg))) {}
 
   std::vector<Action> Run(int z_start) {
     Add({agent_.p_world.head<2>(), z_start, 0, 0, -1, Action::kStop, 0});
     const double start_m = way_.At(nodes_[0].p, z_start);
     int best = -1;
-    double best_value = start_m / action_.forward_m - config_.min_gain_steps;
+    const double worth = start_m / action_.forward_m - config_.min_gain_steps;
+    double best_value = worth;
     for (int expanded = 0; !open_.empty() && expanded < kMaxExpansions; ++expanded) {
       const int index = open_.top().second;
       open_.pop();
@@ -135,7 +140,10 @@ class LatticeSearch {
         best = index;
       }
       const bool is_there = rest_m <= config_.arrival_m && node.parent >= 0;
-      if (is_there || node.depth >= config_.horizon_steps) return ActionsTo(index);
+      const bool is_far = node.depth >= config_.horizon_steps;
+      // Where the way is closed to the body, walking somewhere else is no progress.
+      if (is_there || (is_far && rest_m / action_.forward_m < worth)) return ActionsTo(index);
+      if (is_far) continue;
       Expand(index, node);
     }
     return best < 0 ? std::vector<Action>() : ActionsTo(best);

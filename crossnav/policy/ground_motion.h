@@ -19,8 +19,8 @@ namespace crossnav::policy {
 /// `config.horizon_steps` of them or to its end, whichever is nearer. Empty where no step helps.
 std::vector<Action> MotionAlong(const planner::GroundMap& ground,
                                 const std::vector<geometry::VoxelKey>& path, const AgentPose& agent,
-                                const MotionConfig& config,
-                                const planner::PlannerConfig& planner, const ActionConfig& action);
+                                const MotionConfig& config, const planner::PlannerConfig& planner,
+                                const ActionConfig& action);
 
 /// Whether a forward step from `agent` keeps clear of what the map knows by now.
 bool IsStepClear(const planner::GroundMap& ground, const AgentPose& agent,

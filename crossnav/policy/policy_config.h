@@ -18,7 +18,8 @@ struct ObjectConfig {
 };
 
 struct PoiConfig {
-  bool use_history = true;  ///< false = the paper's "w/o H-POI"
+  bool use_history = true;         ///< false = the paper's "w/o H-POI"
+  double similarity_slack = 0.08;  // chosen: below what confirmed objects answered with; full only
   double live_takeover_m = 1.0;
   double blacklist_xy_m = 0.8, blacklist_z_m = 0.6;
 };
@@ -69,12 +70,13 @@ struct MotionConfig {
 struct ExploreConfig {
   int min_cluster = 4;           // chosen: columns; less is no way through for the body
   double elsewhere_m = 12;       // chosen: another level, the length of a flight and its approach
-  double crumb_m = 15;           // chosen: frontiers under min_cluster
+  double crumb_m = 40;           // chosen: frontiers under min_cluster or before a pocket: last
+  int pocket_columns = 200;      // chosen: two square metres of unseen ground are no room
   double sighting_m = 0;         // chosen: a weak detection is as good as a frontier
-  double uninspected_m = 6;      // chosen: ground seen from too far for the detector
+  double uninspected_m = 10;     // chosen: ground seen from too far for the detector
   double turn_back_m = 20;       // chosen: on a flight, what lies the other way
   double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
-  double inspect_range_m = 2.5;  // chosen: where detectors answer for a chair
+  double inspect_range_m = 3.5;  // chosen: where detectors answer for a chair
   int min_uninspected = 8;       // chosen: columns of 25 around
   int reconsider_steps = 6;      // chosen: the grace period of a commitment
   int progress_steps = 24;       // chosen: a turn around, twice
@@ -109,6 +111,7 @@ void Visit(V& visit, ObjectConfig& c) {
 template <class V>
 void Visit(V& visit, PoiConfig& c) {
   visit("use_history", c.use_history);
+  visit("similarity_slack", c.similarity_slack, 0.0, 2.0);
   visit("live_takeover_m", c.live_takeover_m, 0.0, 100.0);
   visit("blacklist_xy_m", c.blacklist_xy_m, 0.0, 100.0);
   visit("blacklist_z_m", c.blacklist_z_m, 0.0, 100.0);
@@ -158,6 +161,7 @@ void Visit(V& visit, ExploreConfig& c) {
   visit("min_cluster", c.min_cluster, 1, 100000);
   visit("elsewhere_m", c.elsewhere_m, 0.0, 100000.0);
   visit("crumb_m", c.crumb_m, 0.0, 100000.0);
+  visit("pocket_columns", c.pocket_columns, 0, 10000);
   visit("sighting_m", c.sighting_m, 0.0, 100000.0);
   visit("uninspected_m", c.uninspected_m, 0.0, 100000.0);
   visit("turn_back_m", c.turn_back_m, 0.0, 100000.0);
@@ -173,7 +177,6 @@ void Visit(V& visit, ExploreConfig& c) {
 }
 template <class V>
 void Visit(V& visit, PolicyConfig& c) {
-  visit("profile", c.profile, {"full", "paper"});
   visit.Section("motion", c.motion);
   visit.Section("explore", c.explore);
   visit.Section("object", c.object);
@@ -181,6 +184,7 @@ void Visit(V& visit, PolicyConfig& c) {
   visit.Section("frontier", c.frontier);
   visit.Section("stair", c.stair);
   visit.Section("approach", c.approach);
+  visit("profile", c.profile, {"full", "paper"});
   visit("planar", c.planar);
 }
 

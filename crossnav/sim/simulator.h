@@ -31,7 +31,9 @@ class Simulator {
   Observation Observe();
 
   /// Whether observations carry colour; without it their pictures are black and come sooner.
-  void ShowColour(bool is_wanted) { channels_ = is_wanted ? Channels::kAll : Channels::kWithoutColour; }
+  void ShowColour(bool is_wanted) {
+    channels_ = is_wanted ? Channels::kAll : Channels::kWithoutColour;
+  }
 
   const AgentPose& agent() const { return agent_; }
   const Frame& last_frame() const { return frame_; }

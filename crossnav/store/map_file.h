@@ -22,6 +22,7 @@
 
 #include "crossnav/core/result.h"
 #include "crossnav/geometry/map_config.h"
+#include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
 
@@ -36,6 +37,7 @@ struct SaveInfo {
   std::string encoder_name{};      ///< of the features, as DenseEncoder::Name(); may be empty
   std::uint64_t encoder_hash = 0;  ///< of the encoder's weights or settings; 0 = not known
   std::string frame = "episode";   ///< what the world frame is, in the user's words
+  std::vector<geometry::StairFlight> flights{};  ///< Agent::flights()
 };
 
 /// The file's header: what `crossnav map info` prints.
@@ -86,6 +88,7 @@ struct LoadedMemory {
   MapHeader header;
   geometry::VoxelMap map;
   memory::SemanticMemory memory;
+  std::vector<geometry::StairFlight> flights;
   std::vector<std::string> damaged;  ///< e.g. "feature block 12 (3,-1,0): checksum differs"
 };
 

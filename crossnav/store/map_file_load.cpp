@@ -5,6 +5,7 @@
 
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/store/block_codec.h"
+#include "crossnav/store/flight_table.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
 #include "crossnav/store/sqlite_file.h"
@@ -186,6 +187,8 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
   memory::SemanticMemory memory(options.fusion, header.voxel_m, header.feature_dim);
   if (auto done = ReadFeatures(*db, header, memory, damaged); !done)
     return tl::unexpected(done.error());
+  auto flights = ReadFlights(*db, damaged);
+  if (!flights) return tl::unexpected(flights.error());
   if (!damaged.empty() && !options.skip_damaged)
     return tl::unexpected(DamageError(db->file(), damaged));
 
@@ -194,7 +197,8 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
     map.error().where = db->file() + ": " + map.error().where;
     return tl::unexpected(map.error());
   }
-  return LoadedMemory{header, std::move(*map), std::move(memory), std::move(damaged)};
+  return LoadedMemory{header, std::move(*map), std::move(memory), std::move(*flights),
+                      std::move(damaged)};
 }
 
 Result<MapHeader> ReadMapHeader(const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/geometry/sparse_grid.h"
 #include "crossnav/store/block_codec.h"
+#include "crossnav/store/flight_table.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
 #include "crossnav/store/sqlite_file.h"
@@ -134,6 +135,8 @@ Result<SaveReport> SaveInTransaction(Database& db, const geometry::VoxelMap& map
   if (!map_blocks) return tl::unexpected(map_blocks.error());
   const auto feature_blocks = WriteFeatureBlocks(db, memory, report);
   if (!feature_blocks) return tl::unexpected(feature_blocks.error());
+
+  if (auto done = WriteFlights(db, info.flights); !done) return tl::unexpected(done.error());
 
   MapHeader header;
   header.revision = report.revision = *revision + 1;

@@ -49,6 +49,8 @@ struct StepTrace {
   Action action = Action::kStop;
   std::string mode;    ///< basic_explore, stair_explore, poi_navigation, target_approach
   std::string reason;  ///< why this mode, now
+  /// none, look_around, go_to, climb, visit, approach; empty under policy.profile = paper
+  std::string activity;
   std::vector<CandidateTrace> candidates;  ///< best first within each class
   std::vector<Vector3d> path_world;        ///< planned, from the agent to the target
   VerificationTrace verification;

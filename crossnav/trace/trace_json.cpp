@@ -88,7 +88,8 @@ std::string ToJson(const StepTrace& step, VoxelText voxels) {
   Append(json.Key("T_world_camera"), step.T_world_camera);
   json.Field("action", NameOf(step.action))
       .Field("mode", std::string_view(step.mode))
-      .Field("reason", std::string_view(step.reason));
+      .Field("reason", std::string_view(step.reason))
+      .Field("activity", std::string_view(step.activity));
   AppendAll(json, "candidates", step.candidates);
   AppendAll(json, "path_world", step.path_world);
   Append(json.Key("verification"), step.verification);

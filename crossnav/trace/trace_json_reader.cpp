@@ -86,6 +86,8 @@ void ReadStep(JsonReader& in, const Element& e, StepTrace& step) {
   }
   in.Field(e, "mode", step.mode);
   in.Field(e, "reason", step.reason);
+  // Records written before there were activities lack it.
+  if (e["activity"].error() == simdjson::SUCCESS) in.Field(e, "activity", step.activity);
   in.ListField(e, "candidates", step.candidates, ReadCandidate);
   in.ListField(e, "path_world", step.path_world,
                [](JsonReader& r, const Element& item, Vector3d& p) { r.Read(item, p); });

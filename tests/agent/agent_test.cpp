@@ -77,6 +77,9 @@ TEST(Agent, AMalformedObservationIsAnErrorThatNamesItsField) {
   bad.T_world_camera.linear() *= 2;
   EXPECT_EQ(where(bad), "observation.T_world_camera");
   bad = good;
+  bad.T_world_camera.translation().y() = -3e5;
+  EXPECT_EQ(where(bad), "observation.T_world_camera");
+  bad = good;
   bad.depth_m = DepthImage(63, 64, 1.0F);
   EXPECT_EQ(where(bad), "observation.depth_m");
   bad = good;
@@ -151,7 +154,9 @@ TEST(Agent, StairMarksSurviveANewGoal) {
       }
     return probability;
   };
-  Agent agent(SmallConfig(), FakeSuite(sight));
+  Config config = SmallConfig();
+  config.policy.profile = "paper";  // only its sessions promote
+  Agent agent(config, FakeSuite(sight));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());
   for (int i = 0; i < 150 && StairMarksOf(agent) == 0; ++i) RunAgent(agent, walker, 1);
   const WorldBytes before = BytesOf(agent);

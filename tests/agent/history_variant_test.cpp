@@ -76,7 +76,7 @@ std::vector<CandidateTrace> OfKind(const StepTrace& trace, const std::string& ki
 /// path, verification, events and action, and the candidates of classes that were not asked.
 std::string Untouched(StepTrace trace) {
   trace.action = Action::kStop;
-  trace.mode = trace.reason = "";
+  trace.mode = trace.reason = trace.activity = "";
   trace.path_world.clear();
   trace.verification = {};
   trace.events.clear();
@@ -148,7 +148,7 @@ TEST(HistoryVariant, ChangesNothingButHistoryPoisOnEqualObservations) {
     EXPECT_GT(seen.with_history, 0) << driven_by_history;
     EXPECT_GT(seen.modes, 0);
     EXPECT_GT(seen.live, 0);
-    EXPECT_GT(seen.frontiers, 10);
+    EXPECT_GT(seen.frontiers, 2);
   }
 }
 

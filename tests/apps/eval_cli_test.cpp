@@ -169,5 +169,29 @@ TEST_F(EvalCli, SuitesAreNamedAndAForeignManifestIsRefused) {
   ExpectFailure("suite run crossnav-mfmon-1-mini", {"manifest.json"});
 }
 
+TEST_F(EvalCli, EvalSaysWhyEachFailedStageFailedAndReportCountsThem) {
+  const std::string eval =
+      std::string("eval --json --scenes scenes --episodes e.json --jobs 2 --out run") + kSmall;
+  const Outcome outcome = Run(eval);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream stream(ReadText(At("run/results.jsonl")));
+  int failed = 0, lines = 0;
+  for (std::string line; std::getline(stream, line);) {
+    for (const Json& stage : Json::parse(line).value("stages", Json::array())) {
+      EXPECT_EQ(stage["extra"].contains("cause"), !stage["success"].get<bool>());
+      failed += stage["success"] ? 0 : 1;
+    }
+  }
+  std::istringstream err(outcome.err);
+  for (std::string line; std::getline(err, line);) {
+    lines += line.find("of the walkable area seen | steps: ") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_EQ(lines, failed) << outcome.err;
+  ASSERT_EQ(Run("report run --out report").exit_code, 0);
+  EXPECT_NE(ReadText(At("report/report.md")).find("### Causes of failure"), std::string::npos);
+  EXPECT_GT(fs::file_size(At("report/causes.csv")), 30u);
+}
+
 }  // namespace
 }  // namespace crossnav

@@ -81,6 +81,28 @@ TEST(Report, JsonAndMetricsJsonParse) {
   EXPECT_EQ(metrics["outcomes"]["chair"]["misdetection"], 5);
 }
 
+TEST(Report, CountsTheCausesOfFailedStages) {
+  auto runs = TwoRuns();
+  for (EpisodeRecord& episode : runs[0].episodes) {
+    StageRecord& stage = episode.stages[0];
+    if (stage.success) continue;
+    stage.outcome = Outcome::kOutOfTime;
+    stage.extra.cause = StageCause{{{"go_to", 9}}, "go_to", true, "", {}, 0.5};
+  }
+  const std::string text = ReportMarkdown(runs, {}, {50, 1});
+  EXPECT_NE(text.find("### Causes of failure"), std::string::npos);
+  EXPECT_NE(text.find("| go_to under way | 5 | 0 | 0 | 0 | 0 | 5 | 50 |"), std::string::npos)
+      << text;
+  EXPECT_EQ(CausesCsv(runs),
+            "run,cause,outcome,stages\n"
+            "full,go_to under way,out_of_time,5\n"
+            "no-history-poi,stopped at the wrong object,misdetection,5\n");
+  const auto causes = nlohmann::json::parse(ReportJson(runs, {}))["runs"][0]["causes"];
+  EXPECT_EQ(causes["go_to under way"]["stages"], 5);
+  EXPECT_EQ(causes["go_to under way"]["outcomes"]["out_of_time"], 5);
+  EXPECT_EQ(causes["go_to under way"]["seen_share"], 0.5);
+}
+
 TEST(Report, PlotsAreClosedSvg) {
   const auto runs = TwoRuns();
   const auto figures = CollectFigures(runs, {50, 1});

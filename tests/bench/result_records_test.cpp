@@ -42,7 +42,9 @@ EpisodeRecord RichEpisode() {
   stage.floor_end = 1;
   stage.transitions = 1;
   stage.actions = 200;
-  stage.extra = {true, true, "lost_on_flight", 2.75};
+  stage.extra = {true, true, "lost_on_flight", 2.75, StageCause{}};
+  *stage.extra.cause = {{{"climb", 40}, {"go_to", 160}},      "climb", true, "go_to: no progress",
+                        FlightCause{1, 2, true, true, false}, 0.625};
   return episode;
 }
 
@@ -61,6 +63,43 @@ TEST(ResultRecords, RoundTripKeepsEveryField) {
   EXPECT_EQ(ToJsonLine(*file->header), ToJsonLine(MakeHeader()));
   ASSERT_EQ(file->episodes.size(), 1u);
   EXPECT_EQ(ToJsonLine(file->episodes[0]), ToJsonLine(RichEpisode()));
+}
+
+TEST(ResultRecords, CauseComesBackAndOldRecordsDoWithoutIt) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  EpisodeRecord rich = RichEpisode(), plain = RichEpisode(), old = RichEpisode();
+  plain.episode_id = "e2";
+  plain.stages[1].extra.cause->flight.reset();
+  old.episode_id = "e3";
+  old.stages[1].extra.cause.reset();
+  EXPECT_EQ(ToJsonLine(old).find("cause"), std::string::npos);
+  std::string text;
+  for (const EpisodeRecord& episode : {rich, plain, old}) text += ToJsonLine(episode) + "\n";
+  WriteText(path, text);
+  const auto file = ReadResults(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  EXPECT_EQ(file->episodes[0].stages[1].extra.cause, rich.stages[1].extra.cause);
+  EXPECT_EQ(file->episodes[1].stages[1].extra.cause, plain.stages[1].extra.cause);
+  EXPECT_FALSE(file->episodes[2].stages[1].extra.cause);
+}
+
+TEST(ResultRecords, DamagedCauseIsNamedWithItsKey) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  const std::string whole = ToJsonLine(RichEpisode());
+  const auto broken = [&](const std::string& what, const std::string& by) {
+    std::string text = whole;
+    text.replace(text.find(what), what.size(), by);
+    WriteText(path, text + "\n");
+    const auto file = ReadResults(path);
+    return file ? std::string("no error") : file.error().Message();
+  };
+  EXPECT_NE(broken(R"("seen_share":0.625)", R"("seen_share":"most")").find("cause"),
+            std::string::npos);
+  EXPECT_NE(broken(R"("begun":true)", R"("begun":2)").find("cause.flight"), std::string::npos);
+  EXPECT_NE(broken(R"("climb":40)", R"("climb":"x")").find("steps"), std::string::npos);
+  EXPECT_NE(broken(R"({"floor":1,)", R"(7,"was":{"floor":1,)").find("line 1"), std::string::npos);
 }
 
 TEST(ResultRecords, EpisodeLineHasTheContractsKeysInOrder) {

@@ -58,7 +58,7 @@ TEST(GroundMap, OneStandsOnASurfaceWithAirAndHeadRoom) {
 TEST(GroundMap, TellsGroundWallsDropsAndTheUnseen) {
   VoxelMap map;
   AddGround(map, 0, 0, 3, 1, 0);
-  AddColumn(map, 0, 1, 0, 15);   // a wall
+  AddColumn(map, 0, 1, 0, 15);    // a wall
   AddGround(map, 1, 1, 2, 2, 3);  // a step of 0.3 m
   AddGround(map, 2, 1, 3, 2, 4);  // a bench of 0.4 m
   for (int z = -8; z <= 10; ++z) SetState(map, {3, 0, z}, VoxelState::kTraversableFake);  // a drop
@@ -95,8 +95,8 @@ TEST(GroundMap, ATreadThatHidesBetweenSeenAirIsUnseenGroundAndIsBridged) {
   EXPECT_TRUE(CostsFrom(ground, {0, 1, 1}).contains({8, 1, 4}));
 }
 
-// The ceiling of the storey underneath, 0.3 m below a floor that was not seen yet, walled in the top
-// of a flight (house 1).
+// The ceiling of the storey underneath, 0.3 m below a floor that was not seen yet, walled in the
+// top of a flight (house 1).
 TEST(GroundMap, TheCeilingOfTheStoreyBelowIsNoWall) {
   VoxelMap map;
   AddGround(map, 0, 0, 3, 3, 0);
@@ -105,9 +105,19 @@ TEST(GroundMap, TheCeilingOfTheStoreyBelowIsNoWall) {
   const GroundMap ground = GroundOf(map);
   int z = 0;
   EXPECT_EQ(ground.SideOf({2, 1, 1}, 1, 0, &z), Side::kUnknown);
-  // Something low of which only the foot was seen is one.
-  SetState(map, {3, 1, 1}, VoxelState::kOccupied);
-  EXPECT_EQ(GroundOf(map).SideOf({2, 1, 1}, 1, 0, &z), Side::kBlocked);
+}
+
+// The last riser below a landing, seen from below: the tread behind it is not (house 16).
+TEST(GroundMap, ARiserWithoutSeenAirAboveIsUnseenGround) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 3, 3, 0);
+  for (int y = 0; y < 3; ++y)
+    for (const int z : {1, 2}) SetState(map, {3, y, z}, VoxelState::kOccupied);
+  AddGround(map, 4, 0, 6, 3, 2);
+  const GroundMap ground = GroundOf(map);
+  int z = 0;
+  EXPECT_EQ(ground.SideOf({2, 1, 1}, 1, 0, &z), Side::kUnknown);
+  EXPECT_EQ(ground.Bridge({2, 1, 1}, 1, 0, 4), (VoxelKey{4, 1, 3}));
 }
 
 TEST(GroundMap, NoBridgeLeadsThroughAWallOrOverAStoreysDrop) {
@@ -162,8 +172,8 @@ TEST(GroundMap, ChangesGiveWhatARebuildGives) {
       for (int z = -72; z <= 72; ++z) {
         const VoxelKey key{x, y, z};
         ASSERT_EQ(changed.IsStanding(key), rebuilt.IsStanding(key));
-        const bool is_supported = IsSurface(map.StateAt({x, y, z - 1})) &&
-                                  map.StateAt(key) == VoxelState::kTraversable;
+        const bool is_supported =
+            IsSurface(map.StateAt({x, y, z - 1})) && map.StateAt(key) == VoxelState::kTraversable;
         ASSERT_TRUE(is_supported || !rebuilt.IsStanding(key));
       }
 }
@@ -194,7 +204,7 @@ std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& s
           const VoxelKey to{from.x + dx, from.y + dy, z};
           if (to.x < 0 || to.y < 0 || to.x >= side || to.y >= side) continue;
           const Clearance room = ground.ClearanceOf(to);
-          if (room == Clearance::kPinch && VoxelDistance(to, start) > 4) continue;
+          if (room == Clearance::kPinch && ground.ClearanceOf(from) != Clearance::kPinch) continue;
           const double next = cost + GroundEdgeCost(from, to, room, ground.climb(), config);
           const auto it = costs.find(to);
           if (it != costs.end() && it->second <= next + 1e-9) continue;

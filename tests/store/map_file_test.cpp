@@ -36,6 +36,62 @@ TEST(MapFileTest, WhatIsLoadedIsWhatWasSaved) {
   EXPECT_EQ(loaded->header.feature_rows, world.memory.Size());
 }
 
+geometry::StairFlight SomeFlight() {
+  geometry::StairFlight flight;
+  flight.p_foot_world = Vector3d(1, 2, 0.1);
+  flight.p_top_world = Vector3d(4, 2, 2.8);
+  flight.steps_world = {{1, 2, 0.1}, {2.5, 2.1, 1.4}, {4, 2, 2.8}};
+  flight.confidence = 0.75;
+  flight.walked_up = 2;
+  flight.walked_down = 1;
+  return flight;
+}
+
+TEST(MapFileTest, FlightsAreSavedWithTheMemory) {
+  const TempFile file("flights.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  SaveInfo info = kInfo;
+  info.flights = {SomeFlight(), SomeFlight()};
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
+  const auto loaded = LoadMemory(file.path());
+  ASSERT_TRUE(loaded) << loaded.error().Message();
+  ASSERT_EQ(loaded->flights.size(), 2u);
+  const geometry::StairFlight flight = loaded->flights[1], saved = SomeFlight();
+  EXPECT_EQ(flight.p_foot_world, saved.p_foot_world);
+  EXPECT_EQ(flight.p_top_world, saved.p_top_world);
+  EXPECT_EQ(flight.steps_world, saved.steps_world);
+  EXPECT_EQ(flight.confidence, 0.75);
+  EXPECT_EQ(flight.walked_up, 2);
+  EXPECT_EQ(flight.walked_down, 1);
+  // A later save without any takes them out.
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, kInfo));
+  EXPECT_TRUE(LoadMemory(file.path())->flights.empty());
+}
+
+TEST(MapFileTest, ADamagedFlightIsNamedAndTheRestLoads) {
+  const TempFile file("damaged_flight.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  SaveInfo info = kInfo;
+  info.flights = {SomeFlight(), SomeFlight()};
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(db, "UPDATE flight SET hash = hash + 1 WHERE id = 1", nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(db);
+  const auto refused = LoadMemory(file.path());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("flight 1"), std::string::npos);
+  LoadOptions options;
+  options.skip_damaged = true;
+  const auto loaded = LoadMemory(file.path(), options);
+  ASSERT_TRUE(loaded) << loaded.error().Message();
+  EXPECT_EQ(loaded->flights.size(), 1u);
+}
+
 TEST(MapFileTest, GoingOnFromAFileGivesTheSameBytesAsNeverHavingStopped) {
   for (const std::string clearing : {"never", "evidence"}) {
     const TempFile file("lifelong.map");

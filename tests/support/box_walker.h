@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A walker in a house of boxes: what the agent's actions do and what its sensor then sees, without
-// the simulator. A step that would touch a box does not happen. World frame, metres.
+// the simulator. A forward step ends where a box stops it, climbs what is up to 0.3 m higher, and
+// never leads down farther than that. World frame, metres.
 #pragma once
 
 #include <cmath>
@@ -31,13 +32,27 @@ struct BoxWalker {
     return obs;
   }
 
+  /// Height of what a foot coming from height `from_m` finds at (x, y): the highest top of a box
+  /// that it can step onto, or the floor.
+  double GroundAt(const Vector3d& p, double from_m) const {
+    constexpr double kClimb_m = 0.3;
+    double ground_m = rooms.shell.min.z();
+    for (const Box3& solid : rooms.solids)
+      if (solid.HorizontalDistance(p) <= 0 && solid.max.z() <= from_m + kClimb_m + 1e-9)
+        ground_m = std::max(ground_m, solid.max.z());
+    return ground_m;
+  }
+
+  /// Standing at `p` (its z is the ground's) the body touches nothing that it cannot step onto.
   bool IsFree(const Vector3d& p) const {
     const Box3& shell = rooms.shell;
     if (p.x() < shell.min.x() + radius_m || p.x() > shell.max.x() - radius_m ||
         p.y() < shell.min.y() + radius_m || p.y() > shell.max.y() - radius_m)
       return false;
     for (const Box3& solid : rooms.solids)
-      if (solid.min.z() < p.z() + 1.5 && solid.HorizontalDistance(p) < radius_m) return false;
+      if (solid.min.z() < p.z() + 1.5 && solid.max.z() > p.z() + 0.3 + 1e-9 &&
+          solid.HorizontalDistance(p) < radius_m)
+        return false;
     return true;
   }
 
@@ -49,9 +64,15 @@ struct BoxWalker {
     if (what == Action::kLookUp) pose.pitch_rad = std::min(limit, pose.pitch_rad + pitch);
     if (what == Action::kLookDown) pose.pitch_rad = std::max(-limit, pose.pitch_rad - pitch);
     if (what != Action::kMoveForward) return;
-    const Vector3d next = pose.p_world + action.forward_m * Vector3d(std::cos(pose.yaw_rad),
-                                                                     std::sin(pose.yaw_rad), 0);
-    if (IsFree(next)) pose.p_world = next;
+    // In five parts, as far as the way is free: steps may be climbed, drops are not jumped down.
+    for (int part = 0; part < 5; ++part) {
+      Vector3d next =
+          pose.p_world +
+          action.forward_m / 5 * Vector3d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad), 0);
+      next.z() = GroundAt(next, pose.p_world.z());
+      if (next.z() < pose.p_world.z() - 0.3 - 1e-9 || !IsFree(next)) return;
+      pose.p_world = next;
+    }
   }
 };
 

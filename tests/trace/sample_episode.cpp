@@ -213,6 +213,7 @@ class Recorder {
     t.action = action;
     t.mode = to.mode;
     t.reason = to.reason;
+    t.activity = t.mode == "target_approach" ? "approach" : "go_to";
     t.level_m = agent_.p_world.z() < 2.5 ? 0 : kStorey;
     if (episode_.frames.empty() || episode_.frames.back().trace.goal != t.goal) {
       t.events.push_back("goal activated: " + t.goal);

@@ -23,6 +23,7 @@ StepTrace SmallStep() {
   step.action = Action::kTurnLeft;
   step.mode = "basic_explore";
   step.reason = "said \"so\"\n";
+  step.activity = "go_to";
   step.candidates.push_back({"live_poi", {1, 2, 3}, {4, 5, 6}, 0.25, -1, 7, true, false});
   step.path_world = {{0, 0, 0}, {1, 0.30000000000000004, 0}};
   step.verification = {true, false, 0.7, 0, 0, 0, 1.5, "distance"};
@@ -40,6 +41,7 @@ TEST(TraceJson, IsOneCanonicalLine) {
             R"({"step":12,"goal_index":1,"goal":"tv_monitor","agent":{"p_world":[0.1,-2,1e-09],)"
             R"("yaw_rad":0.5,"pitch_rad":0},"T_world_camera":[1,0,0,0.1,0,1,0,-2,0,0,1,0.88],)"
             R"("action":"turn_left","mode":"basic_explore","reason":"said \"so\"\n",)"
+            R"("activity":"go_to",)"
             R"("candidates":[{"kind":"live_poi","p_nav_world":[1,2,3],"p_focus_world":[4,5,6],)"
             R"("score":0.25,"path_cost":-1,"size":7,"is_reachable":true,"is_target":false}],)"
             R"("path_world":[[0,0,0],[1,0.30000000000000004,0]],)"
@@ -66,6 +68,7 @@ TEST(TraceJson, ReadsEveryFieldBack) {
   EXPECT_EQ(back->goal, "tv_monitor");
   EXPECT_EQ(back->action, Action::kTurnLeft);
   EXPECT_EQ(back->reason, "said \"so\"\n");
+  EXPECT_EQ(back->activity, "go_to");
   EXPECT_EQ(back->path_world[1].y(), 0.1 + 0.2);
   EXPECT_EQ(back->candidates[0].size, 7);
   EXPECT_EQ(back->verification.failed_check, "distance");
@@ -131,6 +134,15 @@ TEST(TraceJson, ReadsRecordsFromBeforeTheMemoryWasCounted) {
   const auto back = StepTraceFromJson(json);
   ASSERT_TRUE(back) << back.error().Message();
   EXPECT_EQ(back->memory.rows, 0);
+}
+
+TEST(TraceJson, ReadsRecordsFromBeforeThereWereActivities) {
+  std::string json = ToJson(SmallStep());
+  const std::string activity = R"("activity":"go_to",)";
+  json.erase(json.find(activity), activity.size());
+  const auto back = StepTraceFromJson(json);
+  ASSERT_TRUE(back) << back.error().Message();
+  EXPECT_EQ(back->activity, "");
 }
 
 TEST(TraceJson, RefusesEveryTruncation) {

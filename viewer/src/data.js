@@ -98,6 +98,26 @@ export function logLines(replay) {
   return lines;
 }
 
+const BAD_ENDING = /^(go_to|climb|visit|approach): (no progress|unreachable|refuted)$/;
+
+/// Where to open, {index, text}: the start where nothing failed (text ""), else the first failed
+/// stage: its last activity that ended badly, or its last step where none did or the agent stopped.
+export function openingOf(replay) {
+  const stage = replay.stages.find((s) => !s.success);
+  let last = -1, bad = -1, why = "";
+  replay.steps.forEach((step, index) => {
+    if (step.goal_index !== stage?.goal_index) return;
+    last = index;
+    const ending = step.events.find((text) => BAD_ENDING.test(text));
+    if (ending) [bad, why] = [index, ending];
+  });
+  if (last < 0) return { index: 0, text: "" };
+  const isLast = bad < 0 || replay.steps[last].action === "stop", index = isLast ? last : bad;
+  const head = `Goal ${stage.goal_index + 1}, ${words(stage.goal)}: ${words(stage.outcome)}.`;
+  const where = isLast ? "its last step" : words(why);
+  return { index, text: `${head} Opened at step ${replay.steps[index].step}, ${where}.` };
+}
+
 /// A figure with so many decimals; a dash for what was not finite when it was written.
 export function figure(value, decimals) {
   return value === null ? "–" : value.toFixed(decimals);

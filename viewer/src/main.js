@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together: reads the embedded data, draws on demand, listens to keys and pointer.
 import { OrbitCamera } from "./camera.js";
-import { bytesOfBase64, figure, floorLevels, floorOf, inflate, words } from "./data.js";
+import { bytesOfBase64, figure, floorLevels, floorOf, inflate, openingOf, words } from "./data.js";
 import { Overlay } from "./overlay.js";
 import {
   CameraPanel, CandidatesPanel, GoalsHead, LogPanel, StatusPanel, VerificationPanel, byId, make,
@@ -366,8 +366,9 @@ function applyHash(app) {
   byId("spread").dispatchEvent(new Event("input"));
   if (wanted.has("spread")) app.showWhole();
   if (wanted.has("top")) app.lookFromTop();
-  const step = Number(wanted.get("step") ?? 0);
-  app.seek(app.replay.steps.findIndex((s) => s.step >= step));
+  const step = wanted.get("step"), opening = openingOf(app.replay);
+  app.seek(step === null ? opening.index : app.replay.steps.findIndex((s) => s.step >= Number(step)));
+  if (step === null && opening.text) showNotice(opening.text);
 }
 
 async function start() {

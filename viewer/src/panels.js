@@ -117,6 +117,7 @@ export class StatusPanel {
     const facts = [
       ["Goal", words(step.goal)],
       ["Action", words(step.action)],
+      ...(step.activity ? [["Activity", words(step.activity)]] : []),
       ["Floor", `${floor} (${figure(step.level_m, 2)} m)`],
       ["Position", step.agent.p_world.map((v) => figure(v, 2)).join(", ")],
       ["Heading", `${degrees(step.agent.yaw_rad)}, pitch ${degrees(step.agent.pitch_rad)}`],

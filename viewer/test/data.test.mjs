@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { OrbitCamera, projectPoint } from "../src/camera.js";
-import { floorLevels, floorOf, forEachRunVoxel, logLines, segments } from "../src/data.js";
+import { floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
 
 // The same bytes as in tests/trace/voxel_codec_test.cpp.
@@ -117,6 +117,22 @@ test("segments and log follow the steps", () => {
   assert.deepEqual(logLines(replay).map((line) => [line.index, line.kind, line.text]), [
     [0, "mode", "a!"], [0, "event", "goal activated: bed"], [1, "success", "bed: success"],
     [2, "mode", "b!"], [2, "event", "hit"]]);
+});
+
+test("the page opens where a goal failed, at the start where none did", () => {
+  const bed = { goal_index: 1, goal: "bed", outcome: "out_of_time", success: false };
+  const step = (goal_index, events = [], action = "move_forward") => ({ goal_index, events, action });
+  const steps = [step(0, ["go_to: no progress"]), step(0), step(1, ["climb: unreachable"]),
+    step(1, ["bump", "go_to: no progress"]), step(1, ["go_to: did not open"]), step(1)];
+  const open = (list, ...stages) =>
+    openingOf({ steps: list.map((s, i) => ({ ...s, step: i })), stages });
+  const start = { index: 0, text: "" };
+  assert.deepEqual(open(steps, { goal_index: 0, success: true }), start);
+  assert.deepEqual(open(steps.slice(0, 2), bed), start);  // cut off before it
+  assert.deepEqual(open(steps, { goal_index: 0, success: true }, bed),
+    { index: 3, text: "Goal 2, bed: out of time. Opened at step 3, go to: no progress." });
+  assert.match(open([step(1), step(1)], bed).text, /Opened at step 1, its last step/);
+  assert.equal(open([...steps, step(1, [], "stop")], bed).index, 6);
 });
 
 test("the camera holds the box that it frames and puts its middle in the middle", () => {

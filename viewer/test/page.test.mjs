@@ -80,7 +80,7 @@ test("the page draws the map and asks nobody", { skip }, async () => {
 });
 
 test("keys, buttons and the time line move through the steps", { skip }, async () => {
-  const { page, trouble } = await show("sample.html");
+  const { page, trouble } = await show("sample.html", "#step=0");
   await press(page, "ArrowRight", 1);
   await press(page, "Shift+ArrowRight", 11);
   await press(page, "ArrowLeft", 10);
@@ -98,6 +98,16 @@ test("keys, buttons and the time line move through the steps", { skip }, async (
   const box = await page.locator("#timeline").boundingBox();
   await page.mouse.click(box.x + 2, box.y + 20);
   assert.match(await page.textContent("#counter"), /^step 0 /);
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("a replay with a goal that failed opens there and names it", { skip }, async () => {
+  const { page, trouble } = await show("sample.html");
+  assert.match(await page.textContent("#counter"), /^step (\d+) of \1$/);  // a wrong stop: the last step
+  assert.match(await page.textContent("#notice"), /Goal 3, plant: .*its last step/);
+  assert.match(await page.textContent("#facts"), /Activityapproach/);
+  await keep(page, "failed");
   assert.deepEqual(trouble, []);
   await page.close();
 });

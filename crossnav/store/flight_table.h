@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The table of walked flights in a map file; absent where none was saved, as in files of before.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "crossnav/core/result.h"
+#include "crossnav/geometry/stair_flight.h"
+#include "crossnav/store/sqlite_file.h"
+
+namespace crossnav::store {
+
+/// Replaces what the file holds. Inside a transaction.
+Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>& flights);
+
+/// Empty where there is no table. A record that is damaged is left out and named in `damaged`.
+Result<std::vector<geometry::StairFlight>> ReadFlights(Database& db,
+                                                       std::vector<std::string>& damaged);
+
+}  // namespace crossnav::store

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Maps and memories as Python holds them: its own, which it may write, or an agent's, which it may
+// only read. Copies, not moves, go to agents, so that no Python object is left empty.
+#pragma once
+
+#include <nanobind/stl/unique_ptr.h>
+#include <memory>
+
+#include "common.h"
+#include "crossnav/geometry/voxel_map.h"
+#include "crossnav/memory/history_poi.h"
+#include "crossnav/memory/semantic_memory.h"
+
+namespace crossnav::python {
+
+struct MapHandle {
+  explicit MapHandle(std::unique_ptr<geometry::VoxelMap> own) : owned(std::move(own)) {
+    map = owned.get();
+  }
+  explicit MapHandle(const geometry::VoxelMap& of_agent) : map(&of_agent) {}
+
+  /// Raises where the map is an agent's.
+  geometry::VoxelMap& Writable();
+
+  const geometry::VoxelMap* map;
+  std::unique_ptr<geometry::VoxelMap> owned;
+  // The last frame, so that features can be lifted to where it ended.
+  const geometry::EndVoxels* ends = nullptr;
+  DepthImage depth_m;
+  CameraIntrinsics camera;
+  Pose T_world_camera = Pose::Identity();
+  std::atomic<bool> in_use{false};
+};
+
+struct MemoryHandle {
+  MemoryHandle(std::unique_ptr<memory::SemanticMemory> own, memory::QueryConfig config)
+      : owned(std::move(own)), query(std::move(config)) {
+    memory = owned.get();
+  }
+  MemoryHandle(const memory::SemanticMemory& of_agent, memory::QueryConfig config)
+      : memory(&of_agent), query(std::move(config)) {}
+
+  const memory::SemanticMemory* memory;
+  std::unique_ptr<memory::SemanticMemory> owned;
+  memory::QueryConfig query;
+  std::atomic<bool> in_use{false};
+};
+
+/// Raises where the vector is of another length than the memory's rows or has no direction.
+void CheckText(const memory::SemanticMemory& memory, std::span<const float> text);
+
+geometry::VoxelMap CopyOf(const geometry::VoxelMap& map);
+memory::SemanticMemory CopyOf(const memory::SemanticMemory& memory);
+
+}  // namespace crossnav::python

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The extension module crossnav._core. Users import `crossnav`, which passes its names on.
+#include "common.h"
+
+namespace crossnav::python {
+namespace {
+
+const char* NameOf(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kNotFound:
+      return "not_found";
+    case ErrorCode::kMalformed:
+      return "malformed";
+    case ErrorCode::kUnsupported:
+      return "unsupported";
+    case ErrorCode::kInvalid:
+      return "invalid";
+    case ErrorCode::kMismatch:
+      return "mismatch";
+    case ErrorCode::kIo:
+      return "io";
+  }
+  return "invalid";
+}
+
+/// Failure -> crossnav.Error, whose text is what the program would print.
+void Translate(const std::exception_ptr& thrown, void*) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const Failure& failure) {
+    const Error& error = failure.error;
+    const nb::object type = nb::module_::import_("crossnav._errors").attr("Error");
+    const nb::object raised = type(error.what, error.where, NameOf(error.code));
+    PyErr_SetObject(type.ptr(), raised.ptr());
+  }
+}
+
+}  // namespace
+}  // namespace crossnav::python
+
+NB_MODULE(_core, m) {
+  using namespace crossnav::python;  // NOLINT: the macro's scope is ours
+  m.doc() = "crossnav's C++ library; import crossnav instead";
+  m.attr("VERSION") = CROSSNAV_VERSION;
+  nb::set_leak_warnings(false);  // objects that users keep to the end are no fault
+  nb::register_exception_translator(Translate);
+  BindCore(m);
+  BindGeometry(m);
+  BindMemory(m);
+  BindPerception(m);
+  BindSimulator(m);
+  BindStore(m);
+  BindAgent(m);
+  BindBench(m);
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The four interfaces as Python writes them, and the suite that hands Python's objects to an agent.
+#pragma once
+
+#include "common.h"
+#include "crossnav/perception/perception.h"
+
+namespace crossnav::python {
+
+/// Python's own objects; an agent keeps them alive.
+struct PerceptionHandle {
+  nb::object detector, segmenter, stairs, encoder;
+
+  /// Forwards to the four objects, which must outlive it.
+  perception::PerceptionSuite Suite() const;
+};
+
+}  // namespace crossnav::python

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// A scene with its settings; simulators and episodes share it.
+#pragma once
+
+#include <memory>
+
+#include "common.h"
+#include "crossnav/bench/scene_context.h"
+
+namespace crossnav::python {
+
+struct SceneHandle {
+  std::string id;  ///< "<folder>/<file>.glb", as in episode files
+  bench::RunConfig config;
+  std::shared_ptr<const bench::SceneContext> context;
+  std::shared_ptr<std::atomic<bool>> in_use = std::make_shared<std::atomic<bool>>(false);
+};
+
+}  // namespace crossnav::python

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds the Python wheel out of the rooms that a CMake build folder already has.
+#   scripts/build_wheel.sh [BUILD_DIR]      default: build/release; its target `rooms` must be built
+# Leaves a fresh virtual environment with the pinned tools in build/python-venv and the wheel in
+# build/wheel. Exit status 77: pip reaches no package registry. PYTHON chooses the interpreter.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+prebuilt=$(cd "${1:-$root/build/release}" && pwd)
+venv="$root/build/python-venv"
+log="$root/build/python-pip.log"
+
+unreachable='NewConnectionError|ConnectTimeout|ReadTimeout|ProxyError|NameResolutionError'
+unreachable+='|Max retries exceeded|Temporary failure in name|\(from versions: none\)'
+
+rm -rf "$venv" "$root/build/wheel"
+if ! "${PYTHON:-python3}" -m venv "$venv"; then
+  echo "build_wheel: no virtual environment; scripts/setup.sh installs python3-venv" >&2
+  exit 1
+fi
+pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
+
+if ! pip install -q --no-input -r "$root/python/requirements.txt" >"$log" 2>&1; then
+  tail -n 5 "$log" >&2
+  if grep -qE "$unreachable" "$log"; then
+    echo "build_wheel: skipped, as pip reaches no package registry"
+    exit 77
+  fi
+  exit 1
+fi
+
+export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
+pip wheel -q "$root" --no-build-isolation --no-deps --wheel-dir "$root/build/wheel" \
+  -C build-dir="$root/build/python" -C cmake.define.CROSSNAV_PREBUILT="$prebuilt"
+ls -l "$root"/build/wheel/*.whl

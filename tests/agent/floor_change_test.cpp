@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Floors change in small built worlds, with and without a stair mask: geometry leads.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "agent/storeys.h"
+
+namespace crossnav::agent {
+namespace {
+
+using testing::BoxOf;
+using testing::BoxWalker;
+using testing::FakeSight;
+using testing::FakeSuite;
+using testing::RunAgent;
+using testing::SmallConfig;
+using testing::Walk;
+
+/// Finds `couch` in the walker's house, without any stair mask, within `limit` steps.
+void ExpectFound(BoxWalker walker, const Box3& couch, int limit) {
+  const double start_m = walker.pose.p_world.z();
+  walker.rooms.solids.push_back(couch);
+  FakeSight sight;
+  test::SeeBox(couch, "couch", &sight);
+  Agent agent(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  const Walk walk = RunAgent(agent, walker, limit);
+  EXPECT_EQ(walk.last_action, Action::kStop)
+      << "after " << walk.traces.size() << " steps at " << walker.pose.p_world.transpose();
+  EXPECT_LE(couch.HorizontalDistance(walker.pose.p_world), 1.3);
+  if (std::abs(start_m - walker.pose.p_world.z()) < 2) return;
+  ASSERT_EQ(agent.flights().size(), 1u);  // the flight is an object by now
+  EXPECT_NEAR(agent.flights()[0].p_foot_world.z(), 0, 0.25);
+  EXPECT_NEAR(agent.flights()[0].p_top_world.z(), 2.8, 0.25);
+}
+
+TEST(FloorChange, AFlightIsClimbedWithoutAnyStairMask) {
+  ExpectFound(testing::TwoStoreys(), testing::kUpperCouch, 400);
+}
+
+TEST(FloorChange, AFlightIsDescendedWithoutAnyStairMask) {
+  BoxWalker walker = testing::TwoStoreys();
+  walker.pose.p_world = Vector3d(6.5, 3.0, 2.8);
+  ExpectFound(walker, testing::kLowerCouch, 400);
+}
+
+TEST(FloorChange, OpenRisersAreClimbed) {
+  ExpectFound(testing::OpenRisers(), testing::kUpperCouch, 400);
+}
+
+TEST(FloorChange, ASplitLevelOfTwoRisersIsTheSameFloor) {
+  ExpectFound(testing::SplitLevel(), BoxOf(7.6, 2.6, 0, 8.5, 3.5, 0.7), 300);
+}
+
+TEST(FloorChange, TheEdgeOfAGalleryIsNoWayDown) {
+  // The flight is walled off at its top: nothing leads down, and the agent says so.
+  BoxWalker walker = testing::TwoStoreys();
+  walker.rooms.solids.push_back(BoxOf(4.1, 0, 0, 4.2, 1.1, 5.4));
+  walker.rooms.solids.push_back(BoxOf(4.1, 1.1, 2.8, 4.2, 1.2, 5.4));
+  walker.pose.p_world = Vector3d(6.5, 3.0, 2.8);
+  Agent agent(SmallConfig(), FakeSuite({}));
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());
+  const Walk walk = RunAgent(agent, walker, 900);
+  EXPECT_TRUE(walk.all_explored) << "after " << walk.traces.size() << " steps";
+  EXPECT_NEAR(walker.pose.p_world.z(), 2.8, 1e-6);
+}
+
+// The links of floors are in the map: a restored one is walked at once.
+TEST(FloorChange, ARestoredMemoryKnowsTheWayToTheOtherFloor) {
+  BoxWalker walker = testing::TwoStoreys();
+  walker.rooms.solids.push_back(testing::kUpperCouch);
+  FakeSight sight;
+  test::SeeBox(testing::kUpperCouch, "couch", &sight);
+  sight.text = [](std::string_view) { return std::vector<float>{1, 0, 0, 0}; };
+  sight.features = [](const Observation& obs) {
+    perception::FeatureGrid grid{8, 8, 4, {}};
+    for (int i = 0; i < 64; ++i) {
+      const int u = (i % 8) * obs.rgb.width / 8, v = (i / 8) * obs.rgb.height / 8;
+      const Vector3d p =
+          obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+      const bool is_couch = testing::kUpperCouch.HorizontalDistance(p) < 0.05 && p.z() > 2.85;
+      const std::vector<float> cell =
+          is_couch ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0.8F, 0.6F, 0};
+      grid.data.insert(grid.data.end(), cell.begin(), cell.end());
+    }
+    return grid;
+  };
+  Agent first(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(first.SetGoal("couch").has_value());
+  const AgentPose start = walker.pose;
+  const Walk search = RunAgent(first, walker, 400);
+  ASSERT_EQ(search.last_action, Action::kStop);
+
+  geometry::VoxelMap map = std::move(*geometry::ImportBlocks(ExportBlocks(first.map()), {}));
+  map.UpdateStates();
+  memory::SemanticMemory memory(first.config().fusion, first.config().map.voxel_m);
+  for (std::int64_t row = 0; row < first.memory().Size(); ++row)
+    memory.AppendRow(first.memory().RowAt(row));
+  Agent second(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(second.Restore(std::move(map), std::move(memory)).has_value());
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  walker.pose = start;
+  const Walk again = RunAgent(second, walker, 400);
+  EXPECT_EQ(again.last_action, Action::kStop);
+  EXPECT_LT(again.traces.size(), search.traces.size());
+}
+
+}  // namespace
+}  // namespace crossnav::agent
