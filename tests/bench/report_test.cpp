@@ -89,7 +89,7 @@ TEST(Report, CountsTheCausesOfFailedStages) {
     stage.outcome = Outcome::kOutOfTime;
     stage.extra.cause = StageCause{{{"go_to", 9}}, "go_to", true, "", {}, 0.5};
   }
-  const std::string text = ReportMarkdown(runs, {}, {50, 1});
+  const std::string text = ReportMarkdown(runs, {});
   EXPECT_NE(text.find("### Causes of failure"), std::string::npos);
   EXPECT_NE(text.find("| go_to under way | 5 | 0 | 0 | 0 | 0 | 5 | 50 |"), std::string::npos)
       << text;
