@@ -185,8 +185,7 @@ std::string RunSection(const ReportRun& run) {
          "\n### Floor requirement\n\n" + GroupTable(GroupByCrossFloor(run.episodes)) +
          "\n### Scenes\n\n" + GroupTable(GroupByScene(run.episodes)) + "\n### Categories\n\n" +
          CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run) +
-         FailedEpisodes(run) +
-         "\n### Causes of failure\n\n" + CauseTableText(run);
+         FailedEpisodes(run) + "\n### Causes of failure\n\n" + CauseTableText(run);
 }
 
 }  // namespace
