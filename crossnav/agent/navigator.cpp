@@ -63,10 +63,9 @@ std::optional<Action> LookAt(Situation& now, const Vector3d& p_world, int max_lo
 
 // --- Choosing ----------------------------------------------------------------------------------
 
-ActivityKind KindFor(const Situation& now, const policy::Candidate& candidate) {
-  const bool is_elsewhere =
-      !IsOnLevel(now, CenterOf(candidate.standing.front(), now.config.map.voxel_m));
-  return is_elsewhere ? ActivityKind::kClimb : ActivityKind::kGoTo;
+ActivityKind KindFor(const Situation& now, const VoxelKey& destination) {
+  const bool is_local = IsOnLevel(now, CenterOf(destination, now.config.map.voxel_m));
+  return is_local ? ActivityKind::kGoTo : ActivityKind::kClimb;
 }
 
 bool IsExploring(const Activity& activity) {
@@ -90,8 +89,7 @@ void Explore(Situation& now, const VoxelKey& start, Decision& decision) {
     if (IsExploring(activity)) End(now, Ending::kUnreachable);
     return;
   }
-  target->candidate.standing.front() = target->path.back();
-  const ActivityKind kind = KindFor(now, target->candidate);
+  const ActivityKind kind = KindFor(now, target->path.back());
   Begin(now, kind, std::move(*target));
 }
 
@@ -287,7 +285,8 @@ void ChooseActivity(Situation& now, Decision& decision) {
 
 policy::ModeDecision ModeOf(const Situation& now) {
   const Activity& activity = now.goal.activity;
-  const bool is_on_flight = std::abs(now.agent.p_world.z() - now.world.level_m) >= kSameLevel_m;
+  const bool is_on_flight = std::abs(now.agent.p_world.z() - now.world.level_m) >=
+                            now.config.policy.frontier.level_band_m;
   switch (activity.kind) {
     case ActivityKind::kApproach:
       if (RemainingOf(now, activity.path) <= kNear_m)

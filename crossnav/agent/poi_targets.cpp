@@ -86,7 +86,6 @@ std::optional<GroundTarget> NearestTo(const Situation& now, const VoxelKey& star
 
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& start) {
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
-    if (IsBlacklisted(now.goal.blacklist, poi->p_center_world)) continue;
     const bool is_active = poi->id == now.goal.active_live;
     auto target =
         NearestView(now, start, poi->voxels, now.config.policy.approach.range_m - kSlack_m,
@@ -117,7 +116,10 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
               now.world.confirmed_similarity - now.config.policy.poi.similarity_slack &&
           now.goal.last_resorts == 0)
         continue;
-      if (IsBlacklisted(now.goal.blacklist, poi.p_center_world)) continue;
+      // Asked again, the memory offers the same places: those that were visited are settled.
+      if (IsSpent(now.goal.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
+                  now.config.policy.poi.blacklist_xy_m, now.config.policy.explore.max_choices))
+        continue;
       for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
         auto target = NearestView(now, start, poi.voxels, range_m, {});
         if (!target) continue;

@@ -19,7 +19,6 @@ namespace {
 constexpr double kStray_m = 0.6;     // chosen: two steps off the way, and it is planned anew
 constexpr double kProgress_m = 0.1;  // chosen: one voxel
 constexpr int kMaxReplans = 5;       // chosen: longer ways that what was seen may explain
-constexpr int kLandingFrames = 3;
 
 }  // namespace
 
@@ -65,7 +64,7 @@ void NoteLevel(Situation& now) {
     return;
   }
   auto& way = world.way_off_level_world;
-  if (std::abs(z_m - world.level_m) < kSameLevel_m) {
+  if (std::abs(z_m - world.level_m) < now.config.policy.frontier.level_band_m) {
     world.flat_frames = 1;
     way.assign(1, now.agent.p_world);
     return;
@@ -74,7 +73,7 @@ void NoteLevel(Situation& now) {
     way.push_back(now.agent.p_world);
   const bool is_flat = policy::IsFlatAround(world.map, now.agent.p_world);
   world.flat_frames = is_flat ? world.flat_frames + 1 : 0;
-  if (world.flat_frames < kLandingFrames) return;
+  if (world.flat_frames < now.config.policy.stair.landing_frames) return;
   world.last_direction = z_m > world.level_m ? 1 : -1;
   now.goal.events.push_back(world.last_direction > 0 ? "new level above" : "new level below");
   if (way.size() > 1) {

@@ -10,8 +10,6 @@
 
 namespace crossnav::agent {
 
-constexpr double kSameLevel_m = 0.35;  // chosen: less is a step
-
 /// A forward step that met something teaches where that is.
 void NoteBump(Situation& now);
 

@@ -105,6 +105,8 @@ struct GoalState {
   int active_live = -1;     ///< id of the POI being approached, -1 = none
   std::vector<Vector3d> tried_viewpoints;
   int failed_views = 0;
+
+  // policy.profile = paper
   std::vector<policy::BlacklistedPlace> blacklist;           ///< POIs
   std::vector<policy::BlacklistedPlace> frontier_blacklist;  ///< frontiers that did not open up
   std::vector<policy::BlacklistedPlace> set_aside;           ///< rejected stair entrances

@@ -84,7 +84,6 @@ std::optional<VoxelKey> GroundSearch::Next() {
     if (node.is_closed) continue;
     node.is_closed = true;
     last_cost_ = open.cost;
-    ++visited_;
     Expand(open.node);
     return open.key;
   }
@@ -127,7 +126,7 @@ void GroundSearch::Relax(std::int32_t from_index, const VoxelKey& to, double fac
   if (room == Clearance::kPinch && !is_leaving) return;
   const double cost =
       from.cost + factor * GroundEdgeCost(from.key, to, room, ground_.climb(), config_);
-  if (cost >= node.cost - 1e-12 || cost > rules_.max_cost) return;
+  if (cost >= node.cost - 1e-12) return;
   node.cost = cost;
   node.parent = from_index;
   queue_.push_back({cost, to, index});

@@ -17,7 +17,6 @@ namespace crossnav::planner {
 
 struct GroundRules {
   std::optional<LevelBand> level;  ///< supports that may be walked on; empty = every floor
-  double max_cost = 1e18;          ///< places beyond are not visited
 };
 
 class GroundSearch {
@@ -37,7 +36,6 @@ class GroundSearch {
   std::vector<VoxelKey> PathTo(const VoxelKey& key) const;
   /// Cost of a visited place, or nullopt.
   std::optional<double> CostOf(const VoxelKey& key) const;
-  std::size_t visited() const { return visited_; }
 
  private:
   struct Node {
@@ -70,7 +68,6 @@ class GroundSearch {
   std::vector<std::int32_t> table_;  // open addressing, -1 = empty
   std::vector<Open> queue_;          // heap
   double last_cost_ = 0;
-  std::size_t visited_ = 0;
 };
 
 /// Cost of the edge between neighbouring places, by the room at the place that is entered.

@@ -82,7 +82,6 @@ struct ExploreConfig {
   int progress_steps = 24;       // chosen: a turn around, twice
   int max_choices = 6;           // chosen: a target chosen so often and never reached is given up
   double same_place_m = 0.5;     // chosen: half the width of a door
-  int approach_steps = 150;      // chosen: through the largest house, and looks
   double storey_m = 1.8;         // chosen: more than a landing, less than a floor
 };
 
@@ -172,7 +171,6 @@ void Visit(V& visit, ExploreConfig& c) {
   visit("progress_steps", c.progress_steps, 1, 100000);
   visit("max_choices", c.max_choices, 1, 100000);
   visit("same_place_m", c.same_place_m, 0.0, 100.0);
-  visit("approach_steps", c.approach_steps, 1, 100000);
   visit("storey_m", c.storey_m, 0.1, 100.0);
 }
 template <class V>

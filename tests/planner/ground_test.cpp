@@ -9,6 +9,7 @@
 
 #include "crossnav/core/rng.h"
 #include "support/flight_world.h"
+#include "support/ground_of.h"
 #include "support/map_of_states.h"
 
 namespace crossnav::planner {
@@ -17,13 +18,8 @@ namespace {
 using geometry::VoxelMap;
 using geometry::VoxelState;
 using test::AddGround;
+using test::GroundOf;
 using test::SetState;
-
-GroundMap GroundOf(const VoxelMap& map) {
-  GroundMap ground(map.config());
-  ground.Rebuild(map);
-  return ground;
-}
 
 /// Whatever `Next` gives, in order.
 std::map<VoxelKey, double> CostsFrom(const GroundMap& ground, const VoxelKey& start) {

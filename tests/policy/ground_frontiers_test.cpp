@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/ground_of.h"
 #include "support/map_of_states.h"
 
 namespace crossnav::policy {
@@ -10,13 +11,8 @@ namespace {
 
 using geometry::VoxelState;
 using test::AddGround;
+using test::GroundOf;
 using test::SetState;
-
-planner::GroundMap GroundOf(const VoxelMap& map) {
-  planner::GroundMap ground(map.config());
-  ground.Rebuild(map);
-  return ground;
-}
 
 /// A room of 20 x 20 voxels whose walls leave a door of `door` columns at x = 20.
 VoxelMap RoomWithDoor(int door) {

@@ -8,6 +8,7 @@
 
 #include "crossnav/core/rng.h"
 #include "crossnav/planner/ground_search.h"
+#include "support/ground_of.h"
 #include "support/map_of_states.h"
 
 namespace crossnav::policy {
@@ -17,13 +18,8 @@ using geometry::VoxelKey;
 using geometry::VoxelMap;
 using geometry::VoxelState;
 using test::AddGround;
+using test::GroundOf;
 using test::SetState;
-
-planner::GroundMap GroundOf(const VoxelMap& map) {
-  planner::GroundMap ground(map.config());
-  ground.Rebuild(map);
-  return ground;
-}
 
 std::vector<VoxelKey> PathOver(const planner::GroundMap& ground, const VoxelKey& from,
                                const VoxelKey& to) {

@@ -17,6 +17,8 @@ export const KINDS = {
   descend_frontier: { label: "descent", mark: "D", colour: "#c2410c" },
   ascent_frontier: { label: "ascent", mark: "A", colour: "#b7791f" },
   stair_frontier: { label: "stair frontier", mark: "S", colour: "#0b7285" },
+  sighting: { label: "weak sighting", mark: "W", colour: "#e8590c" },
+  uninspected: { label: "not inspected", mark: "U", colour: "#5f3dc4" },
 };
 const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";
