@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "crossnav/policy/flights.h"
 #include "crossnav/policy/ground_frontiers.h"
 #include "crossnav/policy/stair_geometry.h"
 
@@ -17,6 +18,7 @@ using policy::CandidateKind;
 
 namespace {
 
+constexpr std::size_t kHeading = 5;    // chosen: places of a way that give its direction
 constexpr double kSplitLevel_m = 1.0;  // chosen: flat ground this near in height is the same floor
 
 /// The classes of one sweep and the best target so far.
@@ -33,25 +35,24 @@ class Sweep {
     while (const auto key = search_.Next()) {
       const double cost_m = search_.cost() * voxel_m_;
       if (best_ && cost_m - config_.commit_m >= best_->score_m) break;
-      Visit(*key, cost_m);
+      Visit(*key);
     }
-    if (best_) best_->path = search_.PathTo(best_key_);
     return std::move(best_);
   }
 
  private:
-  void Visit(const VoxelKey& key, double cost_m) {
+  void Visit(const VoxelKey& key) {
     VoxelKey beyond;
     if (policy::IsGroundFrontier(now_.world.ground, key, &beyond)) {
-      if (!clustered_.contains(key)) OfferFrontier(key, beyond, cost_m);
+      if (!clustered_.contains(key)) OfferFrontier(key, beyond);
     } else if (!now_.world.coverage.IsInspected(key)) {
-      OfferUninspected(key, cost_m);
+      OfferUninspected(key);
     }
-    for (const policy::LivePoi& hint : now_.goal.hints.all()) OfferSighting(key, hint, cost_m);
+    for (const policy::LivePoi& hint : now_.goal.hints.all()) OfferSighting(key, hint);
   }
 
   /// A frontier is about its nearest member that was not looked at in vain.
-  void OfferFrontier(const VoxelKey& key, const VoxelKey& beyond, double cost_m) {
+  void OfferFrontier(const VoxelKey& key, const VoxelKey& beyond) {
     Candidate nearest;
     nearest.kind = CandidateKind::kTraversableFrontier;
     nearest.p_focus_world = CenterOf(beyond, voxel_m_);
@@ -59,15 +60,36 @@ class Sweep {
     Candidate candidate = policy::GroundFrontierAround(now_.world.ground, key, &clustered_);
     candidate.p_focus_world = nearest.p_focus_world;
     const bool is_local = IsOnLevel(now_, CenterOf(key, voxel_m_));
-    const bool is_crumb = candidate.size < config_.min_cluster ||
-                          policy::UnseenBehind(now_.world.ground, beyond, config_.pocket_columns) <
-                              config_.pocket_columns;
     candidate.kind = is_local ? CandidateKind::kTraversableFrontier : CandidateKind::kStairFrontier;
-    Offer(std::move(candidate), key, cost_m,
-          (is_local ? 0 : config_.elsewhere_m) + (is_crumb ? config_.crumb_m : 0));
+    const double level_m = is_local ? 0 : config_.elsewhere_m;
+    if (LeadsToStorey(key)) {
+      Offer(std::move(candidate), key, level_m);
+      return;
+    }
+    const bool is_crumb = candidate.size < config_.min_cluster;
+    Offer(std::move(candidate), key, level_m + (is_crumb ? config_.crumb_m : 0), ShareOfRoom(key));
   }
 
-  void OfferUninspected(const VoxelKey& key, double cost_m) {
+  /// What lies open beyond a frontier, of a room.
+  double ShareOfRoom(const VoxelKey& key) const {
+    const double unseen_m2 = policy::UnseenBeyond(now_.world.ground, key, config_.view_range_m);
+    return std::clamp(unseen_m2 / config_.room_m2, config_.least_share, 1.0);
+  }
+
+  /// On a flight that was not walked yet, the next tread stands for a storey: stair evidence names
+  /// flights, and nothing else is that far from every level.
+  bool LeadsToStorey(const VoxelKey& key) const {
+    const Vector3d p_world = CenterOf(key, voxel_m_);
+    for (const geometry::StairFlight& flight : now_.world.flights)
+      if (policy::IsBeside(flight, p_world)) return false;
+    if (policy::EvidenceShare({p_world}, now_.world.stairs, voxel_m_) > 0) return true;
+    return std::all_of(now_.world.levels_m.begin(), now_.world.levels_m.end(), [&](double level_m) {
+      return std::abs(p_world.z() - level_m) >= config_.furniture_m;
+    });
+  }
+
+  void OfferUninspected(const VoxelKey& key) {
+    if (!uninspected_.insert({key.x >> 2, key.y >> 2, key.z >> 2}).second) return;
     int count = 0;
     for (int dx = -2; dx <= 2; ++dx)
       for (int dy = -2; dy <= 2; ++dy) {
@@ -82,11 +104,10 @@ class Sweep {
     candidate.size = count;
     if (IsSpentHere(candidate)) return;
     const bool is_local = IsOnLevel(now_, candidate.p_focus_world);
-    Offer(std::move(candidate), key, cost_m,
-          config_.uninspected_m + (is_local ? 0 : config_.elsewhere_m));
+    Offer(std::move(candidate), key, config_.uninspected_m + (is_local ? 0 : config_.elsewhere_m));
   }
 
-  void OfferSighting(const VoxelKey& key, const policy::LivePoi& hint, double cost_m) {
+  void OfferSighting(const VoxelKey& key, const policy::LivePoi& hint) {
     if (hint.is_discarded) return;
     const Vector3d d = hint.p_center_world - CenterOf(key, voxel_m_);
     if (std::hypot(d.x(), d.y()) > now_.config.policy.approach.range_m || d.z() < -0.5 ||
@@ -100,7 +121,7 @@ class Sweep {
     candidate.score = hint.confidence;
     candidate.size = static_cast<int>(hint.voxels.size());
     if (IsSpentHere(candidate)) return;
-    Offer(std::move(candidate), key, cost_m, config_.sighting_m);
+    Offer(std::move(candidate), key, config_.sighting_m);
   }
 
   bool IsSpentHere(const Candidate& candidate) const {
@@ -126,8 +147,21 @@ class Sweep {
     return ahead_m * there_m < 0 && std::abs(there_m) > 0.3 ? config_.turn_back_m : 0;
   }
 
-  void Offer(Candidate candidate, const VoxelKey& key, double cost_m, double class_m) {
-    double score_m = cost_m + class_m + TurningBack(candidate);
+  /// Turns before the first step of a way, as metres that could be walked instead.
+  double SettingOut(const std::vector<VoxelKey>& path) const {
+    if (path.size() < 2) return 0;
+    const VoxelKey ahead = path[std::min(kHeading, path.size() - 1)] - path.front();
+    const double off_rad = std::abs(WrapAngle(std::atan2(ahead.y, ahead.x) - now_.agent.yaw_rad));
+    return std::round(off_rad / DegToRad(now_.config.action.turn_deg)) *
+           now_.config.action.forward_m;
+  }
+
+  /// `share` of a room's unseen ground is worth that share of the way.
+  void Offer(Candidate candidate, const VoxelKey& key, double class_m, double share = 1) {
+    GroundTarget target;
+    target.path = search_.PathTo(key);
+    target.cost_m = search_.cost() * voxel_m_ + SettingOut(target.path);
+    target.score_m = (target.cost_m + config_.start_m) / share + class_m + TurningBack(candidate);
     const Activity& activity = now_.goal.activity;
     const bool is_moving =
         activity.kind == ActivityKind::kGoTo || activity.kind == ActivityKind::kClimb;
@@ -135,12 +169,11 @@ class Sweep {
     if (is_moving && activity.candidate.kind == candidate.kind &&
         (activity.candidate.p_focus_world - candidate.p_focus_world).norm() <
             2 * config_.same_place_m)
-      score_m = cost_m - config_.commit_m;
-    candidate.score = -score_m;
+      target.score_m -= config_.commit_m + class_m;
+    candidate.score = -target.score_m;
     shown_->push_back(candidate);
-    if (best_ && score_m >= best_->score_m) return;
-    best_ = GroundTarget{std::move(candidate), {}, cost_m, score_m};
-    best_key_ = key;
+    target.candidate = std::move(candidate);
+    if (!best_ || target.score_m < best_->score_m) best_ = std::move(target);
   }
 
   const Situation& now_;
@@ -149,8 +182,8 @@ class Sweep {
   GroundSearch search_;
   std::vector<Candidate>* shown_;
   std::set<VoxelKey> clustered_;
+  std::set<VoxelKey> uninspected_;  // coarse cells that were offered
   std::optional<GroundTarget> best_;
-  VoxelKey best_key_;
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ namespace {
 constexpr double kNear_m = 1.0;      // chosen: of the viewpoint: aim and verify
 constexpr double kArrived_m = 0.35;  // chosen: one forward step and a voxel
 constexpr int kLooksAtTarget = 6;    // chosen: half a turn, or less and a pitch
+constexpr int kChoices = 8;          // chosen: in one step, of which all but the last end at once
 constexpr int kWobbles = 3;          // chosen: one more than a live POI needs to be stable
 
 /// The next action along the way; nullopt at its end, or where no step helps.
@@ -129,7 +130,7 @@ std::optional<Action> ActOnExploration(Situation& now) {
   }
   const bool is_sighting = activity.candidate.kind == CandidateKind::kSighting;
   End(now, is_sighting ? Ending::kReached : Ending::kNotOpened);
-  return Action::kTurnLeft;
+  return std::nullopt;
 }
 
 std::optional<Action> ActOnVisit(Situation& now) {
@@ -149,7 +150,7 @@ std::optional<Action> ActOnVisit(Situation& now) {
   now.goal.events.push_back("history POI without success, similarity " +
                             std::to_string(poi.similarity) + " score " + std::to_string(poi.score));
   End(now, Ending::kReached);
-  return Action::kTurnLeft;
+  return std::nullopt;
 }
 
 std::optional<Action> ActOnApproach(Situation& now, const policy::Verification& verification) {
@@ -331,7 +332,13 @@ Decision Navigate(Situation& now) {
   NoteLevel(now);
   MeasureProgress(now);
   if (!Prove(now, decision)) {
-    ChooseActivity(now, decision);  // eq:supp_candidate_set, eq:supp_candidate_priority
+    bool is_at_loss = false;
+    for (int i = 0; i < kChoices && !decision.action && !is_at_loss; ++i) {
+      decision.shown.clear();
+      ChooseActivity(now, decision);  // eq:supp_candidate_set, eq:supp_candidate_priority
+      is_at_loss = now.goal.activity.kind == ActivityKind::kNone && now.goal.script.empty();
+      decision.action = Act(now, decision.verification);
+    }
     decision.mode = ModeOf(now);
     const Activity& activity = now.goal.activity;
     if (activity.kind != ActivityKind::kNone) {
@@ -345,8 +352,8 @@ Decision Navigate(Situation& now) {
       decision.path = activity.path;
       decision.path_cost = RemainingOf(now, activity.path) / now.config.map.voxel_m;
     }
-    decision.action = Act(now, decision.verification);
-    if (!decision.action && TryLastResort(now)) decision.action = Action::kTurnLeft;
+    if (!decision.action && (!is_at_loss || TryLastResort(now)))
+      decision.action = Action::kTurnLeft;
   }
   if (decision.action == Action::kMoveForward) now.world.before_forward = now.agent;
   decision.activity = now.goal.script.empty() ? NameOf(now.goal.activity.kind) : "look_around";

@@ -51,7 +51,7 @@ void QueueLookAround(Situation& now) {
   const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
   goal.script.insert(goal.script.end(), static_cast<std::size_t>(turns), Action::kTurnLeft);
   goal.p_looked_around_world = now.agent.p_world;
-  now.world.looked_around_m = now.agent.p_world.z();
+  now.world.looked_around_m.push_back(now.agent.p_world.z());
 }
 
 void NoteLevel(Situation& now) {
@@ -60,6 +60,7 @@ void NoteLevel(Situation& now) {
   if (!world.has_level) {
     world.has_level = true;
     world.level_m = z_m;
+    world.levels_m.push_back(z_m);
     QueueLookAround(now);
     return;
   }
@@ -84,8 +85,12 @@ void NoteLevel(Situation& now) {
   }
   way.assign(1, now.agent.p_world);
   world.level_m = z_m;
-  if (std::abs(z_m - world.looked_around_m) >= now.config.policy.explore.storey_m)
-    QueueLookAround(now);
+  world.levels_m.push_back(z_m);
+  const bool is_known =
+      std::any_of(world.looked_around_m.begin(), world.looked_around_m.end(), [&](double looked_m) {
+        return std::abs(z_m - looked_m) < now.config.policy.explore.storey_m;
+      });
+  if (!is_known) QueueLookAround(now);
 }
 
 void End(Situation& now, Ending ending) {

@@ -46,8 +46,9 @@ struct World {
   int step = 0;
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
   int flat_frames = 0;     ///< consecutive frames on flat ground off the exploration level
-  double confirmed_similarity = -1;  ///< lowest of an object that was found and its goal's text
-  double looked_around_m = -1e9;     ///< height of the last look around on arrival
+  double confirmed_similarity = -1;     ///< lowest of an object that was found and its goal's text
+  std::vector<double> levels_m;         ///< heights of the levels that were stood on
+  std::vector<double> looked_around_m;  ///< heights at which a look around was made
   std::optional<AgentPose> before_forward;  ///< pose before the last forward step
   policy::BumpMonitor bumps;                ///< policy.profile = paper
 

@@ -39,6 +39,12 @@ double EvidenceShare(const std::vector<Vector3d>& points_world, const StairEvide
              : static_cast<double>(seen) / static_cast<double>(points_world.size());
 }
 
+bool IsBeside(const geometry::StairFlight& flight, const Vector3d& p_world) {
+  return std::any_of(
+      flight.steps_world.begin(), flight.steps_world.end(),
+      [&](const Vector3d& p_step) { return (p_step - p_world).norm() <= kSameEnd_m; });
+}
+
 const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
                                       const StairEvidence& evidence, double voxel_m,
                                       std::vector<geometry::StairFlight>* flights) {

@@ -17,6 +17,9 @@ const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
                                       const StairEvidence& evidence, double voxel_m,
                                       std::vector<geometry::StairFlight>* flights);
 
+/// Whether `p_world` lies on the flight or within a metre of it.
+bool IsBeside(const geometry::StairFlight& flight, const Vector3d& p_world);
+
 /// Share of `points` with a voxel of stair evidence under or beside the foot [0, 1].
 double EvidenceShare(const std::vector<Vector3d>& points_world, const StairEvidence& evidence,
                      double voxel_m);

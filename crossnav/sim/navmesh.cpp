@@ -256,7 +256,12 @@ Vector3d NavMesh::WalkStraight(const Vector3d& start_world, const Vector3d& end_
     impl_->query->closestPointOnPoly(ref, reached.data(), closest.data(), &over);
     float height = 0;
     if (over && dtStatusSucceed(impl_->query->getPolyHeight(ref, reached.data(), &height))) {
-      reached[1] = height;
+      // Recast's detail mesh has slivers that reach up to the flight above.
+      const double rise_m =
+          std::max(impl_->settings.max_climb_m,
+                   share * wanted * std::tan(DegToRad(impl_->settings.max_slope_deg)));
+      const bool is_walkable = std::abs(height - start->p[1]) <= rise_m;
+      reached[1] = is_walkable ? height : start->p[1];
       return WorldFromRecast(reached.data());
     }
   }
