@@ -174,6 +174,9 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
   world.flights = std::move(flights);
+  for (const geometry::StairFlight& flight : world.flights)
+    for (const Vector3d& p_end : {flight.p_foot_world, flight.p_top_world})
+      world.levels_m.push_back(p_end.z());
   return {};
 }
 

@@ -67,13 +67,8 @@ class Sweep {
       return;
     }
     const bool is_crumb = candidate.size < config_.min_cluster;
-    Offer(std::move(candidate), key, level_m + (is_crumb ? config_.crumb_m : 0), ShareOfRoom(key));
-  }
-
-  /// What lies open beyond a frontier, of a room.
-  double ShareOfRoom(const VoxelKey& key) const {
-    const double unseen_m2 = policy::UnseenBeyond(now_.world.ground, key, config_.view_range_m);
-    return std::clamp(unseen_m2 / config_.room_m2, config_.least_share, 1.0);
+    Offer(std::move(candidate), key, level_m + (is_crumb ? config_.crumb_m : 0),
+          policy::FrontierWorth(now_.world.ground, key, now_.goal.resemblance, config_));
   }
 
   /// On a flight that was not walked yet, the next tread stands for a storey: stair evidence names
@@ -156,12 +151,11 @@ class Sweep {
            now_.config.action.forward_m;
   }
 
-  /// `share` of a room's unseen ground is worth that share of the way.
-  void Offer(Candidate candidate, const VoxelKey& key, double class_m, double share = 1) {
+  void Offer(Candidate candidate, const VoxelKey& key, double class_m, double worth = 1) {
     GroundTarget target;
     target.path = search_.PathTo(key);
     target.cost_m = search_.cost() * voxel_m_ + SettingOut(target.path);
-    target.score_m = (target.cost_m + config_.start_m) / share + class_m + TurningBack(candidate);
+    target.score_m = (target.cost_m + config_.start_m) / worth + class_m + TurningBack(candidate);
     const Activity& activity = now_.goal.activity;
     const bool is_moving =
         activity.kind == ActivityKind::kGoTo || activity.kind == ActivityKind::kClimb;
@@ -194,8 +188,16 @@ bool IsOnLevel(const Situation& now, const Vector3d& p_world) {
   return off_m <= kSplitLevel_m && policy::IsFlatAround(now.world.map, p_world);
 }
 
-std::optional<GroundTarget> ChooseExploration(const Situation& now, const VoxelKey& start,
+std::optional<GroundTarget> ChooseExploration(Situation& now, const VoxelKey& start,
                                               std::vector<Candidate>* shown) {
+  const auto& explore = now.config.policy.explore;
+  GoalState& goal = now.goal;
+  const bool is_stale = goal.resemblance_step < 0 ||
+                        now.world.step - goal.resemblance_step >= explore.resemblance_steps;
+  if (explore.scoring == "semantic" && is_stale) {
+    goal.resemblance.Refresh(now.world.memory, now.world.memory.Similarity(goal.text));
+    goal.resemblance_step = now.world.step;
+  }
   return Sweep(now, start, shown).Run();
 }
 

@@ -12,7 +12,7 @@
 namespace crossnav::agent {
 
 /// The best target; `shown` gets the candidates that were met before it was certain.
-std::optional<GroundTarget> ChooseExploration(const Situation& now, const geometry::VoxelKey& start,
+std::optional<GroundTarget> ChooseExploration(Situation& now, const geometry::VoxelKey& start,
                                               std::vector<policy::Candidate>* shown);
 
 /// Whether what made `candidate` a target still holds.

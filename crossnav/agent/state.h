@@ -17,6 +17,7 @@
 #include "crossnav/planner/ground_map.h"
 #include "crossnav/policy/candidates.h"
 #include "crossnav/policy/coverage.h"
+#include "crossnav/policy/frontier_worth.h"
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/policy/modes.h"
 #include "crossnav/policy/stair_evidence.h"
@@ -127,6 +128,8 @@ struct GoalState {
   policy::LivePois hints;         ///< sightings too weak for a live POI
   int last_resorts = 0;           ///< of the things to try when nothing is left, how many were used
   double inspect_range_m = 0;
+  policy::Resemblance resemblance;  ///< scoring = semantic
+  int resemblance_step = -1;        ///< in which it was refreshed last
 };
 
 }  // namespace crossnav::agent

@@ -3,18 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
-#include "crossnav/core/cells.h"
 #include "crossnav/policy/clusters.h"
 
 namespace crossnav::policy {
 namespace {
 
 constexpr std::array<std::array<int, 2>, 4> kSides = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-constexpr int kRays = 48;       // chosen: half a metre apart at the end
-constexpr int kBefore_vox = 4;  // chosen: of seen ground before the unseen begins
 
 }  // namespace
 
@@ -26,28 +22,6 @@ bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, Vox
     return true;
   }
   return false;
-}
-
-double UnseenBeyond(const planner::GroundMap& ground, const VoxelKey& place, double range_m) {
-  constexpr double kRay_rad = 2 * M_PI / kRays;
-  const int reach = CellsFloor(range_m, ground.voxel_m());
-  double unseen_vox2 = 0;
-  for (int ray = 0; ray < kRays; ++ray) {
-    const double cos = std::cos(ray * kRay_rad), sin = std::sin(ray * kRay_rad);
-    bool is_beyond = false;
-    for (int r = 1; r <= reach; ++r) {
-      int z = 0;
-      const planner::Side side = ground.SideOf(place, static_cast<int>(std::lround(r * cos)),
-                                               static_cast<int>(std::lround(r * sin)), &z);
-      if (side == planner::Side::kUnknown) {
-        is_beyond = true;
-        unseen_vox2 += r * kRay_rad;
-      } else if (is_beyond || side != planner::Side::kGround || r > kBefore_vox) {
-        break;
-      }
-    }
-  }
-  return unseen_vox2 * ground.voxel_m() * ground.voxel_m();
 }
 
 Candidate GroundFrontierAround(const planner::GroundMap& ground, const VoxelKey& seed,

@@ -20,9 +20,4 @@ bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, Vox
 Candidate GroundFrontierAround(const planner::GroundMap& ground, const VoxelKey& seed,
                                std::set<VoxelKey>* visited);
 
-/// Area of the unseen ground that lies open beside `place` [m2]: along straight lines of at most
-/// `range_m`, up to the first thing that was seen. What lies behind a chair is a pocket, what lies
-/// behind a door is a room.
-double UnseenBeyond(const planner::GroundMap& ground, const VoxelKey& place, double range_m);
-
 }  // namespace crossnav::policy

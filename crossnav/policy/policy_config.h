@@ -68,25 +68,27 @@ struct MotionConfig {
 /// policy.profile = full: what a candidate of a class must be nearer than one of the best class
 /// [m], and when the agent stops trying.
 struct ExploreConfig {
-  int min_cluster = 4;         // chosen: columns; less is no way through for the body
-  double elsewhere_m = 12;     // chosen: another level, the length of a flight and its approach
-  double crumb_m = 40;         // chosen: frontiers under min_cluster: last
-  double room_m2 = 8;          // chosen: unseen ground that makes a frontier worth its whole way
-  double least_share = 0.1;    // chosen: what hardly any unseen ground is worth of it
-  double start_m = 1;          // chosen: what setting out costs, however near
-  double sighting_m = 0;       // chosen: a weak detection is as good as a frontier
-  double uninspected_m = 10;   // chosen: ground seen from too far for the detector
-  double turn_back_m = 20;     // chosen: on a flight, what lies the other way
-  double commit_m = 2;         // chosen: what another target must be nearer than the chosen one
-  double inspect_range_m = 5;  // chosen: where a detector answers at all for a chair
-  double view_range_m = 4.0;   // chosen: unseen ground that far beyond a frontier counts
-  int min_uninspected = 8;     // chosen: columns of 25 around
-  int reconsider_steps = 6;    // chosen: the grace period of a commitment
-  int progress_steps = 24;     // chosen: a turn around, twice
-  int max_choices = 6;         // chosen: a target chosen so often and never reached is given up
-  double same_place_m = 0.5;   // chosen: half the width of a door
-  double furniture_m = 1.1;    // chosen: nothing that is climbed by mistake is higher
-  double storey_m = 1.8;       // chosen: more than a landing, less than a floor
+  std::string scoring = "area";  ///< nearest | area | semantic (docs/navigation.md, "Frontiers")
+  int min_cluster = 4;           // chosen: columns; less is no way through for the body
+  double elsewhere_m = 12;       // chosen: another level, the length of a flight and its approach
+  double crumb_m = 40;           // chosen: frontiers under min_cluster: last
+  double room_m2 = 8;            // chosen: unseen ground that makes a frontier worth its whole way
+  double least_share = 0.1;      // chosen: what hardly any unseen ground is worth of it
+  double start_m = 1;            // chosen: what setting out costs, however near
+  double sighting_m = 0;         // chosen: a weak detection is as good as a frontier
+  double uninspected_m = 10;     // chosen: ground seen from too far for the detector
+  double turn_back_m = 20;       // chosen: on a flight, what lies the other way
+  double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
+  double inspect_range_m = 5;    // chosen: where a detector answers at all for a chair
+  double view_range_m = 4.0;     // chosen: unseen ground that far beyond a frontier counts
+  int min_uninspected = 8;       // chosen: columns of 25 around
+  int resemblance_steps = 12;    // chosen: between two questions to the memory, scoring = semantic
+  int reconsider_steps = 6;      // chosen: the grace period of a commitment
+  int progress_steps = 24;       // chosen: a turn around, twice
+  int max_choices = 6;           // chosen: a target chosen so often and never reached is given up
+  double same_place_m = 0.5;     // chosen: half the width of a door
+  double furniture_m = 1.1;      // chosen: nothing that is climbed by mistake is higher
+  double storey_m = 1.8;         // chosen: more than a landing, less than a floor
 };
 
 struct PolicyConfig {
@@ -161,6 +163,7 @@ void Visit(V& visit, MotionConfig& c) {
 }
 template <class V>
 void Visit(V& visit, ExploreConfig& c) {
+  visit("scoring", c.scoring, {"nearest", "area", "semantic"});
   visit("min_cluster", c.min_cluster, 1, 100000);
   visit("elsewhere_m", c.elsewhere_m, 0.0, 100000.0);
   visit("crumb_m", c.crumb_m, 0.0, 100000.0);
@@ -174,6 +177,7 @@ void Visit(V& visit, ExploreConfig& c) {
   visit("inspect_range_m", c.inspect_range_m, 0.1, 100.0);
   visit("view_range_m", c.view_range_m, 0.0, 100.0);
   visit("min_uninspected", c.min_uninspected, 1, 25);
+  visit("resemblance_steps", c.resemblance_steps, 1, 100000);
   visit("reconsider_steps", c.reconsider_steps, 1, 100000);
   visit("progress_steps", c.progress_steps, 1, 100000);
   visit("max_choices", c.max_choices, 1, 100000);

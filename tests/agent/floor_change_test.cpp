@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Floors change in small built worlds, with and without a stair mask: geometry leads.
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +66,24 @@ TEST(FloorChange, TheEdgeOfAGalleryIsNoWayDown) {
   const Walk walk = RunAgent(agent, walker, 900);
   EXPECT_TRUE(walk.all_explored) << "after " << walk.traces.size() << " steps";
   EXPECT_NEAR(walker.pose.p_world.z(), 2.8, 1e-6);
+}
+
+// Every return to a level cost a look around of twelve actions.
+TEST(FloorChange, ALevelIsLookedAroundOnOnce) {
+  BoxWalker walker = testing::TwoStoreys();
+  walker.rooms.solids.push_back(testing::kUpperCouch);
+  FakeSight sight;
+  test::SeeBox(testing::kUpperCouch, "couch", &sight);
+  Agent agent(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(agent, walker, 400).last_action, Action::kStop);
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());  // there is none
+  int looks = 0;
+  for (const std::string& step : RunAgent(agent, walker, 600).traces) {
+    if (step.find("nothing left") != std::string::npos) break;
+    looks += step.find("look_around") != std::string::npos;
+  }
+  EXPECT_EQ(looks, 0);
 }
 
 // The links of floors are in the map: a restored one is walked at once.

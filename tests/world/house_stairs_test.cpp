@@ -3,10 +3,14 @@
 // a basement behind its door, and the few steps between floors of one storey.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "crossnav/sim/simulator.h"
 #include "crossnav/world/architecture.h"
+#include "crossnav/world/house_generator.h"
 #include "crossnav/world/house_plan.h"
 #include "oracle_walk.h"
+#include "support/temp_folder.h"
 
 namespace crossnav::world {
 namespace {
@@ -104,6 +108,35 @@ TEST_P(SplitLevel, IsWalkedUpAndDown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Risers, SplitLevel, testing::Range(3, 8));
+
+// Slivers of the navmesh's detail reach up to the flight above in this house: one forward step of
+// the robot led there.
+TEST(HouseStairs, AStepNeverEndsOnTheFlightAbove) {
+  const test::TempFolder dir;
+  HouseParams params;
+  params.seed = 18;
+  params.floors = 4;
+  const auto report = GenerateHouse(params, dir.path());
+  ASSERT_TRUE(report.has_value()) << report.error().Message();
+  const auto scene = sim::LoadScene(report->folder);
+  ASSERT_TRUE(scene.has_value());
+  const auto navmesh = sim::NavMesh::Build(*scene, {});
+  ASSERT_TRUE(navmesh.has_value());
+  Box3 box;
+  for (const auto& triangle : navmesh->Triangles())
+    for (const Vector3f& p : triangle.p_world) box.Add(p.cast<double>());
+  int steps = 0;
+  for (double x = box.min.x(); x <= box.max.x(); x += 0.1)
+    for (double y = box.min.y(); y <= box.max.y(); y += 0.1)
+      for (const double z : navmesh->HeightsAt(x, y, box.min.z() - 1, box.max.z() + 1))
+        for (int k = 0; k < 12; ++k) {
+          const Vector3d p(x, y, z), ahead(std::cos(k * M_PI / 6), std::sin(k * M_PI / 6), 0);
+          const Vector3d q = navmesh->WalkStraight(p, p + 0.25 * ahead);
+          ++steps;
+          ASSERT_LT(std::abs(q.z() - z), 1.0) << p.transpose() << " -> " << q.transpose();
+        }
+  EXPECT_GT(steps, 10000);
+}
 
 }  // namespace
 }  // namespace crossnav::world

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What a frontier is worth against the way to it (policy.explore.scoring): the unseen ground that
+// lies open beyond it, and how much what was seen around it resembles the goal. World frame,
+// metres.
+#pragma once
+
+#include <span>
+#include <unordered_map>
+
+#include "crossnav/memory/semantic_memory.h"
+#include "crossnav/planner/ground_map.h"
+#include "crossnav/policy/policy_config.h"
+
+namespace crossnav::policy {
+
+/// Area of the unseen ground that lies open beside `place` [m2]: along straight lines of at most
+/// `range_m`, up to the first thing that was seen. What lies behind a chair is a pocket, what lies
+/// behind a door is a room.
+double UnseenBeyond(const planner::GroundMap& ground, const geometry::VoxelKey& place,
+                    double range_m);
+
+/// How much the surroundings of a place resemble the goal: in coarse cells, the best answer of the
+/// memory's rows to the goal's text, between that of the median row (0) and that of the best (1).
+class Resemblance {
+ public:
+  /// `similarity`: cosine of every row of `memory` with the text.
+  void Refresh(const memory::SemanticMemory& memory, std::span<const float> similarity);
+  /// Mean over the cells that hold rows within about two metres and half a storey; 0 where none do.
+  double Around(const Vector3d& p_world) const;
+
+ private:
+  std::unordered_map<geometry::VoxelKey, float, geometry::VoxelKeyHash> best_;  // of a cell
+};
+
+/// Share of its way that a frontier is worth, in (0, 1]: 1 with `scoring = nearest`, of a room's
+/// unseen ground with `area`, besides up to twice as much for what resembles the goal with
+/// `semantic`.
+double FrontierWorth(const planner::GroundMap& ground, const geometry::VoxelKey& place,
+                     const Resemblance& resemblance, const ExploreConfig& config);
+
+}  // namespace crossnav::policy
