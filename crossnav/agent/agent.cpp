@@ -9,6 +9,7 @@
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
 #include "crossnav/agent/paper_policy.h"
+#include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/core/check.h"
 
@@ -196,8 +197,12 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
 
   // eq:intra_frame_fusion, eq:supp_feature_fusion.
   const auto& grid = percept->features;
-  world.memory.Fuse(end_voxels, obs.depth_m, obs.camera, obs.T_world_camera,
-                    {grid.rows, grid.cols, grid.dim, grid.data});
+  const double level_m = world.has_level ? world.level_m : agent.p_world.z();
+  const std::vector<geometry::PixelVoxel> planar =
+      config.policy.planar ? CollapsedOn(level_m, end_voxels, config.map.voxel_m)
+                           : std::vector<geometry::PixelVoxel>{};
+  world.memory.Fuse(config.policy.planar ? planar : end_voxels.pixels(), obs.depth_m, obs.camera,
+                    obs.T_world_camera, {grid.rows, grid.cols, grid.dim, grid.data});
   clock.Stop("fuse");
 
   // Evidence only; nothing is promoted outside a session (sec. "Stair-State Promotion").

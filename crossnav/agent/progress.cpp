@@ -80,6 +80,8 @@ void NoteLevel(Situation& now) {
   if (way.size() > 1) {
     const auto& flight =
         policy::NoteWalk(way, world.stairs, now.config.map.voxel_m, &world.flights);
+    world.map.MarkStair(policy::EvidenceOn(flight, world.stairs, now.config.map.voxel_m),
+                        geometry::StairMark::kStair);
     const int walks = flight.walked_up + flight.walked_down;
     now.goal.events.push_back(walks == 1 ? "a flight is known" : "a known flight was walked again");
   }

@@ -45,6 +45,14 @@ bool IsBeside(const geometry::StairFlight& flight, const Vector3d& p_world) {
       [&](const Vector3d& p_step) { return (p_step - p_world).norm() <= kSameEnd_m; });
 }
 
+std::vector<VoxelKey> EvidenceOn(const geometry::StairFlight& flight, const StairEvidence& evidence,
+                                 double voxel_m) {
+  std::vector<VoxelKey> keys;
+  for (const auto& [key, voxel] : evidence.voxels())
+    if (IsBeside(flight, CenterOf(key, voxel_m))) keys.push_back(key);
+  return keys;
+}
+
 const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
                                       const StairEvidence& evidence, double voxel_m,
                                       std::vector<geometry::StairFlight>* flights) {

@@ -17,6 +17,11 @@ const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
                                       const StairEvidence& evidence, double voxel_m,
                                       std::vector<geometry::StairFlight>* flights);
 
+/// Surface voxels that were seen as a stair on or beside the flight: what walking it promotes to
+/// STAIR (paper, "Stair-State Promotion").
+std::vector<VoxelKey> EvidenceOn(const geometry::StairFlight& flight, const StairEvidence& evidence,
+                                 double voxel_m);
+
 /// Whether `p_world` lies on the flight or within a metre of it.
 bool IsBeside(const geometry::StairFlight& flight, const Vector3d& p_world);
 

@@ -44,5 +44,14 @@ TEST(Flights, ANeighbouringFlightIsAnother) {
   EXPECT_EQ(flights.size(), 2u);
 }
 
+TEST(Flights, WhatLiesOnOneIsBesideIt) {
+  std::vector<geometry::StairFlight> flights;
+  NoteWalk(Way(0, 4, 2.8), {}, 0.1, &flights);
+  EXPECT_TRUE(IsBeside(flights[0], {2, 1.4, 1.5}));
+  EXPECT_TRUE(IsBeside(flights[0], {4, 1, 2.8}));
+  EXPECT_FALSE(IsBeside(flights[0], {2, 1.4, 2.8}));  // the gallery above its middle
+  EXPECT_FALSE(IsBeside(flights[0], {2, 3, 1.4}));
+}
+
 }  // namespace
 }  // namespace crossnav::policy
