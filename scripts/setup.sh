@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Installs what the build and the tests need, from the distribution's own packages.
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, docs
+# The build group comes with OpenVINO, the inference library, as no distribution packages it: its
+# Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
+# it cannot be had, the build goes on without networks.
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -62,6 +65,40 @@ as_root() {
   fi
 }
 
+# The wheel's headers and the libraries that are used, in the folder where CMake looks. A failure
+# is a notice: networks are left out of the build then.
+install_openvino() {
+  local pin data home work
+  pin="$(dirname "${BASH_SOURCE[0]}")/openvino.txt"
+  data="${XDG_DATA_HOME:-$HOME/.local/share}/crossnav"
+  home="$data/openvino-$(sed -n 's/^openvino==\([0-9.]*\).*/\1/p' "$pin")"
+  [[ -e $home/openvino/include/openvino/openvino.hpp ]] && return 0
+  say "fetching OpenVINO into $home"
+  mkdir -p "$data" && work=$(mktemp -d "$data/setup.XXXXXX") || return 0
+  if python3 -m venv "$work/venv" && fetch_openvino "$work" "$pin" >"$work/log" 2>&1; then
+    rm -rf "$home"
+    mv "$work/wheel" "$home"
+  else
+    tail -n 3 "$work/log" 2>/dev/null >&2 || true
+    say "OpenVINO cannot be had; the build goes on without networks"
+  fi
+  rm -rf "$work"
+}
+
+# fetch_openvino WORK PIN: downloads, checks the hash, unpacks and drops what is not used.
+fetch_openvino() {
+  local tag=manylinux_2_28_x86_64
+  [[ $(uname -m) == aarch64 ]] && tag=manylinux_2_35_aarch64
+  "$1/venv/bin/python" -m pip --disable-pip-version-check download -q --no-input --no-deps \
+    --require-hashes --only-binary=:all: --implementation cp --python-version 3.11 --abi cp311 \
+    --platform "$tag" -r "$2" -d "$1" &&
+    python3 -m zipfile -e "$1"/openvino-*.whl "$1/wheel" &&
+    find "$1/wheel/openvino" -mindepth 1 -maxdepth 1 ! -name include ! -name libs \
+      -exec rm -rf {} + &&
+    find "$1/wheel/openvino/libs" -type f ! -name 'libopenvino.so.*' ! -name 'libtbb.so.*' \
+      ! -name 'libopenvino_onnx_frontend.so.*' ! -name 'libopenvino_*_cpu_plugin.so' -delete
+}
+
 main() {
   [[ ${CROSSNAV_SKIP_SETUP:-} == 1 ]] && return 0
   local group
@@ -76,8 +113,12 @@ main() {
   done
   check_system
   mapfile -t missing < <(missing_of "${wanted[@]}")
-  [[ ${#missing[@]} -eq 0 ]] && return 0
+  [[ ${#missing[@]} -eq 0 ]] || install_packages
+  [[ " ${*:-build} " == *" build "* ]] && install_openvino
+  return 0
+}
 
+install_packages() {
   say "installing ${#missing[@]} packages: ${missing[*]}"
   if [[ $(id -u) -ne 0 ]] && ! command -v sudo >/dev/null; then
     say "neither root nor sudo here. As root, run:"

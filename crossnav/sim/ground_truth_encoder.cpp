@@ -10,13 +10,15 @@
 #include <vector>
 
 #include "crossnav/core/categories.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/clip_vectors.h"
+#include "crossnav/perception/named_vectors.h"
 
 namespace crossnav::sim {
 namespace {
 
 using perception::FeatureGrid;
+using perception::NamedVectors;
 constexpr double kCommonShare = 0.5;  // chosen: cosine of unrelated names, below CLIP's 0.7
 constexpr double kBiasShare = 0.5;    // chosen: of feature_noise, fixed per instance
 constexpr double kPatchShare = 0.8;   // chosen: of the frame's noise, alike in a patch of cells
@@ -57,13 +59,6 @@ Feature RandomUnit(std::uint64_t seed, int dim) {
   for (float& x : v) x = static_cast<float>(rng.Normal());
   Normalize(v);
   return v;
-}
-
-// Names of the category table become their category.
-std::string CanonicalName(std::string_view text) {
-  const std::string name = SpacedName(text);
-  const auto known = DefaultCategories().find(name);
-  return known == DefaultCategories().end() ? name : SpacedName(known->second);
 }
 
 bool IsCategory(std::string_view name) {
@@ -312,7 +307,8 @@ class GroundTruthEncoder : public perception::DenseEncoder {
 
 Result<TextSpace> MakeTextSpace(const GroundTruthConfig& config) {
   if (config.clip_dir.empty()) return TextSpace(config.feature_dim, config.seed, config.confusion);
-  auto known = ReadClipVectors(config.clip_dir);
+  const std::filesystem::path dir = config.clip_dir;
+  auto known = perception::ReadNamedVectors(dir / "oid_names.txt", dir / "oid_clip_a+cname.npy");
   if (known) return TextSpace(std::move(*known), config.seed, config.confusion);
   known.error().what += " (needed by ground_truth.clip_dir)";
   return tl::unexpected(known.error());

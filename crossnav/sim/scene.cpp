@@ -7,7 +7,6 @@
 
 #include <xxhash.h>
 
-#include "category_data.h"
 #include "crossnav/core/check.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/sim/scene_reader.h"
@@ -153,21 +152,6 @@ const SceneInstance* Scene::FindInstance(int wanted) const {
   const auto it = std::lower_bound(instances.begin(), instances.end(), wanted,
                                    [](const SceneInstance& a, int b) { return a.id < b; });
   return it != instances.end() && it->id == wanted ? &*it : nullptr;
-}
-
-const CategoryTable& DefaultCategories() {
-  static const CategoryTable table = [] {
-    auto parsed = ParseCategoryTable(kCategoryTsv, "config/categories.tsv");
-    CROSSNAV_CHECK(parsed.has_value(), "the built-in category table is broken");
-    return *parsed;
-  }();
-  return table;
-}
-
-Result<CategoryTable> ReadCategoryTable(const fs::path& path) {
-  const auto text = ReadFile(path);
-  if (!text) return tl::unexpected(text.error());
-  return ParseCategoryTable(*text, path.string());
 }
 
 Result<Scene> LoadScene(const fs::path& folder, const CategoryTable& categories) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Semantic text and category table: both small line formats.
-#include <algorithm>
+// Semantic text, a small line format, and the category table, whose home is core.
 #include <charconv>
 #include <map>
 
-#include "crossnav/core/categories.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/sim/scene_reader.h"
 
 namespace crossnav::sim {
@@ -83,24 +82,15 @@ Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text,
 }
 
 Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::string& where) {
-  CategoryTable table;
-  for (int number = 1; !text.empty(); ++number) {
-    const std::string_view line = TakeLine(text);
-    if (line.empty() || line.front() == '#') continue;
-    const std::string at = where + ", line " + std::to_string(number);
-    const std::size_t tab = line.find('\t');
-    if (tab == std::string_view::npos || tab == 0 || tab + 1 == line.size()) {
-      return Fail(ErrorCode::kMalformed, "expected \"raw name<TAB>category\"", at);
-    }
-    const std::string category(line.substr(tab + 1));
-    if (std::find(kCategories.begin(), kCategories.end(), category) == kCategories.end()) {
-      return Fail(ErrorCode::kInvalid, "\"" + category + "\" is not one of the six categories", at);
-    }
-    if (!table.emplace(line.substr(0, tab), category).second) {
-      return Fail(ErrorCode::kMalformed, "the raw name is listed twice", at);
-    }
-  }
-  return table;
+  return crossnav::ParseCategoryTable(text, where);
+}
+
+const CategoryTable& DefaultCategories() {
+  return crossnav::DefaultCategories();
+}
+
+Result<CategoryTable> ReadCategoryTable(const std::filesystem::path& path) {
+  return crossnav::ReadCategoryTable(path);
 }
 
 }  // namespace crossnav::sim

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+# OpenVINO's headers and libraries as its Python wheel carries them: OpenVinoWheel::OpenVinoWheel.
+# Looks where scripts/setup.sh puts the pinned version, or in OPENVINO_ROOT (the folder that holds
+# openvino/include and openvino/libs). The wheel's own CMake config is not used: it insists on being
+# the only one to find TBB.
+file(STRINGS "${PROJECT_SOURCE_DIR}/scripts/openvino.txt" openvino_pin REGEX "^openvino==")
+string(REGEX REPLACE "^openvino==([0-9.]+).*" "\\1" OpenVinoWheel_VERSION "${openvino_pin}")
+set(openvino_data "$ENV{XDG_DATA_HOME}")
+if(NOT openvino_data)
+  set(openvino_data "$ENV{HOME}/.local/share")
+endif()
+set(OPENVINO_ROOT "" CACHE PATH "Folder with openvino/include and openvino/libs; empty = setup.sh's")
+set(openvino_root "${OPENVINO_ROOT}")
+if(NOT openvino_root)
+  set(openvino_root "${openvino_data}/crossnav/openvino-${OpenVinoWheel_VERSION}")
+endif()
+
+# Not cached: a wheel that is installed later is found by the next configuration.
+set(OpenVinoWheel_INCLUDE_DIR "")
+if(EXISTS "${openvino_root}/openvino/include/openvino/openvino.hpp")
+  set(OpenVinoWheel_INCLUDE_DIR "${openvino_root}/openvino/include")
+endif()
+file(GLOB OpenVinoWheel_LIBRARY "${openvino_root}/openvino/libs/libopenvino.so.*")
+file(GLOB OpenVinoWheel_TBB "${openvino_root}/openvino/libs/libtbb.so.12")
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenVinoWheel
+  REQUIRED_VARS OpenVinoWheel_INCLUDE_DIR OpenVinoWheel_LIBRARY OpenVinoWheel_TBB
+  VERSION_VAR OpenVinoWheel_VERSION)
+if(OpenVinoWheel_FOUND AND NOT TARGET OpenVinoWheel::OpenVinoWheel)
+  add_library(OpenVinoWheel::OpenVinoWheel INTERFACE IMPORTED GLOBAL)
+  target_include_directories(OpenVinoWheel::OpenVinoWheel SYSTEM INTERFACE
+    "${OpenVinoWheel_INCLUDE_DIR}")
+  # The libraries carry no search path of their own, and need a newer TBB than the distribution's.
+  # An old-style RPATH holds for what they load, too, and for Embree, so that there is one TBB.
+  target_link_libraries(OpenVinoWheel::OpenVinoWheel INTERFACE
+    -Wl,--no-as-needed "${OpenVinoWheel_LIBRARY}" "${OpenVinoWheel_TBB}")
+  target_link_options(OpenVinoWheel::OpenVinoWheel INTERFACE
+    "-Wl,--disable-new-dtags,-rpath,${openvino_root}/openvino/libs")
+endif()
