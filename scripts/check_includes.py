@@ -19,6 +19,7 @@ ROOMS = {
     "core": set(),
     "geometry": {"core"},
     "perception": {"core"},
+    "networks": {"core", "perception"},
     "memory": {"core", "geometry"},
     "planner": {"core", "geometry"},
     "policy": _LEFT,
@@ -28,7 +29,7 @@ ROOMS = {
     "world": {"core", "sim"},
     "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory"},
-    "bench": _AGENT | {"sim", "world", "homes", "store"},
+    "bench": _AGENT | {"networks", "sim", "world", "homes", "store"},
 }
 
 # Third-party headers that any file may include: they are part of our own vocabulary.
@@ -49,7 +50,9 @@ ADAPTERS = {
     "libpng": (r"^png", ["crossnav/sim/image_codec.cpp", "crossnav/sim/picture.cpp",
                          "crossnav/trace/preview.cpp", "crossnav/world/png_writer.cpp"]),
     "xxHash": (r"^xxhash", ["crossnav/sim/scene.cpp", "crossnav/sim/navmesh*.cpp",
-                            "crossnav/store/*.cpp", "crossnav/world/furniture_pack.cpp"]),
+                            "crossnav/store/*.cpp", "crossnav/world/furniture_pack.cpp",
+                            "crossnav/networks/crossnav_network.cpp"]),
+    "OpenVINO": (r"^openvino/", ["crossnav/networks/openvino_backend.cpp"]),
     "zlib": (r"^zlib", ["crossnav/bench/gzip_file.cpp", "crossnav/trace/mcap_writer.cpp",
                         "crossnav/trace/replay_page.cpp", "crossnav/world/furniture_pack.cpp",
                         "crossnav/world/zip_reader.cpp"]),
@@ -69,7 +72,8 @@ ADAPTERS = {
                                       "crossnav/world/house_file.cpp", "apps/crossnav/*.cpp"]),
     "pugixml": (r"^pugixml", ["crossnav/homes/home_xml.cpp"]),
     "Assimp": (r"^assimp/", ["crossnav/homes/assimp_reader.cpp"]),
-    "toml++": (r"^toml", ["crossnav/bench/config_file.cpp"]),
+    "toml++": (r"^toml", ["crossnav/bench/config_file.cpp",
+                           "crossnav/networks/model_card.cpp"]),
     "CLI11": (r"^CLI/", ["apps/crossnav/*"]),
     "nanobind": (r"^nanobind/", ["python/src/*"]),
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What an opened network can do for perception. Each adapter (one file each, listed in
+// families.cpp) makes the parts that its kind of network has; the others stay empty.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "crossnav/networks/model_card.h"
+#include "crossnav/networks/network.h"
+#include "crossnav/perception/perception.h"
+
+namespace crossnav::networks {
+
+/// An opened network, shared by all that is made from it. Not thread-safe.
+class Model {
+ public:
+  virtual ~Model() = default;
+  virtual std::unique_ptr<perception::Detector> MakeDetector() { return nullptr; }
+  virtual std::unique_ptr<perception::Segmenter> MakeSegmenter() { return nullptr; }
+  virtual std::unique_ptr<perception::StairSegmenter> MakeStairs() { return nullptr; }
+  virtual std::unique_ptr<perception::DenseEncoder> MakeEncoder() { return nullptr; }
+};
+
+struct ModelOptions {
+  SessionOptions session;
+  double camera_height_m = 0.88;  ///< above the robot's foot
+};
+
+using OpenModel = Result<std::shared_ptr<Model>> (*)(const ModelCard& card,
+                                                     const ModelOptions& options);
+
+struct Family {
+  const char* name;   ///< as in cards
+  const char* what;   ///< it is, for people
+  const char* parts;  ///< it has: some of "detector segmenter stairs encoder"
+  OpenModel open;
+};
+
+/// All adapters.
+std::span<const Family> Families();
+
+/// The adapter of a card; an error that lists them where there is none.
+Result<const Family*> FamilyOf(const ModelCard& card);
+
+/// Opens the card's file with its adapter.
+Result<std::shared_ptr<Model>> Open(const ModelCard& card, const ModelOptions& options);
+
+/// Reads and checks the card's file and opens it with `signature`: what every adapter begins with.
+Result<Network> OpenNetwork(const ModelCard& card, const Signature& signature,
+                            const ModelOptions& options);
+
+/// What a dense encoder is called in saved memories: the network's name and the begin of its hash.
+std::string EncoderNameOf(const ModelCard& card);
+
+Result<std::shared_ptr<Model>> OpenCrossnavNetwork(const ModelCard& card,
+                                                   const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenDetrDetector(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenYolo8(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenYolo8Segment(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenYolo7(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenYolo7EndToEnd(const ModelCard& card,
+                                                 const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenYoloX(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenSegFormer(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenDense(const ModelCard& card, const ModelOptions& options);
+
+}  // namespace crossnav::networks

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/networks/suite.h"
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+
+#include "crossnav/networks/depth_mask.h"
+#include "crossnav/networks/sha256.h"
+
+namespace crossnav::networks {
+namespace {
+
+constexpr std::string_view kDepth = "depth";  // the segmenter that needs no file
+
+struct Role {
+  const char* part;
+  const std::string& name;  ///< of the card
+};
+
+std::vector<Role> RolesOf(const NetworksConfig& config) {
+  return {{"detector", config.detector},
+          {"segmenter", config.segmenter},
+          {"stairs", config.stairs},
+          {"encoder", config.encoder}};
+}
+
+bool HasPart(const Family& family, std::string_view part) {
+  const std::string parts = std::string(" ") + family.parts + " ";
+  return parts.find(" " + std::string(part) + " ") != std::string::npos;
+}
+
+/// "crossnav_small" -> dir/crossnav_small.toml; a path of a card stays what it is.
+std::filesystem::path CardPath(const std::filesystem::path& dir, const std::string& name) {
+  const std::filesystem::path path = name;
+  return path.extension() == ".toml" ? path : dir / (name + ".toml");
+}
+
+}  // namespace
+
+Result<std::vector<std::filesystem::path>> ListCards(const std::filesystem::path& dir) {
+  std::vector<std::filesystem::path> cards;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(dir, error))
+    if (entry.path().extension() == ".toml") cards.push_back(entry.path());
+  if (error)
+    return Fail(ErrorCode::kNotFound, "no such folder of networks; networks.dir names it",
+                dir.string());
+  std::sort(cards.begin(), cards.end());
+  return cards;
+}
+
+Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config,
+                                    const std::filesystem::path& dir) {
+  NetworkSet set;
+  set.config_ = config;
+  for (const auto& [part, name] : RolesOf(config)) {
+    if (name.empty() || (part == std::string_view("segmenter") && name == kDepth)) continue;
+    const auto path = CardPath(dir, name);
+    auto card = ReadModelCard(path);
+    if (!card) {
+      card.error().what += " (needed by networks." + std::string(part) + ")";
+      return tl::unexpected(card.error());
+    }
+    const auto family = FamilyOf(*card);
+    if (!family) return tl::unexpected(family.error());
+    if (!HasPart(**family, part))
+      return Fail(ErrorCode::kMismatch,
+                  "family \"" + card->family + "\" has no " + part + "; networks." + part +
+                      " must name a card that does",
+                  path.string());
+    if (set.cards_.count(name) == 0) {
+      const auto bytes = ReadNetworkFile(*card);
+      if (!bytes) return tl::unexpected(bytes.error());
+      card->sha256 = Sha256(*bytes);
+      set.hashes_[card->name()] = card->sha256;
+    }
+    if (part == std::string_view("encoder"))
+      set.encoder_name_ = EncoderNameOf(set.cards_.count(name) == 0 ? *card : set.cards_[name]);
+    set.cards_.emplace(name, std::move(*card));
+  }
+  return set;
+}
+
+Result<Model*> NetworkSet::ModelOf(const std::string& name, const ModelOptions& options) {
+  auto& model = models_[name];
+  if (model) return model.get();
+  auto opened = Open(cards_.at(name), options);
+  if (!opened) return tl::unexpected(opened.error());
+  model = std::move(*opened);
+  return model.get();
+}
+
+Result<perception::PerceptionSuite> NetworkSet::MakeSuite(double camera_height_m) {
+  ModelOptions options;
+  options.session.backend = config_.backend;
+  options.session.threads = config_.threads;
+  options.camera_height_m = camera_height_m;
+  std::map<std::string_view, Model*> models;
+  for (const auto& [part, name] : RolesOf(config_)) {
+    if (cards_.count(name) == 0) continue;
+    auto model = ModelOf(name, options);
+    if (!model) return tl::unexpected(model.error());
+    models[part] = *model;
+  }
+  perception::PerceptionSuite suite;
+  if (models.count("detector") > 0) suite.detector = models["detector"]->MakeDetector();
+  if (models.count("segmenter") > 0) suite.segmenter = models["segmenter"]->MakeSegmenter();
+  if (config_.segmenter == kDepth) suite.segmenter = MakeDepthSegmenter();
+  if (models.count("stairs") > 0) suite.stairs = models["stairs"]->MakeStairs();
+  if (models.count("encoder") > 0) suite.encoder = models["encoder"]->MakeEncoder();
+  return suite;
+}
+
+Result<void> NetworkSet::IsComplete() const {
+  for (const auto& [part, name] : RolesOf(config_))
+    if (name.empty())
+      return Fail(ErrorCode::kInvalid, "names no network, and the agent needs one",
+                  std::string("networks.") + part);
+  return {};
+}
+
+}  // namespace crossnav::networks
