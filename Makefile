@@ -8,6 +8,7 @@ MAKEFLAGS += --no-print-directory
 PRESET ?= release
 BUILD := build/$(PRESET)
 DEMO ?= 1
+PERCEPTION ?= oracle
 # One compiler per core, as far as 1.5 GB of free memory each goes.
 JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
   END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
@@ -19,7 +20,7 @@ FILES ?= $(SOURCES)
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' Makefile
-	@echo "  Settings: DEMO=1|2  PRESET=release|dev|ci  JOBS=$(JOBS)"
+	@echo "  Settings: DEMO=1|2  PERCEPTION=oracle|networks  PRESET=release|dev|ci  JOBS=$(JOBS)"
 	@echo "            FILES='a.cpp b.h' for format and lint (default: all)"
 
 setup:  ## install what the build needs (asks for sudo only when something is missing)
@@ -35,7 +36,7 @@ everything: setup $(BUILD)/build.ninja
 	@cmake --build --preset $(PRESET) -j $(JOBS)
 
 demo: program  ## one three-goal episode over two floors; DEMO=2 is another, which goes down
-	@$(BUILD)/apps/crossnav/crossnav demo $(DEMO)
+	@$(BUILD)/apps/crossnav/crossnav demo $(DEMO) --perception $(PERCEPTION)
 
 test: everything  ## every test
 	@ctest --preset $(PRESET) -j $(JOBS)

@@ -11,6 +11,7 @@
 #include "crossnav/bench/runner.h"
 #include "crossnav/bench/timing.h"
 #include "crossnav/world/embedded_house.h"
+#include "perception_source.h"
 #include "progress.h"
 #include "session.h"
 
@@ -138,8 +139,12 @@ Result<Subject> ChooseSubject(const BenchOptions& options, const bench::RunConfi
 }  // namespace
 
 Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Console& console) {
-  const auto config = LoadConfig(common);
+  Protocol protocol;
+  protocol.perception = options.perception;
+  const auto config = LoadRunConfig(common, protocol);
   if (!config) return tl::unexpected(config.error());
+  const auto perception = PerceptionSource::Read(*config);
+  if (!perception) return tl::unexpected(perception.error());
   if (!options.episodes.empty() && options.scenes.empty()) {
     return Fail(ErrorCode::kInvalid, "give the scenes of the episodes", "--scenes");
   }
@@ -158,7 +163,8 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
   for (int i = 0; i < options.repeat; ++i) {
     StepProgress progress(console, subject->episode, *config);
     const std::vector<bench::RunObserver*> observers = {&costs, &progress};
-    const auto record = bench::RunEpisode(**context, subject->episode, *config, observers);
+    const auto record =
+        bench::RunEpisode(**context, subject->episode, *config, observers, perception->Maker());
     if (!record) return tl::unexpected(record.error());
   }
   const Json json = costs.ToJson();

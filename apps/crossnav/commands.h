@@ -112,20 +112,21 @@ struct RunOptions {
   std::string replay;    ///< .mcap; empty = none
   std::string save_map;  ///< map file to save the memory to; empty = none
   std::string memory;    ///< map file to start from; empty = none
-  std::string success, budget_scope;
+  std::string success, budget_scope, perception;
 };
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);
 
 struct DemoOptions {
   int number = 1;  ///< 1 climbs, 2 descends
   std::string out = "out/demo";
+  std::string perception;  ///< oracle or networks; empty = as configured
 };
 Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console);
 
 struct EvalOptions {
   std::string scenes, episodes, out;
   std::string variant = "full";
-  std::string success, budget_scope;
+  std::string success, budget_scope, perception;
   std::string shard = "0/1";
   std::string keep_replays = "none";  ///< none | failures
   int jobs = 1;
@@ -184,9 +185,22 @@ Result<void> MapExport(const MapOptions& options, const CommonOptions& common, C
 
 struct BenchOptions {
   std::string scenes, episodes, episode;
+  std::string perception;  ///< as in DemoOptions
   int repeat = 1;
 };
 Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Console& console);
+
+struct NetworksOptions {
+  std::vector<std::string> cards;  ///< to check; empty = all
+  std::string image, depth, text, out;
+  std::string network;  ///< a card that answers alone; empty = those of the settings
+};
+Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& common,
+                          Console& console);
+Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& common,
+                           Console& console);
+Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& common,
+                          Console& console);
 
 Result<void> Doctor(const CommonOptions& common, Console& console);
 

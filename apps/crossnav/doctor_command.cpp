@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "commands.h"
+#include "crossnav/networks/suite.h"
+#include "perception_source.h"
 
 namespace crossnav::app {
 namespace {
@@ -24,29 +26,39 @@ Json CpuFeatures() {
   return features;
 }
 
-bool HasLibrary(const char* name) {
-  void* handle = ::dlopen(name, RTLD_LAZY | RTLD_LOCAL);
-  if (handle == nullptr) return false;
-  ::dlclose(handle);
-  return true;
-}
-
 /// Optional parts: what they are for and how to get them.
 Json OptionalParts() {
-  const bool has_onnx = HasLibrary("libonnxruntime.so.1");
   const bool has_pack = world::FurniturePack::Load(DefaultFurniture()).has_value();
-  return Json::array({{{"name", "onnxruntime"},
-                       {"found", has_onnx},
-                       {"for", "detection and dense features by networks"},
-                       {"get", has_onnx ? ""
-                                        : "Debian 13: apt-get install libonnxruntime-dev; this "
-                                          "version of crossnav does without"}},
-                      {{"name", "furniture pack"},
-                       {"found", has_pack},
-                       {"for", "generated houses with modelled furniture instead of simple shapes"},
-                       {"get", has_pack ? ""
-                                        : "apt-get install sweethome3d-furniture; crossnav assets "
-                                          "import"}}});
+  Json parts = Json::array();
+  for (const networks::Backend& backend : networks::Backends())
+    parts.push_back({{"name", backend.name},
+                     {"found", backend.is_built},
+                     {"version", backend.version},
+                     {"for", "perception by networks instead of ground truth"},
+                     {"get", backend.is_built ? "" : backend.get}});
+  parts.push_back({{"name", "furniture pack"},
+                   {"found", has_pack},
+                   {"for", "generated houses with modelled furniture instead of simple shapes"},
+                   {"get", has_pack ? ""
+                                    : "apt-get install sweethome3d-furniture; crossnav assets "
+                                      "import"}});
+  return parts;
+}
+
+/// Name and state of each network that there is a card of.
+Json NetworksFound(const bench::RunConfig& config) {
+  Json found = Json::array();
+  const auto cards = networks::ListCards(NetworksDir(config));
+  if (!cards) return found;
+  for (const auto& path : *cards) {
+    const auto card = networks::ReadModelCard(path);
+    const auto bytes =
+        card ? networks::ReadNetworkFile(*card) : Result<std::string>(tl::unexpected(card.error()));
+    found.push_back({{"name", path.stem().string()},
+                     {"found", bytes.has_value()},
+                     {"error", bytes ? "" : bytes.error().Message()}});
+  }
+  return found;
 }
 
 }  // namespace
@@ -54,16 +66,25 @@ Json OptionalParts() {
 Result<void> Doctor(const CommonOptions& common, Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
+  Json perception = {"oracle"};
+  const auto& backends = networks::Backends();
+  if (std::any_of(backends.begin(), backends.end(), [](const auto& b) { return b.is_built; }))
+    perception.push_back("networks");
   const Json json = {{"version", CROSSNAV_VERSION},
                      {"compiler", __VERSION__},
                      {"cores", std::thread::hardware_concurrency()},
                      {"cpu_features", CpuFeatures()},
-                     {"perception", {"oracle"}},
+                     {"perception", std::move(perception)},
+                     {"networks", NetworksFound(*config)},
                      {"optional", OptionalParts()}};
   std::string text = fmt::format("crossnav {} ({})\n{} cores,", CROSSNAV_VERSION, __VERSION__,
                                  std::thread::hardware_concurrency());
   for (const auto& feature : json["cpu_features"]) text += " " + feature.get<std::string>();
   text += "\nperception: oracle (ground truth from the simulator)\n";
+  for (const auto& network : json["networks"])
+    text +=
+        fmt::format("network {}: {}\n", network["name"].get<std::string>(),
+                    network["found"].get<bool>() ? "found" : network["error"].get<std::string>());
   for (const auto& part : json["optional"]) {
     text += fmt::format("{}: {} - {}\n", part["name"].get<std::string>(),
                         part["found"].get<bool>() ? "found" : "not here (optional)",

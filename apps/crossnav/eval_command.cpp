@@ -10,6 +10,7 @@
 #include "eval_prepare.h"
 #include "eval_progress.h"
 #include "kept_replays.h"
+#include "perception_source.h"
 #include "progress.h"
 
 namespace crossnav::app {
@@ -36,18 +37,24 @@ std::filesystem::path ResultPath(const std::string& out, const Shard& shard) {
   return std::filesystem::path(out) / name;
 }
 
+struct RunSettings {
+  const bench::RunConfig& config;
+  const KeptReplays& replays;
+  const PerceptionSource& perception;
+};
+
 /// Plays one episode in a worker.
 Result<bench::EpisodeRecord> Play(SceneCache& cache, const bench::Episode& episode,
-                                  const bench::RunConfig& config, const KeptReplays& replays,
-                                  StepProgress* progress) {
+                                  const RunSettings& run, StepProgress* progress) {
   const auto context = cache.Get(episode.scene_id);
   if (!context) return tl::unexpected(context.error());
   std::vector<bench::RunObserver*> observers;
   if (progress != nullptr) observers.push_back(progress);
-  auto replay = replays.Open(**context, episode);
+  auto replay = run.replays.Open(**context, episode);
   if (!replay) return tl::unexpected(replay.error());
   if (*replay) observers.push_back(replay->get());
-  auto record = bench::RunEpisode(**context, episode, config, observers);
+  auto record =
+      bench::RunEpisode(**context, episode, run.config, observers, run.perception.Maker());
   if (*replay) {
     const auto closed = (*replay)->Close();  // of an episode that failed, too
     if (record && !closed) return tl::unexpected(closed.error());
@@ -57,21 +64,20 @@ Result<bench::EpisodeRecord> Play(SceneCache& cache, const bench::Episode& episo
 
 /// Plays what is not in the file yet.
 Result<void> PlayAll(std::vector<bench::Episode> episodes, int jobs, SceneCache& cache,
-                     const bench::RunConfig& config, const KeptReplays& replays,
-                     bench::ResultWriter& writer, Console& console) {
+                     const RunSettings& run, bench::ResultWriter& writer, Console& console) {
   EvalProgress shown(console, static_cast<int>(episodes.size()));
   bench::Evaluation evaluation;
   evaluation.episodes = std::move(episodes);
   evaluation.jobs = jobs;
-  evaluation.episode_seconds = config.eval.episode_seconds;
+  evaluation.episode_seconds = run.config.eval.episode_seconds;
   evaluation.play = [&](const bench::Episode& episode) {
-    StepProgress progress(console, episode, config);
-    auto record = Play(cache, episode, config, replays, jobs == 1 ? &progress : nullptr);
+    StepProgress progress(console, episode, run.config);
+    auto record = Play(cache, episode, run, jobs == 1 ? &progress : nullptr);
     console.EndProgress();
     return record;
   };
   evaluation.finished = [&](const bench::EpisodeRecord& record) {
-    replays.Finish(record);
+    run.replays.Finish(record);
     for (const std::string& line : bench::CauseLines(record)) console.Log(line);
     shown.Add(record);
   };
@@ -102,9 +108,11 @@ Result<void> CheckHashes(const EvalOptions& options, const bench::RunHeader& hea
 }  // namespace
 
 Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Console& console) {
-  const auto config =
-      LoadRunConfig(common, {options.variant, options.success, options.budget_scope});
+  const auto config = LoadRunConfig(
+      common, {options.variant, options.success, options.budget_scope, options.perception});
   if (!config) return tl::unexpected(config.error());
+  const auto perception = PerceptionSource::Read(*config);
+  if (!perception) return tl::unexpected(perception.error());
   const auto shard = ParseShard(options.shard);
   if (!shard) return tl::unexpected(shard.error());
   const auto path = ResultPath(options.out, *shard);
@@ -114,6 +122,7 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
   auto episodes = bench::ShardOf(bench::GroupedByScene(file->episodes), shard->index, shard->count);
   bench::RunHeader header = MakeHeader(*config, options.variant, *file);
   header.shard = options.shard;
+  header.networks = perception->Hashes();
   const KeptReplays replays(options, *config, header);
   if (auto ok = replays.Check(); !ok) return ok;
   SceneCache cache(options.scenes, *config);
@@ -131,8 +140,8 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
     console.Log(fmt::format("{}: {} episodes are there, {} remain", path.string(), finished.size(),
                             remaining.size()));
   }
-  if (auto ok =
-          PlayAll(std::move(remaining), options.jobs, cache, *config, replays, *writer, console);
+  if (auto ok = PlayAll(std::move(remaining), options.jobs, cache, {*config, replays, *perception},
+                        *writer, console);
       !ok) {
     return ok;
   }

@@ -29,6 +29,7 @@ struct Options {
   ReplayOptions replay;
   MapOptions map;
   BenchOptions bench;
+  NetworksOptions networks;
   Command command;
 };
 
@@ -167,12 +168,19 @@ void AddEpisodes(CLI::App& app, Options& o) {
   check->add_option("--scenes", o.episodes.scenes, "Folder of scenes")->required();
 }
 
-/// --variant, --success and --budget-scope.
+void AddPerception(CLI::App* verb, std::string& perception) {
+  verb->add_option("--perception", perception,
+                   "oracle (ground truth), or networks; default: eval.perception")
+      ->check(CLI::IsMember({"oracle", "networks"}));
+}
+
+/// --variant, --success, --budget-scope and --perception.
 template <class T>
 void AddProtocol(CLI::App* verb, T& options) {
   verb->add_option("--variant", options.variant, "full, no-history-poi or planar");
   verb->add_option("--success", options.success, "What a STOP must be near: box or viewpoint");
   verb->add_option("--budget-scope", options.budget_scope, "Action budget per episode or goal");
+  AddPerception(verb, options.perception);
 }
 
 void AddRuns(CLI::App& app, Options& o) {
@@ -195,6 +203,7 @@ void AddRuns(CLI::App& app, Options& o) {
   demo->add_option("NUMBER", o.demo.number, "1 climbs to the upper floor, 2 descends")
       ->check(CLI::Range(1, 2));
   demo->add_option("--out", o.demo.out, "Folder to write to; default: out/demo");
+  AddPerception(demo, o.demo.perception);
 
   CLI::App* eval =
       AddVerb(app, o, "eval", "Many episodes",
@@ -297,6 +306,25 @@ void AddMap(CLI::App& app, Options& o) {
   points->add_flag("--surfaces", o.map.surfaces_only, "Leave out the air");
 }
 
+void AddNetworks(CLI::App& app, Options& o) {
+  CLI::App* networks = app.add_subcommand("networks", "Networks for perception from pixels");
+  networks->require_subcommand(1);
+  AddVerb(*networks, o, "list", "Which networks there are", "crossnav networks list",
+          [&o](Console& c) { return NetworksList(o.networks, o.common, c); });
+  CLI::App* check = AddVerb(*networks, o, "check", "Whether files fit their cards, and how fast",
+                            "crossnav networks check crossnav_small",
+                            [&o](Console& c) { return NetworksCheck(o.networks, o.common, c); });
+  check->add_option("CARD", o.networks.cards, "Names or paths of cards; default: all");
+  CLI::App* look = AddVerb(*networks, o, "look", "What the networks see in a picture",
+                           "crossnav networks look room.png --text sofa --out panel.png",
+                           [&o](Console& c) { return NetworksLook(o.networks, o.common, c); });
+  look->add_option("IMAGE", o.networks.image, "Picture (PNG or JPEG)")->required();
+  look->add_option("--depth", o.networks.depth, "Its depth: PGM of 16 bits [mm], or .npy [m]");
+  look->add_option("--text", o.networks.text, "Show how much each place is like this");
+  look->add_option("--network", o.networks.network, "Card that answers alone; default: settings");
+  look->add_option("--out", o.networks.out, "Picture to write (PNG)")->required();
+}
+
 void AddTools(CLI::App& app, Options& o) {
   AddVerb(app, o, "doctor", "What this program finds here, and what is missing",
           "crossnav doctor --json", [&o](Console& c) { return Doctor(o.common, c); });
@@ -306,6 +334,7 @@ void AddTools(CLI::App& app, Options& o) {
   bench->add_option("--scenes", o.bench.scenes, "Folder of scenes; default: the embedded house");
   bench->add_option("--episodes", o.bench.episodes, "Episode file");
   bench->add_option("--episode", o.bench.episode, "Its id; default: the first");
+  AddPerception(bench, o.bench.perception);
   bench->add_option("--repeat", o.bench.repeat, "Runs of the episode")->check(CLI::Range(1, 1000));
 }
 
@@ -323,6 +352,7 @@ int Main(int argc, char** argv) {
   AddSuites(app, options);
   AddResults(app, options);
   AddMap(app, options);
+  AddNetworks(app, options);
   AddTools(app, options);
   try {
     app.parse(argc, argv);

@@ -12,6 +12,7 @@
 #include "crossnav/sim/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "perception_source.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -57,31 +58,50 @@ struct TextVectors {
   std::vector<std::vector<float>> background;  ///< for query.relevancy = contrastive
 };
 
-Result<TextVectors> EncodeText(const MapOptions& options, const store::MapHeader& header,
+/// The text in the space of `encoder`, and what it may be held against.
+Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::string& text,
                                const bench::RunConfig& config) {
-  if (header.feature_dim == 0)
-    return Fail(ErrorCode::kInvalid, "this map holds no features to query", options.file);
-  if (auto ok = CheckEncoder(header, config, options.file); !ok) return tl::unexpected(ok.error());
+  auto vector = encoder.EncodeText(text);
+  if (!vector) return tl::unexpected(vector.error());
+  if (config.agent.query.relevancy != "contrastive") return TextVectors{std::move(*vector), {}};
+  auto background = perception::EncodeTexts(encoder, memory::kBackgroundPrompts);
+  if (!background) return tl::unexpected(background.error());
+  return TextVectors{std::move(*vector), std::move(*background)};
+}
+
+/// As ground truth would encode the text for features of `dim` numbers.
+Result<TextVectors> EncodeTruth(const MapOptions& options, int dim,
+                                const bench::RunConfig& config) {
   const sim::Scene scene = TileScene();
   const auto navmesh = sim::NavMesh::Build(scene, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
   const sim::RayCaster caster(scene);
   const sim::Simulator simulator(scene, *navmesh, caster, config.agent.sensor, config.agent.action);
   sim::GroundTruthConfig texts = config.ground_truth;
-  texts.feature_dim = header.feature_dim;  // the map knows
+  texts.feature_dim = dim;  // the map knows
   const auto encoder = sim::MakeGroundTruthEncoder(simulator, texts);
   if (!encoder) return tl::unexpected(encoder.error());
-  if ((*encoder)->Dim() != header.feature_dim) {
+  if ((*encoder)->Dim() != dim) {
     return Fail(ErrorCode::kMismatch,
                 fmt::format("its features have {} numbers, the vectors of ground_truth.clip_dir {}",
-                            header.feature_dim, (*encoder)->Dim()),
+                            dim, (*encoder)->Dim()),
                 options.file);
   }
-  auto text = (*encoder)->EncodeText(options.text);
-  if (!text) return tl::unexpected(text.error());
-  auto background = perception::EncodeTexts(**encoder, memory::kBackgroundPrompts);
-  if (!background) return tl::unexpected(background.error());
-  return TextVectors{std::move(*text), std::move(*background)};
+  return EncodeWith(**encoder, options.text, config);
+}
+
+Result<TextVectors> EncodeText(const MapOptions& options, const store::MapHeader& header,
+                               const bench::RunConfig& config) {
+  if (header.feature_dim == 0)
+    return Fail(ErrorCode::kInvalid, "this map holds no features to query", options.file);
+  const auto source = PerceptionSource::Read(config);
+  if (!source) return tl::unexpected(source.error());
+  if (auto ok = CheckEncoder(header, source->EncoderName(), options.file); !ok)
+    return tl::unexpected(ok.error());
+  auto suite = source->MakeSuite();
+  if (!suite) return EncodeTruth(options, header.feature_dim, config);
+  if (!*suite) return tl::unexpected(suite->error());
+  return EncodeWith(*(*suite)->encoder, options.text, config);
 }
 
 /// From `options.from`, else from where the place was seen best: the agent stood there once.

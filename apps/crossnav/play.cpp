@@ -37,13 +37,13 @@ class TraceLog : public bench::RunObserver {
 /// Gives the agent a saved memory before its first goal: the lifelong case.
 class MemoryLoader : public bench::RunObserver {
  public:
-  MemoryLoader(std::filesystem::path path, const bench::RunConfig& config)
-      : path_(std::move(path)), config_(config) {}
+  MemoryLoader(std::filesystem::path path, const bench::RunConfig& config, std::string encoder)
+      : path_(std::move(path)), config_(config), encoder_(std::move(encoder)) {}
 
   Result<void> OnStart(agent::Agent& state) override {
     const auto header = store::ReadMapHeader(path_);
     if (!header) return tl::unexpected(header.error());
-    if (auto ok = CheckEncoder(*header, config_, path_.string()); !ok) return ok;
+    if (auto ok = CheckEncoder(*header, encoder_, path_.string()); !ok) return ok;
     store::LoadOptions options;
     options.map = config_.agent.map;
     options.fusion = config_.agent.fusion;
@@ -56,6 +56,7 @@ class MemoryLoader : public bench::RunObserver {
  private:
   std::filesystem::path path_;
   const bench::RunConfig& config_;
+  std::string encoder_;
 };
 
 struct MemorySummary {
@@ -175,7 +176,7 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
                                          const bench::Episode& episode,
                                          const bench::RunConfig& config,
                                          const bench::RunHeader& header, const PlayFiles& files,
-                                         Console& console) {
+                                         const PerceptionSource& perception, Console& console) {
   if (auto ok = bench::CheckPlayable(context, episode); !ok) return tl::unexpected(ok.error());
   if (auto ok = CheckFiles(context, files); !ok) return tl::unexpected(ok.error());
   StepProgress progress(console, episode, config);
@@ -189,11 +190,11 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
     replay = std::move(*opened);
     observers.push_back(replay.get());
   }
-  MemoryLoader memory(files.memory, config);
+  MemoryLoader memory(files.memory, config, perception.EncoderName());
   if (!files.memory.empty()) observers.push_back(&memory);
-  MapLog map(files.map, context.scene().id, sim::EncoderName(config.ground_truth));
+  MapLog map(files.map, context.scene().id, perception.EncoderName());
   observers.push_back(&map);
-  auto record = bench::RunEpisode(context, episode, config, observers);
+  auto record = bench::RunEpisode(context, episode, config, observers, perception.Maker());
   console.EndProgress();
   if (!record) return record;
   if (replay) {

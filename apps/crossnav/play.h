@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "perception_source.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -26,6 +27,6 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
                                          const bench::Episode& episode,
                                          const bench::RunConfig& config,
                                          const bench::RunHeader& header, const PlayFiles& files,
-                                         Console& console);
+                                         const PerceptionSource& perception, Console& console);
 
 }  // namespace crossnav::app

@@ -22,9 +22,11 @@ BuiltIn BuiltInEpisode(int number) {
 }  // namespace
 
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console) {
-  const auto config =
-      LoadRunConfig(common, {options.variant, options.success, options.budget_scope});
+  const auto config = LoadRunConfig(
+      common, {options.variant, options.success, options.budget_scope, options.perception});
   if (!config) return tl::unexpected(config.error());
+  const auto perception = PerceptionSource::Read(*config);
+  if (!perception) return tl::unexpected(perception.error());
   const auto file = bench::ReadEpisodes(options.episodes);
   if (!file) return tl::unexpected(file.error());
   auto episode = FindEpisode(*file, options.episode, options.episodes);
@@ -42,15 +44,21 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   if (auto ok = bench::CheckPlayable(**context, *episode); !ok) return ok;
   if (!episode->has_certificate) bench::Certify(**context, *episode);
   bench::RunHeader header = MakeHeader(*config, options.variant, *file);
+  header.networks = perception->Hashes();
   header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
-  const auto record = PlayEpisode(**context, *episode, *config, header, files, console);
+  const auto record =
+      PlayEpisode(**context, *episode, *config, header, files, *perception, console);
   if (!record) return tl::unexpected(record.error());
   return {};
 }
 
 Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console) {
-  const auto config = LoadRunConfig(common, {});
+  Protocol protocol;
+  protocol.perception = options.perception;
+  const auto config = LoadRunConfig(common, protocol);
   if (!config) return tl::unexpected(config.error());
+  const auto perception = PerceptionSource::Read(*config);
+  if (!perception) return tl::unexpected(perception.error());
   const std::filesystem::path out = options.out;
   const auto house = world::WriteEmbeddedHouse(out / "scenes");
   if (!house) return tl::unexpected(house.error());
@@ -74,11 +82,12 @@ Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Conso
   if (!read) return tl::unexpected(read.error());
 
   bench::RunHeader header = MakeHeader(*config, "full", *read);
+  header.networks = perception->Hashes();
   header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
   const auto folder = out / fmt::format("{}", options.number);
   const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html", {}, {}};
   const auto record =
-      PlayEpisode(**context, read->episodes.front(), *config, header, files, console);
+      PlayEpisode(**context, read->episodes.front(), *config, header, files, *perception, console);
   if (!record) return tl::unexpected(record.error());
   if (record->Completed() == static_cast<int>(record->goals.size())) return {};
   return Fail(ErrorCode::kInvalid, "the built-in episode was not completed", folder.string());

@@ -14,6 +14,9 @@ Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protoc
   if (!protocol.budget_scope.empty()) {
     all.overrides.push_back("eval.budget_scope=" + protocol.budget_scope);
   }
+  if (!protocol.perception.empty()) {
+    all.overrides.push_back("eval.perception=" + protocol.perception);
+  }
   auto config = LoadConfig(all, protocol.variant);
   if (!config) return config;
   if (auto ok = sim::CheckGroundTruthEncoder(config->ground_truth); !ok)
@@ -50,16 +53,16 @@ bench::SceneHashes HashesOf(const bench::SceneContext& context) {
   return {bench::HexHash(context.scene().mesh_hash), bench::HexHash(context.navmesh().Hash())};
 }
 
-Result<void> CheckEncoder(const store::MapHeader& header, const bench::RunConfig& config,
+Result<void> CheckEncoder(const store::MapHeader& header, const std::string& encoder,
                           const std::string& path) {
-  const std::string wanted = sim::EncoderName(config.ground_truth);
-  if (header.feature_dim == 0 || header.encoder_name.empty() || header.encoder_name == wanted)
+  if (header.feature_dim == 0 || header.encoder_name.empty() || header.encoder_name == encoder)
     return {};
-  const char* remedy = header.encoder_name == "ground-truth-clip"
-                           ? "; set ground_truth.clip_dir to the folder of CLIP vectors"
-                           : "; leave ground_truth.clip_dir empty";
+  const char* remedy = "; it was made with eval.perception = networks and that network";
+  if (header.encoder_name == "ground-truth-clip")
+    remedy = "; set ground_truth.clip_dir to the folder of CLIP vectors";
+  if (header.encoder_name == "ground-truth") remedy = "; leave ground_truth.clip_dir empty";
   return Fail(ErrorCode::kMismatch,
-              "its features are of encoder \"" + header.encoder_name + "\", not \"" + wanted +
+              "its features are of encoder \"" + header.encoder_name + "\", not \"" + encoder +
                   "\"" + remedy,
               path);
 }

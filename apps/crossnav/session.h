@@ -16,9 +16,9 @@
 
 namespace crossnav::app {
 
-/// --variant, --success and --budget-scope as typed; empty = as configured.
+/// --variant, --success, --budget-scope and --perception as typed; empty = as configured.
 struct Protocol {
-  std::string variant = "full", success, budget_scope;
+  std::string variant = "full", success, budget_scope, perception;
 };
 Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol);
 
@@ -47,9 +47,9 @@ bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& v
 
 bench::SceneHashes HashesOf(const bench::SceneContext& context);
 
-/// Features of one encoder mean nothing to another: fails unless the map is of the one that the
-/// settings ask for, or holds no features.
-Result<void> CheckEncoder(const store::MapHeader& header, const bench::RunConfig& config,
+/// Features of one encoder mean nothing to another: fails unless the map is of `encoder`, or holds
+/// no features.
+Result<void> CheckEncoder(const store::MapHeader& header, const std::string& encoder,
                           const std::string& path);
 
 /// Episode `id` of the file.

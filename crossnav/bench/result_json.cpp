@@ -252,6 +252,7 @@ Result<RunHeader> ReadHeader(const Line& line) {
   Take(line.Get<std::string>("version"), header.version, error);
   Take(line.Get<std::string>("perception"), header.perception, error);
   Take(line.GetOr<std::string>("shard", "0/1"), header.shard, error);
+  Take(line.GetOr<std::map<std::string, std::string>>("networks", {}), header.networks, error);
   if (error) return tl::unexpected(*error);
   if (format != 1) {
     return Fail(ErrorCode::kUnsupported, "format " + std::to_string(format) + ", this reads 1",
@@ -304,19 +305,19 @@ std::string ToJsonLine(const RunHeader& header) {
   for (const auto& [id, hashes] : header.scenes) {
     scenes[id] = {{"mesh_hash", hashes.mesh_hash}, {"navmesh_hash", hashes.navmesh_hash}};
   }
-  const Json json = {
-      {"kind", "header"},
-      {"format", 1},
-      {"variant", header.variant},
-      {"config", Json::parse(header.config_json.empty() ? "{}" : header.config_json)},
-      {"config_hash", header.config_hash},
-      {"episodes_hash", header.episodes_hash},
-      {"episodes", header.episodes},
-      {"scenes", std::move(scenes)},
-      {"seed", header.seed},
-      {"version", header.version},
-      {"perception", header.perception},
-      {"shard", header.shard}};
+  Json json = {{"kind", "header"},
+               {"format", 1},
+               {"variant", header.variant},
+               {"config", Json::parse(header.config_json.empty() ? "{}" : header.config_json)},
+               {"config_hash", header.config_hash},
+               {"episodes_hash", header.episodes_hash},
+               {"episodes", header.episodes},
+               {"scenes", std::move(scenes)},
+               {"seed", header.seed},
+               {"version", header.version},
+               {"perception", header.perception},
+               {"shard", header.shard}};
+  if (!header.networks.empty()) json["networks"] = header.networks;
   return json.dump();
 }
 

@@ -73,6 +73,7 @@ std::string HeaderDifference(const RunHeader& a, const RunHeader& b) {
   if (a.seed != b.seed) return differs("seed", std::to_string(a.seed), std::to_string(b.seed));
   if (a.version != b.version) return differs("version", a.version, b.version);
   if (a.perception != b.perception) return differs("perception", a.perception, b.perception);
+  if (a.networks != b.networks) return "the files of the networks";
   for (const auto& [id, hashes] : a.scenes) {
     const auto other = b.scenes.find(id);
     if (other != b.scenes.end() && !(other->second == hashes)) return "hashes of scene " + id;

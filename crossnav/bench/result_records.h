@@ -32,6 +32,7 @@ struct RunHeader {
   std::uint64_t seed = 0;
   std::string version;
   std::string perception;
+  std::map<std::string, std::string> networks;  ///< SHA-256 of each file that was used, by name
   std::string shard = "0/1";  ///< index/count; the one field that may differ between merged files
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "crossnav/agent/config.h"
+#include "crossnav/networks/networks_config.h"
 #include "crossnav/sim/ground_truth.h"
 #include "crossnav/sim/navmesh.h"
 
@@ -22,7 +23,7 @@ struct EvalConfig {
   int stuck_steps = 10;                  ///< benchmark.md, "Outcome": under ...
   double stuck_m = 0.05;                 ///< ... this far in as many steps
   int seen_px = 200;                     // chosen: pixels that make an instance "in view"
-  std::string perception = "oracle";     ///< where detections come from: oracle
+  std::string perception = "oracle";     ///< where detections come from: oracle | networks
   double episode_seconds = 1800;         // chosen: CPU time, many times that of an episode
   std::uint64_t seed = 1;
 };
@@ -40,6 +41,7 @@ struct RunConfig {
   agent::Config agent;
   sim::NavMeshSettings navmesh;
   sim::GroundTruthConfig ground_truth;
+  networks::NetworksConfig networks;
   EvalConfig eval;
   DatasetConfig dataset;
 };
@@ -54,7 +56,7 @@ void Visit(V& visit, EvalConfig& c) {
   visit("stuck_steps", c.stuck_steps, 1, 1000000);
   visit("stuck_m", c.stuck_m, 0.0, 100.0);
   visit("seen_px", c.seen_px, 1, 1000000000);
-  visit("perception", c.perception, {"oracle"});
+  visit("perception", c.perception, {"oracle", "networks"});
   visit("episode_seconds", c.episode_seconds, 0.0, 1e6);
   visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
 }
@@ -73,6 +75,7 @@ void Visit(V& visit, RunConfig& c) {
   Visit(visit, c.agent);
   visit.Section("navmesh", c.navmesh);
   visit.Section("ground_truth", c.ground_truth);
+  visit.Section("networks", c.networks);
   visit.Section("eval", c.eval);
   visit.Section("dataset", c.dataset);
 }

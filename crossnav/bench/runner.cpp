@@ -92,8 +92,9 @@ class EpisodeRun {
 
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   observers_ = observers;
-  // Ground-truth perception reads the instance image, never the colours.
-  simulator_.ShowColour(std::any_of(observers.begin(), observers.end(),
+  // Ground-truth perception reads the instance image, never the colours; networks the reverse.
+  simulator_.ShowColour(config_.eval.perception != "oracle" ||
+                        std::any_of(observers.begin(), observers.end(),
                                     [](const RunObserver* o) { return o->NeedsColour(); }));
   const double start_ms = WallMs();
   if (auto ok = CheckPlayable(context_, episode_); !ok) return tl::unexpected(ok.error());
@@ -260,10 +261,17 @@ void EpisodeRun::FinishStage(const StageEnd& end, StageState& stage) const {
 }  // namespace
 
 Result<EpisodeRecord> RunEpisode(const SceneContext& context, const Episode& episode,
-                                 const RunConfig& config, std::span<RunObserver* const> observers) {
+                                 const RunConfig& config, std::span<RunObserver* const> observers,
+                                 const MakePerception& make_perception) {
+  if (config.eval.perception != "oracle" && !make_perception) {
+    return Fail(ErrorCode::kUnsupported,
+                "perception from " + config.eval.perception + " is not available here",
+                "eval.perception");
+  }
   sim::Simulator simulator(context.scene(), context.navmesh(), context.caster(),
                            config.agent.sensor, config.agent.action);
-  auto perception = sim::GroundTruthPerception(simulator, config.ground_truth);
+  auto perception = make_perception ? make_perception(simulator)
+                                    : sim::GroundTruthPerception(simulator, config.ground_truth);
   if (!perception) return tl::unexpected(perception.error());
   agent::Agent agent(config.agent, std::move(*perception));
   return EpisodeRun(context, episode, config, simulator, agent).Run(observers);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Plays one episode: simulator, ground-truth perception and agent, stage by stage, and judges it
-// (benchmark.md, "Running"). The agent sees observations and the current goal's name only.
+// Plays one episode: simulator, perception and agent, stage by stage, and judges it (benchmark.md,
+// "Running"). The agent sees observations and the current goal's name only.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "crossnav/bench/run_config.h"
 #include "crossnav/bench/scene_context.h"
 #include "crossnav/core/observation.h"
+#include "crossnav/perception/perception.h"
+#include "crossnav/sim/simulator.h"
 #include "crossnav/trace/step_trace.h"
 
 namespace crossnav::bench {
@@ -48,10 +51,15 @@ class RunObserver {
   }
 };
 
+/// Makes the agent's perception for one episode; networks need nothing of the simulator.
+using MakePerception = std::function<Result<perception::PerceptionSuite>(const sim::Simulator&)>;
+
+/// `make_perception` answers `eval.perception = networks`; left out, perception is ground truth.
 /// Errors: an episode that does not fit the scene (CheckPlayable), a malformed observation, a
 /// failing observer. A goal that is not found is a record, not an error.
 Result<EpisodeRecord> RunEpisode(const SceneContext& context, const Episode& episode,
                                  const RunConfig& config,
-                                 std::span<RunObserver* const> observers = {});
+                                 std::span<RunObserver* const> observers = {},
+                                 const MakePerception& make_perception = {});
 
 }  // namespace crossnav::bench

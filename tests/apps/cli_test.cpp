@@ -33,7 +33,8 @@ TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
                            "report",         "metrics",       "replay export",
                            "map info",       "map query",     "map export",
                            "bench",          "demo",          "suite make",
-                           "suite run",      "suite report"}) {
+                           "suite run",      "suite report",  "networks list",
+                           "networks check", "networks look"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;

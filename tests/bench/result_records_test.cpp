@@ -25,6 +25,7 @@ RunHeader MakeHeader() {
   header.seed = 7;
   header.version = "0.1.0";
   header.perception = "oracle";
+  header.networks["small"] = "0a";
   return header;
 }
 

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+// `networks list | check | look`: which networks there are, whether they work, what they see.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <span>
+
+#include "commands.h"
+#include "crossnav/bench/output_path.h"
+#include "crossnav/core/categories.h"
+#include "crossnav/networks/boxes.h"
+#include "crossnav/networks/suite.h"
+#include "crossnav/sim/picture.h"
+#include "frame_file.h"
+#include "look_panel.h"
+#include "perception_source.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// The cards that were asked for, as names in the folder or as paths; all where none was.
+Result<std::vector<fs::path>> CardsOf(const NetworksOptions& options,
+                                      const bench::RunConfig& config) {
+  const fs::path dir = NetworksDir(config);
+  if (options.cards.empty()) return networks::ListCards(dir);
+  std::vector<fs::path> cards;
+  for (const std::string& name : options.cards) {
+    const fs::path path = name;
+    cards.push_back(path.extension() == ".toml" ? path : dir / (name + ".toml"));
+  }
+  return cards;
+}
+
+/// A card and what became of it.
+struct Entry {
+  std::string name, family, parts, licence, error;
+  bool is_there = false;  ///< the file, as the card describes it
+};
+
+Entry EntryOf(const fs::path& path) {
+  Entry entry;
+  entry.name = path.stem().string();
+  const auto card = networks::ReadModelCard(path);
+  if (!card) {
+    entry.error = card.error().Message();
+    return entry;
+  }
+  entry.family = card->family;
+  entry.licence = card->licence;
+  const auto family = networks::FamilyOf(*card);
+  if (!family) {
+    entry.error = family.error().Message();
+    return entry;
+  }
+  entry.parts = (*family)->parts;
+  const auto bytes = networks::ReadNetworkFile(*card);
+  entry.is_there = bytes.has_value();
+  if (!bytes) entry.error = bytes.error().Message();
+  return entry;
+}
+
+Json BackendsJson() {
+  Json json = Json::array();
+  for (const networks::Backend& backend : networks::Backends())
+    json.push_back({{"name", backend.name},
+                    {"found", backend.is_built},
+                    {"version", backend.version},
+                    {"get", backend.is_built ? "" : backend.get}});
+  return json;
+}
+
+/// Grey and 2 m away everywhere, of the sensor's size.
+Observation PlainFrame(const SensorConfig& sensor) {
+  Observation obs;
+  obs.camera = sensor.Intrinsics();
+  obs.rgb = RgbImage(sensor.width_px, sensor.height_px, Rgb8{128, 128, 128});
+  obs.depth_m = DepthImage(sensor.width_px, sensor.height_px, 2.0F);
+  obs.T_world_camera = CameraPose({}, sensor.camera_height_m);
+  return obs;
+}
+
+/// Names a network for every part that it has, and none for the others.
+networks::NetworksConfig Alone(const networks::NetworksConfig& base, const std::string& name,
+                               const std::string& parts) {
+  networks::NetworksConfig config = base;
+  const auto has = [&](const char* part) {
+    return (" " + parts + " ").find(std::string(" ") + part + " ") != std::string::npos;
+  };
+  config.detector = has("detector") ? name : "";
+  config.segmenter = has("segmenter") ? name : has("detector") ? "depth" : "";
+  config.stairs = has("stairs") ? name : "";
+  config.encoder = has("encoder") ? name : "";
+  return config;
+}
+
+/// The suite's parts, each asked once, the detector for each goal; one that is none of its classes
+/// is no error.
+Result<Look> LookAt(const perception::PerceptionSuite& suite, const Observation& obs,
+                    std::span<const std::string_view> goals, const std::string& text) {
+  Look look;
+  look.text = text;
+  for (const std::string_view goal : goals) {
+    if (!suite.detector) break;
+    auto found = suite.detector->Detect(obs, goal);
+    if (!found && found.error().code == ErrorCode::kUnsupported) continue;
+    if (!found) return tl::unexpected(found.error());
+    for (perception::Detection& detection : *found) {
+      if (suite.segmenter)
+        if (auto ok = suite.segmenter->Segment(obs, detection); !ok)
+          return tl::unexpected(ok.error());
+      look.found.push_back({std::string(goal), std::move(detection)});
+    }
+  }
+  if (suite.stairs) {
+    auto stairs = suite.stairs->SegmentStairs(obs);
+    if (!stairs) return tl::unexpected(stairs.error());
+    look.stairs = std::move(*stairs);
+  }
+  if (!suite.encoder || text.empty()) return look;
+  const auto vector = suite.encoder->EncodeText(text);
+  if (!vector) return tl::unexpected(vector.error());
+  const auto grid = suite.encoder->EncodeImage(obs);
+  if (!grid) return tl::unexpected(grid.error());
+  look.similarity = Image<float>(grid->cols, grid->rows);
+  for (std::size_t i = 0; i < look.similarity.data.size(); ++i) {
+    const auto first = grid->data.begin() + static_cast<std::ptrdiff_t>(i * vector->size());
+    look.similarity.data[i] = std::inner_product(vector->begin(), vector->end(), first, 0.0F);
+  }
+  return look;
+}
+
+/// Milliseconds of the second of two looks: the first one allocates.
+Result<double> TimeOf(const fs::path& path, const Entry& entry, const bench::RunConfig& config) {
+  const auto settings = Alone(config.networks, path.string(), entry.parts);
+  auto set = networks::NetworkSet::Read(settings, path.parent_path());
+  if (!set) return tl::unexpected(set.error());
+  const auto suite = set->MakeSuite(config.agent.sensor.camera_height_m);
+  if (!suite) return tl::unexpected(suite.error());
+  Observation obs = PlainFrame(config.agent.sensor);
+  const std::span<const std::string_view> goal(kCategories.data(), 1);  // as an agent asks
+  double ms = 0;
+  for (int i = 0; i < 2; ++i) {
+    obs.rgb.data[0].r = static_cast<std::uint8_t>(i);  // another frame
+    const auto start = std::chrono::steady_clock::now();
+    const auto look = LookAt(*suite, obs, goal, suite->encoder ? "chair" : "");
+    if (!look) return tl::unexpected(look.error());
+    ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+  return ms;
+}
+
+Json LookJson(const Look& look, const std::string& panel) {
+  Json found = Json::array();
+  for (const auto& [goal, detection] : look.found) {
+    const auto& box = detection.box;
+    found.push_back(
+        {{"goal", goal},
+         {"confidence", detection.confidence},
+         {"box", {box.u0, box.v0, box.u1, box.v1}},
+         {"mask_px", std::count(detection.mask.data.begin(), detection.mask.data.end(), 1)},
+         {"mask_quality", detection.mask_quality}});
+  }
+  Json json = {{"found", std::move(found)}, {"panel", panel}};
+  if (!look.stairs.empty()) {
+    const auto& p = look.stairs.data;
+    json["stairs"] = {{"px", std::count_if(p.begin(), p.end(), [](float x) { return x >= 0.5F; })},
+                      {"most", *std::max_element(p.begin(), p.end())}};
+  }
+  if (!look.similarity.empty()) {
+    json["similarity"] = {{"text", look.text},
+                          {"rows", look.similarity.height},
+                          {"cols", look.similarity.width},
+                          {"cells", look.similarity.data}};
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& common,
+                          Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  const auto cards = CardsOf(options, *config);
+  if (!cards) return tl::unexpected(cards.error());
+  Json list = Json::array();
+  std::string text = fmt::format("{}\n", NetworksDir(*config).string());
+  for (const fs::path& path : *cards) {
+    const Entry e = EntryOf(path);
+    list.push_back({{"name", e.name},
+                    {"family", e.family},
+                    {"parts", e.parts},
+                    {"licence", e.licence},
+                    {"found", e.is_there},
+                    {"error", e.error}});
+    text += fmt::format("  {:<24} {:<10} {:<36} {}\n", e.name, e.family, e.parts,
+                        e.error.empty() ? "found" : e.error);
+  }
+  for (const networks::Backend& backend : networks::Backends())
+    text += fmt::format(
+        "{}: {}\n", backend.name,
+        backend.is_built ? backend.version : std::string("not built in; ") + backend.get);
+  console.Print(text);
+  console.Document(Json({{"dir", NetworksDir(*config).string()},
+                         {"networks", std::move(list)},
+                         {"backends", BackendsJson()}})
+                       .dump(1));
+  return {};
+}
+
+Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& common,
+                           Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  const auto cards = CardsOf(options, *config);
+  if (!cards) return tl::unexpected(cards.error());
+  std::string first_error, text;
+  Json list = Json::array();
+  for (const fs::path& path : *cards) {
+    Entry entry = EntryOf(path);
+    double ms = 0;
+    // A card whose file the user has not fetched is nothing wrong, unless it was asked for.
+    const bool is_absent = !entry.is_there && entry.family.size() > 0 && options.cards.empty() &&
+                           entry.error.find("is not there") != std::string::npos;
+    if (entry.is_there) {
+      const auto time = TimeOf(path, entry, *config);
+      if (time) ms = *time;
+      if (!time) entry.error = time.error().Message();
+    }
+    if (!entry.error.empty() && !is_absent && first_error.empty()) first_error = entry.error;
+    text += fmt::format(
+        "{:<24} {}\n", entry.name,
+        entry.error.empty() ? fmt::format("fits its card, {:.1f} ms a frame", ms) : entry.error);
+    list.push_back({{"name", entry.name}, {"ms", ms}, {"error", entry.error}});
+  }
+  console.Print(text);
+  console.Document(Json({{"networks", std::move(list)}}).dump(1));
+  if (first_error.empty()) return {};
+  return Fail(ErrorCode::kInvalid, first_error);
+}
+
+Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& common,
+                          Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  const auto obs = ReadFrame(options.image, options.depth, config->agent.sensor);
+  if (!obs) return tl::unexpected(obs.error());
+  networks::NetworksConfig settings = config->networks;
+  if (!options.network.empty()) {
+    NetworksOptions one;
+    one.cards = {options.network};
+    const auto path = CardsOf(one, *config);
+    const Entry entry = EntryOf(path->front());
+    if (!entry.error.empty()) return Fail(ErrorCode::kInvalid, entry.error);
+    settings = Alone(settings, path->front().string(), entry.parts);
+  }
+  auto set = networks::NetworkSet::Read(settings, NetworksDir(*config));
+  if (!set) return tl::unexpected(set.error());
+  const auto suite = set->MakeSuite(config->agent.sensor.camera_height_m);
+  if (!suite) return tl::unexpected(suite.error());
+  const auto look = LookAt(*suite, *obs, kCategories, options.text);
+  if (!look) return tl::unexpected(look.error());
+  if (auto ok = sim::WritePng(LookPanel(*obs, *look), options.out); !ok) return ok;
+  std::string text;
+  for (const auto& [goal, detection] : look->found) {
+    const auto& box = detection.box;
+    text += fmt::format("{:<12} {:.2f}  {}..{} x {}..{}  mask {:.2f}\n", goal, detection.confidence,
+                        box.u0, box.u1, box.v0, box.v1, detection.mask_quality);
+  }
+  console.Print(text + options.out + "\n");
+  console.Document(LookJson(*look, options.out).dump(1));
+  return {};
+}
+
+}  // namespace crossnav::app

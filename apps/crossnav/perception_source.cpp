@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "perception_source.h"
+
+#include <array>
+#include <system_error>
+
+#include "crossnav/sim/ground_truth.h"
+
+namespace crossnav::app {
+
+namespace fs = std::filesystem;
+
+fs::path NetworksDir(const bench::RunConfig& config) {
+  if (!config.networks.dir.empty()) return config.networks.dir;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  // In a build tree (build/PRESET/apps/crossnav), installed (bin), or where one is.
+  const std::array<fs::path, 3> places = {program / "../../../../networks",
+                                          program / "../share/crossnav/networks", "networks"};
+  for (const fs::path& place : places)
+    if (fs::is_directory(place, error)) return fs::weakly_canonical(place, error);
+  return places.back();
+}
+
+Result<PerceptionSource> PerceptionSource::Read(const bench::RunConfig& config) {
+  PerceptionSource source(config);
+  if (config.eval.perception == "oracle") return source;
+  auto set = networks::NetworkSet::Read(config.networks, NetworksDir(config));
+  if (!set) return tl::unexpected(set.error());
+  if (auto ok = set->IsComplete(); !ok) return tl::unexpected(ok.error());
+  source.networks_ = std::make_shared<networks::NetworkSet>(std::move(*set));
+  return source;
+}
+
+bench::MakePerception PerceptionSource::Maker() const {
+  if (!networks_) return {};
+  return [set = networks_, height_m = config_->agent.sensor.camera_height_m](
+             const sim::Simulator&) { return set->MakeSuite(height_m); };
+}
+
+std::optional<Result<perception::PerceptionSuite>> PerceptionSource::MakeSuite() const {
+  if (!networks_) return std::nullopt;
+  return networks_->MakeSuite(config_->agent.sensor.camera_height_m);
+}
+
+std::map<std::string, std::string> PerceptionSource::Hashes() const {
+  if (!networks_) return {};
+  return networks_->hashes();
+}
+
+std::string PerceptionSource::EncoderName() const {
+  return networks_ ? networks_->encoder_name() : sim::EncoderName(config_->ground_truth);
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "cli_fixture.h"
+#include "networks/small_network.h"
+
+namespace crossnav::test {
+namespace {
+
+/// A folder `nets` with one small network, and the options that make it answer everything.
+class NetworksCli : public Cli {
+ protected:
+  void SetUp() override {
+    if (!networks::test::HasBackend()) GTEST_SKIP() << "no inference library is built in";
+    Cli::SetUp();
+    fs::create_directory(At("nets"));
+    networks::test::WriteSmallNetwork(At("nets"));
+  }
+  const std::string use_ =
+      " --set networks.dir=nets --set networks.detector=small --set networks.segmenter=small"
+      " --set networks.stairs=small --set networks.encoder=small";
+};
+
+TEST_F(NetworksCli, ListAndCheckSayWhatIsThere) {
+  const Outcome list = Run("networks list --json" + use_);
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  const Json json = Json::parse(list.out);
+  EXPECT_EQ(json["networks"].size(), 1U);
+  EXPECT_EQ(json["networks"][0]["found"], true);
+  EXPECT_EQ(json["networks"][0]["parts"], "detector segmenter stairs encoder");
+  const Outcome check = Run("networks check small --json" + use_);
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_GT(Json::parse(check.out)["networks"][0]["ms"], 0);
+  std::ofstream(At("nets/small.onnx")) << "damaged";
+  EXPECT_EQ(Run("networks check --quiet" + use_).exit_code, 1);
+}
+
+TEST_F(NetworksCli, LookDrawsWhatTheySee) {
+  ASSERT_EQ(
+      Run("scene render scenes/00001-CrossnavHouse --out view.png" + std::string(kSmall)).exit_code,
+      0);
+  const Outcome look = Run("networks look view.png --text bed --out panel.png --json" + use_);
+  ASSERT_EQ(look.exit_code, 0) << look.err;
+  const Json json = Json::parse(look.out);
+  EXPECT_EQ(json["similarity"]["cells"].size(), 16U);
+  EXPECT_TRUE(json.contains("stairs"));
+  EXPECT_TRUE(fs::exists(At("panel.png")));
+  ExpectFailure("networks look none.png --out p.png" + use_, {"none.png"});
+  ExpectFailure("networks look view.png --out p.png --network none" + use_, {"none.toml"});
+}
+
+TEST_F(NetworksCli, AnEpisodeFromPixelsSaysSoAndNamesTheFiles) {
+  const Outcome run = Run("run --quiet --scenes scenes --episodes e.json --episode " + FirstId() +
+                          " --perception networks --save-map m.map" + kSmall + use_);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string file = ReadText(At("out/run/" + FirstId() + "/results.jsonl"));
+  const Json header = Json::parse(file.substr(0, file.find('\n')));
+  EXPECT_EQ(header["perception"], "networks-perception");
+  EXPECT_EQ(header["networks"]["small"].get<std::string>().size(), 64U);
+  // Its memory speaks the network's language, and no other.
+  EXPECT_EQ(Run("map query m.map bed --set eval.perception=networks" + use_).exit_code, 0);
+  ExpectFailure("map query m.map bed", {"m.map", "small-"});
+}
+
+TEST_F(NetworksCli, AMissingNetworkIsNamedBeforeAnythingRuns) {
+  fs::remove(At("nets/small.onnx"));
+  ExpectFailure("eval --quiet --scenes scenes --episodes e.json --out run --perception networks" +
+                    std::string(kSmall) + use_,
+                {"small.onnx", "is not there"});
+}
+
+}  // namespace
+}  // namespace crossnav::test
