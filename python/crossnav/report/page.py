@@ -26,7 +26,8 @@ a { color: #20476b; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 6px;
         padding: 14px 16px; }
 .card h3 { margin: 0 0 2px; font-size: 16px; overflow-wrap: anywhere; }
-.big { display: flex; gap: 22px; margin: 8px 0; } .big b { display: block; font-size: 24px; }
+.big { display: flex; flex-wrap: wrap; gap: 8px 22px; margin: 8px 0; }
+.big b { display: block; font-size: 24px; white-space: nowrap; }
 .big span { color: var(--soft); font-size: 12px; }
 .card small { color: var(--soft); display: block; overflow-wrap: anywhere; }
 img { max-width: 100%; height: auto; display: block; }
