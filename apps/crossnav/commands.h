@@ -202,6 +202,18 @@ Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& 
 Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& common,
                           Console& console);
 
+struct StairsOptions {
+  int count = 40;    ///< attempts a kind and direction
+  int budget = 400;  ///< actions of an attempt
+  std::uint64_t seed = 1;
+  std::vector<std::string> kinds;  ///< empty = all
+  std::string keep;                ///< folder for worlds and episodes of failed attempts
+};
+/// Names that StairsOptions::kinds may hold.
+std::vector<std::string> StairTrialKinds();
+Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& common,
+                         Console& console);
+
 Result<void> Doctor(const CommonOptions& common, Console& console);
 
 }  // namespace crossnav::app

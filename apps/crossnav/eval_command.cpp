@@ -126,6 +126,7 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
   const KeptReplays replays(options, *config, header);
   if (auto ok = replays.Check(); !ok) return ok;
   SceneCache cache(options.scenes, *config);
+  cache.UseGoalsOf(*file);
   if (auto ok = PrepareEval(cache, options.jobs, episodes, header, console); !ok) return ok;
   if (auto ok = CheckHashes(options, header); !ok) return ok;
 

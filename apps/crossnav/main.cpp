@@ -30,6 +30,7 @@ struct Options {
   MapOptions map;
   BenchOptions bench;
   NetworksOptions networks;
+  StairsOptions stairs;
   Command command;
 };
 
@@ -336,6 +337,25 @@ void AddTools(CLI::App& app, Options& o) {
   bench->add_option("--episode", o.bench.episode, "Its id; default: the first");
   AddPerception(bench, o.bench.perception);
   bench->add_option("--repeat", o.bench.repeat, "Runs of the episode")->check(CLI::Range(1, 1000));
+  bench->callback([&o, bench] {
+    if (!bench->get_subcommands().empty()) return;
+    o.command = [&o](Console& c) { return Bench(o.bench, o.common, c); };
+  });
+  CLI::App* stairs =
+      AddVerb(*bench, o, "stairs", "Attempts at each kind of stair, and at what is none",
+              "crossnav bench stairs --count 40",
+              [&o](Console& c) { return BenchStairs(o.stairs, o.common, c); });
+  stairs->add_option("--count", o.stairs.count, "Attempts a kind and direction")
+      ->check(CLI::Range(1, 100000));
+  stairs->add_option("--seed", o.stairs.seed, "First seed");
+  stairs->add_option("--budget", o.stairs.budget, "Actions of an attempt")
+      ->check(CLI::Range(1, 1000000));
+  stairs->add_option("--kind", o.stairs.kinds, "Only this kind; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember(StairTrialKinds()));
+  stairs->add_option("--keep", o.stairs.keep,
+                     "Folder for worlds and episodes of failed attempts, for crossnav run");
 }
 
 int Main(int argc, char** argv) {

@@ -39,6 +39,7 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   files.memory = options.memory;
   if (auto ok = CheckOutputs(files); !ok) return ok;
   SceneCache cache(options.scenes, *config);
+  cache.UseGoalsOf(*file);
   const auto context = cache.Get(episode->scene_id);
   if (!context) return tl::unexpected(context.error());
   if (auto ok = bench::CheckPlayable(**context, *episode); !ok) return ok;

@@ -31,6 +31,7 @@ Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) 
   if (entries_.size() >= keep_) entries_.erase(entries_.begin());
   auto context = bench::SceneContext::Load(scenes_dir_, scene_id, config_);
   if (!context) return tl::unexpected(context.error());
+  if (goals_ != nullptr) (*context)->UseGoals(*goals_, scene_id);
   entries_.push_back({scene_id, std::move(*context)});
   return entries_.back().context.get();
 }

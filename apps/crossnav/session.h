@@ -28,6 +28,12 @@ class SceneCache {
   SceneCache(std::filesystem::path scenes_dir, const bench::RunConfig& config, std::size_t keep = 2)
       : scenes_dir_(std::move(scenes_dir)), config_(config), keep_(keep) {}
 
+  /// Scenes take the viewpoints of an ObjectNav file; those of other files are found anew. `file`
+  /// must outlive the cache.
+  void UseGoalsOf(const bench::EpisodeFile& file) {
+    goals_ = file.format == bench::EpisodeFormat::kObjectNav ? &file.goals_by_category : nullptr;
+  }
+
   Result<const bench::SceneContext*> Get(const std::string& scene_id);
 
  private:
@@ -39,6 +45,7 @@ class SceneCache {
   const bench::RunConfig& config_;
   std::size_t keep_;
   std::vector<Entry> entries_;  // oldest first
+  const std::map<std::string, std::vector<bench::GoalObject>>* goals_ = nullptr;
 };
 
 /// Header of a run over `file`; `scenes` is filled in by the caller.

@@ -62,6 +62,15 @@ std::vector<int> ResampleScenes(Rng& rng, const std::vector<std::vector<int>>& s
 
 }  // namespace
 
+Interval WilsonInterval(int hits, int trials) {
+  if (trials <= 0) return {0, 1};
+  constexpr double kZ = 1.959964;  // 95 %
+  const double n = trials, p = hits / n, zz = kZ * kZ;
+  const double middle = (p + zz / (2 * n)) / (1 + zz / n);
+  const double half = kZ * std::sqrt(p * (1 - p) / n + zz / (4 * n * n)) / (1 + zz / n);
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
 std::vector<std::pair<std::string, Statistic>> NamedStatistics(int goals) {
   std::vector<std::pair<std::string, Statistic>> all = {{"SR", Field(&Metrics::sr)},
                                                         {"SPL", Field(&Metrics::spl)},

@@ -63,6 +63,9 @@ struct Interval {
   double low = 0, high = 0;
 };
 
+/// Wilson's 95 % interval of a share, `hits` of `trials`; [0, 1] without trials.
+Interval WilsonInterval(int hits, int trials);
+
 /// A figure of a set of episodes; empty where it is undefined (e.g. nobody reached the stage).
 using Statistic = std::function<std::optional<double>(const Metrics&)>;
 

@@ -4,6 +4,7 @@
 // runs: comparison.h.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,11 @@ struct ReportRun {
   std::vector<EpisodeRecord> episodes;
   std::optional<RunHeader> header;  ///< absent in files of other programs
 };
+
+/// Reads runs: folders with results*.jsonl, or single files. Errors: a file that does not fit, and
+/// unless `require_all` is false a run that is not finished.
+Result<std::vector<ReportRun>> ReadRuns(const std::vector<std::filesystem::path>& paths,
+                                        bool require_all);
 
 /// One figure, as a row of the CSV and the JSON file.
 struct ReportFigure {

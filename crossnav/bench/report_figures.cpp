@@ -20,10 +20,16 @@ std::optional<double> PaperValue(const std::string& variant, const std::string& 
     if (metric == "SPL") return row.spl / 100;
     if (metric == "PR") return row.pr / 100;
     if (metric == "PPL") return row.ppl / 100;
+    double reached = 1;  // share of episodes, eq:conditional_global_relation
     for (int k = 0; k < 3; ++k) {
       const auto stage = static_cast<std::size_t>(k);
+      const double sr_global = reached * row.sr_cond[stage] / 100;
+      const double spl_global = reached * row.spl_cond[stage] / 100;
+      reached = sr_global;
       if (metric == fmt::format("SR_cond_{}", k + 1)) return row.sr_cond[stage] / 100;
       if (metric == fmt::format("SPL_cond_{}", k + 1)) return row.spl_cond[stage] / 100;
+      if (metric == fmt::format("SR_global_{}", k + 1)) return sr_global;
+      if (metric == fmt::format("SPL_global_{}", k + 1)) return spl_global;
     }
   }
   return std::nullopt;

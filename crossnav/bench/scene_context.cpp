@@ -19,6 +19,28 @@ bool EndsWith(const std::string& text, std::string_view end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// The scene's instance that a file's goal means: of its id, or else one at its place.
+const sim::SceneInstance* InstanceOf(const sim::Scene& scene, const GoalObject& goal) {
+  constexpr double kAt_m = 0.3;  // chosen: files give centres, with a few decimals
+  const auto holds = [&](const sim::SceneInstance& instance) {
+    return instance.box.HorizontalDistance(goal.p_world) < kAt_m &&
+           goal.p_world.z() > instance.box.min.z() - kAt_m &&
+           goal.p_world.z() < instance.box.max.z() + kAt_m;
+  };
+  const sim::SceneInstance* same = scene.FindInstance(goal.object_id);
+  if (same != nullptr && holds(*same)) return same;
+  for (const sim::SceneInstance& instance : scene.instances) {
+    if (instance.category == goal.category && holds(instance)) return &instance;
+  }
+  return nullptr;
+}
+
+std::vector<int> FloorsUnder(const sim::NavMesh& navmesh, const std::vector<Vector3d>& points) {
+  std::set<int> floors;
+  for (const Vector3d& p : points) floors.insert(navmesh.FloorOf(p));
+  return {floors.begin(), floors.end()};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SceneContext>> SceneContext::Load(const std::filesystem::path& scenes_dir,
@@ -28,14 +50,51 @@ Result<std::unique_ptr<SceneContext>> SceneContext::Load(const std::filesystem::
   if (!folder) return tl::unexpected(folder.error());
   auto scene = sim::LoadScene(*folder);
   if (!scene) return tl::unexpected(scene.error());
-  std::unique_ptr<SceneContext> context(new SceneContext);
-  context->scene_ = std::make_unique<sim::Scene>(std::move(*scene));
-  auto navmesh = sim::NavMesh::BuildCached(*context->scene_, config.navmesh);
+  auto owned = std::make_unique<sim::Scene>(std::move(*scene));
+  auto navmesh = sim::NavMesh::BuildCached(*owned, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
-  context->navmesh_ = std::make_unique<sim::NavMesh>(std::move(*navmesh));
+  return Assemble(std::move(owned), std::move(*navmesh), config);
+}
+
+Result<std::unique_ptr<SceneContext>> SceneContext::Of(sim::Scene scene, const RunConfig& config) {
+  auto owned = std::make_unique<sim::Scene>(std::move(scene));
+  sim::UpdateDerived(*owned);
+  auto navmesh = sim::NavMesh::Build(*owned, config.navmesh);
+  if (!navmesh) return tl::unexpected(navmesh.error());
+  return Assemble(std::move(owned), std::move(*navmesh), config);
+}
+
+std::unique_ptr<SceneContext> SceneContext::Assemble(std::unique_ptr<sim::Scene> scene,
+                                                     sim::NavMesh navmesh,
+                                                     const RunConfig& config) {
+  std::unique_ptr<SceneContext> context(new SceneContext);
+  context->scene_ = std::move(scene);
+  context->navmesh_ = std::make_unique<sim::NavMesh>(std::move(navmesh));
   context->caster_ = std::make_unique<sim::RayCaster>(*context->scene_);
   context->sensor_ = config.agent.sensor;
   return context;
+}
+
+void SceneContext::UseGoals(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+                            const std::string& scene_id) {
+  const std::string prefix = std::filesystem::path(scene_id).filename().string() + "_";
+  for (const auto& [key, goals] : goals_by_category) {
+    if (key.rfind(prefix, 0) != 0) continue;
+    std::vector<Target> targets;
+    for (const GoalObject& goal : goals) {
+      if (goal.viewpoints_world.empty()) continue;
+      const sim::SceneInstance* instance = InstanceOf(*scene_, goal);
+      Target target{goal.object_id, goal.name, {}, goal.viewpoints_world, {}};
+      target.box.Add(goal.p_world);
+      if (instance != nullptr) {
+        target.instance = instance->id;
+        target.box = instance->box;
+      }
+      target.floors = FloorsUnder(*navmesh_, target.viewpoints_world);
+      targets.push_back(std::move(target));
+    }
+    if (!targets.empty()) targets_[key.substr(prefix.size())] = std::move(targets);
+  }
 }
 
 const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) const {
@@ -46,9 +105,7 @@ const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) cons
     if ((IsCategory(goal) ? instance.category : instance.name) != goal) continue;
     Target target{instance.id, instance.name, instance.box, {}, {}};
     target.viewpoints_world = sim::Viewpoints(*scene_, *navmesh_, *caster_, instance, sensor_);
-    std::set<int> floors;
-    for (const Vector3d& p : target.viewpoints_world) floors.insert(navmesh_->FloorOf(p));
-    target.floors.assign(floors.begin(), floors.end());
+    target.floors = FloorsUnder(*navmesh_, target.viewpoints_world);
     targets.push_back(std::move(target));
   }
   return targets_.emplace(goal, std::move(targets)).first->second;

@@ -35,6 +35,13 @@ class SceneContext {
   static Result<std::unique_ptr<SceneContext>> Load(const std::filesystem::path& scenes_dir,
                                                     const std::string& scene_id,
                                                     const RunConfig& config);
+  /// Of a scene made in code; its navmesh is built and not cached.
+  static Result<std::unique_ptr<SceneContext>> Of(sim::Scene scene, const RunConfig& config);
+
+  /// Takes instances and viewpoints from an episode file, keys "<scene file>_<category>", where it
+  /// lists viewpoints, instead of looking for them: X(g) of an ObjectNav file is the file's.
+  void UseGoals(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+                const std::string& scene_id);
 
   const sim::Scene& scene() const { return *scene_; }
   const sim::NavMesh& navmesh() const { return *navmesh_; }
@@ -58,6 +65,9 @@ class SceneContext {
 
  private:
   SceneContext() = default;
+  static std::unique_ptr<SceneContext> Assemble(std::unique_ptr<sim::Scene> scene,
+                                                sim::NavMesh navmesh, const RunConfig& config);
+
   std::unique_ptr<sim::Scene> scene_;
   std::unique_ptr<sim::NavMesh> navmesh_;
   std::unique_ptr<sim::RayCaster> caster_;

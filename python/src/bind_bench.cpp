@@ -2,12 +2,15 @@
 // Episodes, the C++ runner, metrics, and worlds made by code.
 #include <nanobind/stl/map.h>
 
+#include "crossnav/bench/cause.h"
 #include "crossnav/bench/episode_generator.h"
 #include "crossnav/bench/episodes.h"
 #include "crossnav/bench/metrics_report.h"
 #include "crossnav/bench/outcome.h"
+#include "crossnav/bench/report.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/bench/runner.h"
+#include "crossnav/trace/replay_page.h"
 #include "crossnav/trace/trace_json.h"
 #include "crossnav/world/embedded_house.h"
 #include "crossnav/world/furniture_pack.h"
@@ -64,6 +67,39 @@ nb::object MetricsOfFiles(const std::vector<std::filesystem::path>& paths) {
     return bench::MetricsJson(results.episodes, {});
   }();
   return FromJson(text);
+}
+
+/// report.json of the program with the records of each run, and what follows from each record.
+nb::object ReportOfRuns(const std::vector<std::filesystem::path>& paths, bool partial) {
+  std::vector<bench::ReportRun> runs;
+  const std::string text = [&] {
+    const nb::gil_scoped_release others_run;
+    runs = Unwrap(bench::ReadRuns(paths, !partial));
+    return bench::ReportJson(runs, bench::CollectFigures(runs, {}));
+  }();
+  nb::object report = FromJson(text);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    nb::list records;
+    for (const bench::EpisodeRecord& episode : runs[i].episodes) {
+      nb::object record = FromJson(bench::ToJsonLine(episode));
+      nb::list causes;
+      nb::list spl;
+      for (const bench::StageRecord& stage : episode.stages) {
+        causes.append(bench::CauseOf(stage));
+        spl.append(bench::StageSpl(stage));
+      }
+      const bench::Metrics metrics = bench::ComputeMetrics({&episode, 1});
+      record["causes"] = causes;
+      record["stage_spl"] = spl;
+      record["outcome"] = std::string(episode.OutcomeName());
+      record["completed"] = episode.Completed();
+      record["spl"] = metrics.spl;
+      record["ppl"] = metrics.ppl;
+      records.append(record);
+    }
+    report["runs"][i]["records"] = records;
+  }
+  return report;
 }
 
 nb::dict ToDict(const world::HouseReport& house) {
@@ -144,6 +180,18 @@ void BindBench(nb::module_& m) {
         nb::sig("def metrics_of_files(paths: collections.abc.Sequence[str | os.PathLike[str]]) -> "
                 "dict[str, typing.Any]"),
         "What `crossnav metrics --json` says of result files.");
+  m.def(
+      "report_of_runs", &ReportOfRuns, "paths"_a, "partial"_a = false,
+      nb::sig("def report_of_runs(paths: collections.abc.Sequence[str | os.PathLike[str]], "
+              "partial: bool = False) -> dict[str, typing.Any]"),
+      "report.json of `crossnav report`, with the records of each run and what follows from them.");
+  m.def(
+      "export_replay_page",
+      [](const PathIn& replay, const PathIn& page) {
+        const nb::gil_scoped_release others_run;
+        Unwrap(trace::ExportReplayPage(replay.path, page.path));
+      },
+      "replay"_a, "page"_a, "As `crossnav replay export`.");
   m.def(
       "list_scenes", [](const PathIn& dir) { return Unwrap(bench::ListScenes(dir.path)); },
       "scenes_dir"_a, "Ids of all scenes below the folder, sorted.");

@@ -26,15 +26,33 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
 }
 
 TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"doctor",         "assets import", "world generate",
-                           "world stats",    "scene info",    "scene render",
-                           "scene import",   "scene views",   "episodes generate",
-                           "episodes check", "run",           "eval",
-                           "report",         "metrics",       "replay export",
-                           "map info",       "map query",     "map export",
-                           "bench",          "demo",          "suite make",
-                           "suite run",      "suite report",  "networks list",
-                           "networks check", "networks look"}) {
+  for (const char* verb : {"doctor",
+                           "assets import",
+                           "world generate",
+                           "world stats",
+                           "scene info",
+                           "scene render",
+                           "scene import",
+                           "scene views",
+                           "episodes generate",
+                           "episodes check",
+                           "run",
+                           "eval",
+                           "report",
+                           "metrics",
+                           "replay export",
+                           "map info",
+                           "map query",
+                           "map export",
+                           "bench",
+                           "bench stairs",
+                           "demo",
+                           "suite make",
+                           "suite run",
+                           "suite report",
+                           "networks list",
+                           "networks check",
+                           "networks look"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;
@@ -48,6 +66,31 @@ TEST_F(Cli, DoctorPrintsOneJsonDocument) {
   const Outcome outcome = Run("doctor --json");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(Json::parse(outcome.out).contains("version"));
+}
+
+TEST_F(Cli, BenchStairsPrintsARowPerKindAndDirection) {
+  const Outcome outcome =
+      Run("bench stairs --json --quiet --count 2 --budget 40 --kind straight --kind \"shelf like "
+          "steps\" --keep kept" +
+          std::string(kSmall));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json document = Json::parse(outcome.out);
+  ASSERT_EQ(document["stairs"].size(), 2u);
+  EXPECT_EQ(document["stairs"][0]["way"], "up");
+  EXPECT_EQ(document["stairs"][1]["way"], "down");
+  for (const Json& row : document["stairs"]) EXPECT_EQ(row["attempts"], 2);
+  ASSERT_EQ(document["false_entrances"].size(), 1u);
+  EXPECT_EQ(document["false_entrances"][0]["kind"], "shelf like steps");
+  const auto failures =
+      document["stairs"][0]["failures"].size() + document["stairs"][1]["failures"].size();
+  ASSERT_GT(failures, 0u);  // 40 actions are too few
+  const Json kept = Json::parse(ReadText(At("kept/episodes.json")));
+  ASSERT_EQ(kept["episodes"].size(), failures);
+  const Outcome again =
+      Run("run --quiet --scenes kept --episodes kept/episodes.json --out again --episode " +
+          kept["episodes"][0]["episode_id"].get<std::string>() + kSmall);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  ExpectFailure("bench stairs --quiet --count 1 --keep /proc/none", {"--keep"});
 }
 
 TEST_F(Cli, SceneInfoFollowsTheContract) {

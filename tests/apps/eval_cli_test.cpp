@@ -51,6 +51,32 @@ TEST_F(EvalCli, EvalIsTheSameForAnyNumberOfJobsAndShards) {
   EXPECT_EQ(Run("report c/results.0-of-2.jsonl --out other").exit_code, 1);
 }
 
+TEST_F(EvalCli, AnObjectNavFileIsJudgedAsTheFieldDoes) {
+  Json file = Episodes();
+  int number = 0;
+  for (Json& episode : file["episodes"]) {
+    episode["object_category"] = episode["goals"][0];
+    episode["goals"] = Json::array();
+    episode["episode_id"] = std::to_string(number++);
+  }
+  WriteText(At("objectnav.json"), file.dump());
+  const Outcome outcome =
+      Run("eval --quiet --json --scenes scenes --episodes objectnav.json --out run --config "
+          "'" CROSSNAV_SOURCE_DIR "/config/objectnav.toml'" +
+          std::string(kSmall));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json document = Json::parse(outcome.out);
+  EXPECT_EQ(document["episodes"], 4);
+  EXPECT_EQ(document["goals"], 1);
+  for (const char* name : {"SR", "SPL", "soft_SPL", "distance_to_goal_m"}) {
+    EXPECT_TRUE(document["metrics"][name].contains("value")) << name;
+  }
+  std::istringstream results(ReadText(At("run/results.jsonl")));
+  std::string header;
+  std::getline(results, header);
+  EXPECT_EQ(Json::parse(header)["config"]["eval"]["success"], "viewpoint");
+}
+
 TEST_F(EvalCli, InterruptedEvalGoesOnAndGivesTheSameFile) {
   const std::string eval =
       std::string("eval --quiet --scenes scenes --episodes e.json --out run") + kSmall;

@@ -119,6 +119,22 @@ TEST(Episodes, RealObjectNavFilesAreRead) {
       file->goals_by_category.at("wcojb4TFT35.basis.glb_sofa")[0].viewpoints_world.empty());
 }
 
+TEST(Episodes, EveryGoalOfTheRealFilesHasViewpointsOfItsScene) {
+  const std::filesystem::path path =
+      std::filesystem::path(CROSSNAV_SHARED_DIR) / "data/objectnav_mini/v2/val_mini.json.gz";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const auto file = ReadEpisodes(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  for (const Episode& episode : file->episodes) {
+    ASSERT_EQ(episode.goals.size(), 1u);
+    const std::string key =
+        std::filesystem::path(episode.scene_id).filename().string() + "_" + episode.goals[0];
+    const auto goals = file->goals_by_category.find(key);
+    ASSERT_NE(goals, file->goals_by_category.end()) << key;
+    for (const GoalObject& goal : goals->second) EXPECT_FALSE(goal.viewpoints_world.empty()) << key;
+  }
+}
+
 struct BadFile {
   const char* text;
   const char* message;
@@ -139,7 +155,18 @@ TEST_P(BadEpisodes, EndInOneErrorWithFileAndKey) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadEpisodes,
-    testing::Values(BadFile{"", "JSON"}, BadFile{"{\"episodes\": 3}", "episodes"},
+    testing::Values(BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,0,2],)"
+                            R"("start_rotation":[0,0,0,1],"goals":[],"episode_id":"7"}]})",
+                            "object_category"},
+                    BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,0,2],)"
+                            R"("start_rotation":[0,0,0,1],"goals":[],"object_category":"bed"}]})",
+                            "episode_id"},
+                    BadFile{R"({"episodes":[],"goals_by_category":{"a_bed":[{"position":[0,1]}]}})",
+                            "goals_by_category[\"a_bed\"]"},
+                    BadFile{R"({"episodes":[],"goals_by_category":{"a_bed":[{"position":[0,1,2],)"
+                            R"("view_points":[{"iou":1}]}]}})",
+                            "agent_state"},
+                    BadFile{"", "JSON"}, BadFile{"{\"episodes\": 3}", "episodes"},
                     BadFile{"[]", "episodes"},
                     BadFile{R"({"episodes":[{"scene_id":"a","start_position":[1,NaN,2],)"
                             R"("start_rotation":[0,0,0,1],"goals":["bed"],"episode_id":"x"}]})",

@@ -64,6 +64,31 @@ TEST_F(Runner, SameSeedGivesTheSameRecordsAndTraces) {
   EXPECT_FALSE(traces[0].empty());
 }
 
+// An ObjectNav file's viewpoints are X(g): shortest way and success follow from them.
+TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
+  RunConfig config = test::SmallConfig();
+  config.eval.success = "viewpoint";
+  auto context = SceneContext::Load(folder_->path(), scene_id_, config);
+  ASSERT_TRUE(context) << context.error().Message();
+  const Target ours = (*context)->TargetsOf("toilet").front();
+  const Vector3d p_far = (*context)->TargetsOf("sofa").front().viewpoints_world.front();
+  GoalObject goal;
+  goal.object_id = ours.instance;
+  goal.category = "toilet";
+  goal.p_world = ours.box.Center();
+  goal.viewpoints_world = {p_far};
+  const std::string file = std::filesystem::path(scene_id_).filename().string();
+  (*context)->UseGoals({{file + "_toilet", {goal}}, {"Other.glb_bed", {goal}}}, scene_id_);
+  const auto& targets = (*context)->TargetsOf("toilet");
+  ASSERT_EQ(targets.size(), 1u);
+  EXPECT_EQ(targets[0].instance, ours.instance);
+  EXPECT_TRUE(targets[0].box.min.isApprox(ours.box.min));
+  EXPECT_NEAR(*(*context)->DistanceToGoal(p_far, "toilet"), 0, 0.1);
+  EXPECT_TRUE(IsGoalReached(**context, targets, p_far, config.eval));
+  EXPECT_FALSE(IsGoalReached(**context, targets, ours.viewpoints_world.front(), config.eval));
+  EXPECT_GT((*context)->TargetsOf("bed").front().viewpoints_world.size(), 1u);  // of another scene
+}
+
 TEST_F(Runner, RecordAgreesWithWhatWasWatched) {
   const Episode episode = ClimbingEpisode();
   Recorder recorder;

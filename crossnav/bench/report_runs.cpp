@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "crossnav/bench/report.h"
+
+namespace crossnav::bench {
+namespace {
+
+/// The result files of a run: the file itself, or all results*.jsonl of its folder.
+Result<std::vector<std::filesystem::path>> FilesOf(const std::filesystem::path& run) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(run, error)) return std::vector{run};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(run, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("results") && name.ends_with(".jsonl")) files.push_back(entry.path());
+  }
+  if (files.empty()) {
+    return Fail(ErrorCode::kNotFound, "holds no results*.jsonl; run `crossnav eval` first",
+                run.string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Result<ReportRun> ReadRun(const std::filesystem::path& path, bool require_all) {
+  const auto files = FilesOf(path);
+  if (!files) return tl::unexpected(files.error());
+  auto merged = MergeResults(*files, require_all);
+  if (!merged) return tl::unexpected(merged.error());
+  if (merged->episodes.empty()) return Fail(ErrorCode::kInvalid, "holds no episode", path.string());
+  ReportRun run;
+  run.name =
+      path.filename().empty() ? path.parent_path().filename().string() : path.filename().string();
+  if (merged->header) {
+    run.variant = merged->header->variant;
+    run.perception = merged->header->perception;
+    run.config_hash = merged->header->config_hash;
+    run.episodes_hash = merged->header->episodes_hash;
+  }
+  run.header = std::move(merged->header);
+  run.episodes = std::move(merged->episodes);
+  return run;
+}
+
+/// Runs of one name would share their rows.
+void MakeNamesUnique(std::vector<ReportRun>& runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    int same = 0;
+    for (std::size_t j = 0; j < i; ++j) same += runs[j].name == runs[i].name ? 1 : 0;
+    if (same > 0) runs[i].name += " (" + std::to_string(i + 1) + ")";
+  }
+}
+
+}  // namespace
+
+Result<std::vector<ReportRun>> ReadRuns(const std::vector<std::filesystem::path>& paths,
+                                        bool require_all) {
+  std::vector<ReportRun> runs;
+  for (const auto& path : paths) {
+    auto run = ReadRun(path, require_all);
+    if (!run) return tl::unexpected(run.error());
+    runs.push_back(std::move(*run));
+  }
+  MakeNamesUnique(runs);
+  return runs;
+}
+
+}  // namespace crossnav::bench
