@@ -15,7 +15,7 @@ JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)
 SOURCES := $(shell find crossnav apps tests benchmarks python -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-.PHONY: help setup demo test test-long bench wheel format lint asan tsan docs clean \
+.PHONY: help setup demo test test-long bench networks wheel format lint asan tsan docs clean \
   program everything
 
 help:  ## this list
@@ -51,6 +51,9 @@ bench:  ## timings of the kernels and of the whole step (see BENCHMARKS.md)
 	@for program in $$(find build/bench/benchmarks -maxdepth 1 -type f -executable | sort); do \
 	  "$$program"; done
 	@build/bench/apps/crossnav/crossnav bench
+
+networks: program  ## render frames, train, export and evaluate the networks (hours on a CPU)
+	@networks/make.sh
 
 wheel: setup $(BUILD)/build.ninja  ## the Python package as a wheel under build/wheel
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms

@@ -87,6 +87,14 @@ struct ViewsOptions {
 };
 Result<void> SceneViews(const ViewsOptions& options, const CommonOptions& common, Console& console);
 
+struct FramesOptions {
+  std::string scene, out;
+  int count = 100, size_px = 256;
+  std::uint64_t seed = 1;
+};
+Result<void> SceneFrames(const FramesOptions& options, const CommonOptions& common,
+                         Console& console);
+
 struct SceneImportOptions {
   std::string input, out, name, home, objects;
 };

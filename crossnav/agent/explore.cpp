@@ -103,7 +103,7 @@ class Sweep {
   }
 
   void OfferSighting(const VoxelKey& key, const policy::LivePoi& hint) {
-    if (hint.is_discarded) return;
+    if (hint.is_discarded || offered_.contains(hint.id)) return;
     const Vector3d d = hint.p_center_world - CenterOf(key, voxel_m_);
     if (std::hypot(d.x(), d.y()) > now_.config.policy.approach.range_m || d.z() < -0.5 ||
         d.z() > config_.storey_m)
@@ -116,6 +116,7 @@ class Sweep {
     candidate.score = hint.confidence;
     candidate.size = static_cast<int>(hint.voxels.size());
     if (IsSpentHere(candidate)) return;
+    offered_.insert(hint.id);  // the first place is the nearest
     Offer(std::move(candidate), key, config_.sighting_m);
   }
 
@@ -176,6 +177,7 @@ class Sweep {
   GroundSearch search_;
   std::vector<Candidate>* shown_;
   std::set<VoxelKey> clustered_;
+  std::set<int> offered_;           // sightings
   std::set<VoxelKey> uninspected_;  // coarse cells that were offered
   std::optional<GroundTarget> best_;
 };

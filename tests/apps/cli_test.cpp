@@ -34,6 +34,7 @@ TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
                            "scene render",
                            "scene import",
                            "scene views",
+                           "scene frames",
                            "episodes generate",
                            "episodes check",
                            "run",
@@ -137,6 +138,28 @@ TEST_F(Cli, SceneViewsShowsGoalObjectsAndIsTheSameEachTime) {
   }
   WriteText(At("file"), "in the way");
   ExpectFailure("scene views scenes/00001-CrossnavHouse --out file/views", {"file/views"});
+}
+
+TEST_F(Cli, SceneFramesAreArraysOfTheAskedSizeAndTheSameEachTime) {
+  const std::string frames = "scene frames scenes/00001-CrossnavHouse --quiet --count 6 --size 32";
+  const Outcome outcome = Run(frames + " --json --out a");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json document = Json::parse(outcome.out);
+  EXPECT_EQ(document, Json::parse(ReadText(At("a/frames.json"))));
+  EXPECT_EQ(document["frames"].size(), 6u);
+  const std::size_t pixels = 6 * 32 * 32;
+  for (const auto& [file, bytes] : {std::pair("rgb.npy", 3 * pixels),
+                                    {"depth_mm.npy", 2 * pixels},
+                                    {"instance.npy", 2 * pixels}}) {
+    const std::string array = ReadText(At(std::string("a/") + file));
+    EXPECT_EQ(array.compare(1, 5, "NUMPY"), 0) << file;
+    EXPECT_EQ((array.size() - bytes) % 64, 0u) << file;
+    EXPECT_EQ(array[array.size() - bytes - 1], '\n') << file;
+  }
+  ASSERT_EQ(Run(frames + " --out b").exit_code, 0);
+  for (const auto& entry : fs::directory_iterator(At("a"))) {
+    EXPECT_EQ(ReadText(entry.path()), ReadText(At("b") / entry.path().filename())) << entry.path();
+  }
 }
 
 TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "verbs.h"
+
+namespace crossnav::app {
+namespace {
+
+void AddPerception(CLI::App* verb, std::string& perception) {
+  verb->add_option("--perception", perception,
+                   "oracle (ground truth), or networks; default: eval.perception")
+      ->check(CLI::IsMember({"oracle", "networks"}));
+}
+
+/// --variant, --success, --budget-scope and --perception.
+template <class T>
+void AddProtocol(CLI::App* verb, T& options) {
+  verb->add_option("--variant", options.variant, "full, no-history-poi or planar");
+  verb->add_option("--success", options.success, "What a STOP must be near: box or viewpoint");
+  verb->add_option("--budget-scope", options.budget_scope, "Action budget per episode or goal");
+  AddPerception(verb, options.perception);
+}
+
+void AddRuns(CLI::App& app, Options& o) {
+  CLI::App* run = AddVerb(app, o, "run", "One episode",
+                          "crossnav run --scenes scenes --episodes episodes.json.gz --episode ID "
+                          "--replay episode.mcap",
+                          [&o](Console& c) { return Run(o.run, o.common, c); });
+  run->add_option("--scenes", o.run.scenes, "Folder of scenes")->required();
+  run->add_option("--episodes", o.run.episodes, "Episode file")->required();
+  run->add_option("--episode", o.run.episode, "Its id")->required();
+  run->add_option("--replay", o.run.replay, "Replay to write (.mcap)");
+  run->add_option("--save-map", o.run.save_map, "Map file to save the memory to");
+  run->add_option("--memory", o.run.memory, "Map file to start from, as --save-map wrote it");
+  run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
+  AddProtocol(run, o.run);
+
+  CLI::App* demo =
+      AddVerb(app, o, "demo", "An episode in the house that comes with the program",
+              "crossnav demo 2", [&o](Console& c) { return Demo(o.demo, o.common, c); });
+  demo->add_option("NUMBER", o.demo.number, "1 climbs to the upper floor, 2 descends")
+      ->check(CLI::Range(1, 2));
+  demo->add_option("--out", o.demo.out, "Folder to write to; default: out/demo");
+  AddPerception(demo, o.demo.perception);
+
+  CLI::App* eval =
+      AddVerb(app, o, "eval", "Many episodes",
+              "crossnav eval --scenes scenes --episodes episodes.json.gz --out runs/full "
+              "--jobs 4",
+              [&o](Console& c) { return Eval(o.eval, o.common, c); });
+  eval->add_option("--scenes", o.eval.scenes, "Folder of scenes")->required();
+  eval->add_option("--episodes", o.eval.episodes, "Episode file")->required();
+  eval->add_option("--out", o.eval.out, "Folder of the run")->required();
+  eval->add_option("--jobs", o.eval.jobs, "Processes")->check(CLI::Range(1, 1024));
+  eval->add_option("--shard", o.eval.shard, "Part I of N of the episodes, I from 0")
+      ->type_name("I/N");
+  eval->add_option("--keep-replays", o.eval.keep_replays,
+                   "none, or failures: of episodes that did not complete, in RUN/replays")
+      ->check(CLI::IsMember({"none", "failures"}));
+  eval->add_flag("--resume", o.eval.resume, "Go on where the run stopped (the default)");
+  AddProtocol(eval, o.eval);
+}
+
+void AddSuites(CLI::App& app, Options& o) {
+  CLI::App* suite = app.add_subcommand("suite", "Named benchmarks, the same files anywhere");
+  suite->require_subcommand(1);
+  CLI::App* make = AddVerb(*suite, o, "make", "Houses and episodes of a suite, with their hash",
+                           "crossnav suite make crossnav-mfmon-1-mini --jobs 4",
+                           [&o](Console& c) { return SuiteMake(o.suite, o.common, c); });
+  CLI::App* run = AddVerb(*suite, o, "run", "Makes what is missing and runs the episodes",
+                          "crossnav suite run crossnav-mfmon-1-mini --variant planar --jobs 4",
+                          [&o](Console& c) { return SuiteRun(o.suite, o.common, c); });
+  CLI::App* report = AddVerb(*suite, o, "report", "From nothing to a report over all its runs",
+                             "crossnav suite report crossnav-mfmon-1-mini --jobs 4",
+                             [&o](Console& c) { return SuiteReport(o.suite, o.common, c); });
+  for (CLI::App* verb : {make, run, report}) {
+    verb->add_option("NAME", o.suite.name,
+                     "crossnav-mfmon-1, crossnav-mfmon-1-mini or crossnav-mfmon-1-val, with -pack "
+                     "behind it for furniture of a pack")
+        ->required();
+    verb->add_option("--out", o.suite.out, "Folder of suites; default: out/suites");
+    verb->add_option("--furniture", o.suite.furniture, "Furniture pack of a -pack suite")
+        ->type_name("DIR");
+    verb->add_option("--jobs", o.suite.jobs, "Processes")->check(CLI::Range(1, 1024));
+  }
+  for (CLI::App* verb : {run, report}) {
+    verb->add_option("--variant", o.suite.variant, "full, no-history-poi or planar");
+    verb->add_option("--keep-replays", o.suite.keep_replays, "none or failures")
+        ->check(CLI::IsMember({"none", "failures"}));
+  }
+  report->add_flag("--partial", o.suite.partial, "Accept other runs that are not finished");
+  report->add_flag("--force", o.suite.force, "Compare runs that differ in their task");
+}
+
+void AddResults(CLI::App& app, Options& o) {
+  CLI::App* report = AddVerb(app, o, "report", "Tables and plots, with the paper's numbers beside",
+                             "crossnav report runs/full runs/no-history-poi --out report",
+                             [&o](Console& c) { return Report(o.report, o.common, c); });
+  report->add_option("RUN", o.report.runs, "Run folders or result files")->required();
+  report->add_option("--out", o.report.out, "Folder to write to")->required();
+  report->add_flag("--partial", o.report.partial, "Accept runs that are not finished");
+  report->add_flag("--force", o.report.force,
+                   "Compare runs that differ in episodes, scenes, seed, version or task");
+  CLI::App* metrics = AddVerb(app, o, "metrics", "The metrics of result records alone",
+                              "crossnav metrics runs/full/results.jsonl --json",
+                              [&o](Console& c) { return ShowMetrics(o.metrics, o.common, c); });
+  metrics->add_option("RESULTS", o.metrics.files, "Result files (.jsonl)")->required();
+
+  CLI::App* replay = app.add_subcommand("replay", "Work with replays");
+  replay->require_subcommand(1);
+  CLI::App* page = AddVerb(*replay, o, "export", "A self-contained page",
+                           "crossnav replay export episode.mcap --out episode.html",
+                           [&o](Console& c) { return ReplayExport(o.replay, o.common, c); });
+  page->add_option("REPLAY", o.replay.file, "Replay (.mcap)")->required();
+  page->add_option("--out", o.replay.out, "Page to write (.html)")->required();
+}
+
+void AddMap(CLI::App& app, Options& o) {
+  CLI::App* map = app.add_subcommand("map", "Look into a saved memory");
+  map->require_subcommand(1);
+  CLI::App* info = AddVerb(*map, o, "info", "What a map file holds", "crossnav map info home.map",
+                           [&o](Console& c) { return MapInfo(o.map, o.common, c); });
+  CLI::App* query = AddVerb(*map, o, "query", "Places that answer a text, best first",
+                            "crossnav map query home.map \"potted plant\" --top 4",
+                            [&o](Console& c) { return MapQuery(o.map, o.common, c); });
+  CLI::App* points = AddVerb(*map, o, "export", "Voxels as a coloured point cloud (PLY)",
+                             "crossnav map export home.map --out home.ply",
+                             [&o](Console& c) { return MapExport(o.map, o.common, c); });
+  for (CLI::App* verb : {info, query, points}) {
+    verb->add_option("MAP", o.map.file, "Map file")->required();
+    verb->add_flag("--skip-damaged", o.map.skip_damaged, "Go on with what is intact");
+  }
+  query->add_option("TEXT", o.map.text, "What to look for")->required();
+  query->add_option("--top", o.map.top, "Places at most")->check(CLI::Range(1, 1000));
+  query
+      ->add_option("--from", o.map.from,
+                   "Where you stand (foot point [m]); default: where each place was seen best")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  query->add_flag("--voxels", o.map.with_voxels, "List the voxels of each place under --json");
+  points->add_option("--out", o.map.out, "PLY to write")->required();
+  points->add_option("--query", o.map.text, "Colour by similarity to this text");
+  points->add_flag("--surfaces", o.map.surfaces_only, "Leave out the air");
+}
+
+void AddNetworks(CLI::App& app, Options& o) {
+  CLI::App* networks = app.add_subcommand("networks", "Networks for perception from pixels");
+  networks->require_subcommand(1);
+  AddVerb(*networks, o, "list", "Which networks there are", "crossnav networks list",
+          [&o](Console& c) { return NetworksList(o.networks, o.common, c); });
+  CLI::App* check = AddVerb(*networks, o, "check", "Whether files fit their cards, and how fast",
+                            "crossnav networks check crossnav_small",
+                            [&o](Console& c) { return NetworksCheck(o.networks, o.common, c); });
+  check->add_option("CARD", o.networks.cards, "Names or paths of cards; default: all");
+  CLI::App* look = AddVerb(*networks, o, "look", "What the networks see in a picture",
+                           "crossnav networks look room.png --text sofa --out panel.png",
+                           [&o](Console& c) { return NetworksLook(o.networks, o.common, c); });
+  look->add_option("IMAGE", o.networks.image, "Picture (PNG or JPEG)")->required();
+  look->add_option("--depth", o.networks.depth, "Its depth: PGM of 16 bits [mm], or .npy [m]");
+  look->add_option("--text", o.networks.text, "Show how much each place is like this");
+  look->add_option("--network", o.networks.network, "Card that answers alone; default: settings");
+  look->add_option("--out", o.networks.out, "Picture to write (PNG)")->required();
+}
+
+void AddTools(CLI::App& app, Options& o) {
+  AddVerb(app, o, "doctor", "What this program finds here, and what is missing",
+          "crossnav doctor --json", [&o](Console& c) { return Doctor(o.common, c); });
+  CLI::App* bench =
+      AddVerb(app, o, "bench", "Timings of the whole step and of its stages",
+              "crossnav bench --json", [&o](Console& c) { return Bench(o.bench, o.common, c); });
+  bench->add_option("--scenes", o.bench.scenes, "Folder of scenes; default: the embedded house");
+  bench->add_option("--episodes", o.bench.episodes, "Episode file");
+  bench->add_option("--episode", o.bench.episode, "Its id; default: the first");
+  AddPerception(bench, o.bench.perception);
+  bench->add_option("--repeat", o.bench.repeat, "Runs of the episode")->check(CLI::Range(1, 1000));
+  bench->callback([&o, bench] {
+    if (!bench->get_subcommands().empty()) return;
+    o.command = [&o](Console& c) { return Bench(o.bench, o.common, c); };
+  });
+  CLI::App* stairs =
+      AddVerb(*bench, o, "stairs", "Attempts at each kind of stair, and at what is none",
+              "crossnav bench stairs --count 40",
+              [&o](Console& c) { return BenchStairs(o.stairs, o.common, c); });
+  stairs->add_option("--count", o.stairs.count, "Attempts a kind and direction")
+      ->check(CLI::Range(1, 100000));
+  stairs->add_option("--seed", o.stairs.seed, "First seed");
+  stairs->add_option("--budget", o.stairs.budget, "Actions of an attempt")
+      ->check(CLI::Range(1, 1000000));
+  stairs->add_option("--kind", o.stairs.kinds, "Only this kind; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember(StairTrialKinds()));
+  stairs->add_option("--keep", o.stairs.keep,
+                     "Folder for worlds and episodes of failed attempts, for crossnav run");
+}
+
+}  // namespace
+
+void AddRunVerbs(CLI::App& app, Options& options) {
+  AddRuns(app, options);
+  AddSuites(app, options);
+  AddResults(app, options);
+  AddMap(app, options);
+  AddNetworks(app, options);
+  AddTools(app, options);
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "verbs.h"
+
+namespace crossnav::app {
+namespace {
+
+/// What to draw houses from.
+void AddHouses(CLI::App* verb, WorldOptions& world) {
+  verb->add_option("--seed", world.seed, "First seed");
+  verb->add_option("--count", world.count, "Number of houses")->check(CLI::Range(1, 100000));
+  verb->add_option("--floors", world.floors, "Floors per house; 0 = by the seed")
+      ->check(CLI::Range(0, 4));
+  verb->add_option("--area", world.area_m2, "Area of a floor [m2], 60 to 400; default: by the seed")
+      ->check(CLI::Range(60.0, 400.0));
+  verb->add_option("--furniture", world.furniture,
+                   "Furniture pack, or none for simple shapes; default: the one that assets import "
+                   "made, where there is one")
+      ->type_name("DIR|none");
+  verb->add_flag("--scan", world.scan, "With the faults of a real scan, drawn from the seed");
+}
+
+void AddWorld(CLI::App& app, Options& o) {
+  CLI::App* world = app.add_subcommand("world", "Make scenes");
+  world->require_subcommand(1);
+  CLI::App* verb = AddVerb(*world, o, "generate", "Furnished multi-floor houses in HM3D layout",
+                           "crossnav world generate --seed 1 --count 4 --floors 2 --out scenes",
+                           [&o](Console& c) { return WorldGenerate(o.world, o.common, c); });
+  AddHouses(verb, o.world);
+  verb->add_option("--out", o.world.out, "Folder to write to")->required();
+  verb->add_option("--contact-sheet", o.world.contact_sheet,
+                   "Picture of all houses: a view from inside and every floor from above")
+      ->type_name("FILE.png");
+  verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
+  CLI::App* stats =
+      AddVerb(*world, o, "stats", "What a set of generated houses amounts to; keeps none of them",
+              "crossnav world stats --seed 1 --count 200 --floors 0",
+              [&o](Console& c) { return WorldStats(o.world, o.common, c); });
+  AddHouses(stats, o.world);
+}
+
+void AddAssets(CLI::App& app, Options& o) {
+  CLI::App* assets = app.add_subcommand("assets", "Furniture models for generated houses");
+  assets->require_subcommand(1);
+  CLI::App* verb =
+      AddVerb(*assets, o, "import", "A furniture pack from the package sweethome3d-furniture",
+              "crossnav assets import --out furniture",
+              [&o](Console& c) { return AssetsImport(o.assets, o.common, c); });
+  verb->add_option("DIR", o.assets.libraries,
+                   "Folder of .sh3f libraries or of the unpacked package; default: the installed "
+                   "package");
+  verb->add_option(
+      "--out", o.assets.out,
+      "Pack to write; default: $XDG_DATA_HOME/crossnav/furniture, where world generate "
+      "looks");
+}
+
+void AddFrames(CLI::App& scene, Options& o) {
+  CLI::App* frames = AddVerb(scene, o, "frames", "Frames with ground truth, to train networks on",
+                             "crossnav scene frames scenes/00001-House --count 100 --out frames",
+                             [&o](Console& c) { return SceneFrames(o.frames, o.common, c); });
+  frames->add_option("SCENE", o.frames.scene, "Scene folder")->required();
+  frames->add_option("--count", o.frames.count, "Frames")->check(CLI::Range(1, 60000));
+  frames->add_option("--size", o.frames.size_px, "Width and height [px]")
+      ->check(CLI::Range(16, 1024));
+  frames->add_option("--seed", o.frames.seed, "Seed of the places");
+  frames->add_option("--out", o.frames.out, "Folder for frames.json and the arrays")->required();
+}
+
+void AddScene(CLI::App& app, Options& o) {
+  CLI::App* scene = app.add_subcommand("scene", "Look at a scene, import a home");
+  scene->require_subcommand(1);
+  CLI::App* info = AddVerb(*scene, o, "info", "Floors, stairs, instances and navmesh of a scene",
+                           "crossnav scene info scenes/00001-House --json",
+                           [&o](Console& c) { return SceneInfo(o.scene, o.common, c); });
+  info->add_option("SCENE", o.scene.scene, "Scene folder")->required();
+  CLI::App* render = AddVerb(*scene, o, "render", "A picture of a scene",
+                             "crossnav scene render scenes/00001-House --top-down --out floor.png",
+                             [&o](Console& c) { return SceneRender(o.scene, o.common, c); });
+  render->add_option("SCENE", o.scene.scene, "Scene folder")->required();
+  render->add_option("--at", o.scene.at, "Foot point [m], yaw and pitch [deg], world frame")
+      ->type_name("X,Y,Z,YAW,PITCH");
+  render->add_option("--view", o.scene.view, "colour, depth or semantic")
+      ->check(CLI::IsMember({"colour", "depth", "semantic"}));
+  render->add_flag("--top-down", o.scene.top_down, "A floor from above");
+  render->add_option("--floor", o.scene.floor, "Floor of --top-down; default: the lowest");
+  render->add_option("--px-per-m", o.scene.px_per_m, "Scale of --top-down")
+      ->check(CLI::Range(1.0, 1000.0));
+  render->add_option("--out", o.scene.out, "PNG to write")->required();
+  CLI::App* views = AddVerb(*scene, o, "views", "Pictures of the goal objects from good places",
+                            "crossnav scene views scenes/00001-House --out views",
+                            [&o](Console& c) { return SceneViews(o.views, o.common, c); });
+  views->add_option("SCENE", o.views.scene, "Scene folder")->required();
+  views->add_option("--per-object", o.views.per_object, "Views of an object at most")
+      ->check(CLI::Range(1, 1000));
+  views->add_option("--out", o.views.out, "Folder for views.json and the pictures")->required();
+  AddFrames(*scene, o);
+  CLI::App* import =
+      AddVerb(*scene, o, "import", "A home or a 3D model becomes a scene in HM3D layout",
+              "crossnav scene import MyHome.sh3d --out scenes",
+              [&o](Console& c) { return SceneImport(o.scene_import, o.common, c); });
+  import
+      ->add_option(
+          "INPUT", o.scene_import.input,
+          "Home of Sweet Home 3D (.sh3d), archive of homes (.jar), or 3D model (.obj, .glb, .gltf)")
+      ->required();
+  import->add_option("--out", o.scene_import.out, "Folder to write the scene to")->required();
+  import->add_option("--objects", o.scene_import.objects,
+                     "File that names the objects of a 3D model (JSON)");
+  import->add_option("--name", o.scene_import.name, "Name of the scene; default: the input's");
+  import->add_option("--home", o.scene_import.home, "Which home of an archive that holds several");
+}
+
+void AddEpisodes(CLI::App& app, Options& o) {
+  CLI::App* episodes = app.add_subcommand("episodes", "Make and check episodes");
+  episodes->require_subcommand(1);
+  CLI::App* generate =
+      AddVerb(*episodes, o, "generate", "Certified episodes",
+              "crossnav episodes generate --scenes scenes --count 100 --goals 3 --cross-floor 0.3 "
+              "--seed 1 --out episodes.json.gz",
+              [&o](Console& c) { return EpisodesGenerate(o.episodes, o.common, c); });
+  generate->add_option("--scenes", o.episodes.scenes, "Folder of scenes")->required();
+  generate->add_option("--count", o.episodes.count, "Episodes")->check(CLI::Range(1, 1000000));
+  generate->add_option("--goals", o.episodes.goals, "Goals per episode; default: dataset.goals")
+      ->check(CLI::Range(1, 100));
+  generate
+      ->add_option("--cross-floor", o.episodes.cross_floor, "Share that requires a floor change")
+      ->check(CLI::Range(0.0, 1.0));
+  generate->add_option("--seed", o.episodes.seed, "Seed");
+  generate->add_flag("--repeats", o.episodes.repeats, "Allow a category twice in an episode");
+  generate->add_option("--out", o.episodes.out, "Episode file (.json or .json.gz)")->required();
+  CLI::App* check = AddVerb(*episodes, o, "check", "Proves every certificate again",
+                            "crossnav episodes check episodes.json.gz --scenes scenes",
+                            [&o](Console& c) { return EpisodesCheck(o.episodes, o.common, c); });
+  check->add_option("EPISODES", o.episodes.file, "Episode file")->required();
+  check->add_option("--scenes", o.episodes.scenes, "Folder of scenes")->required();
+}
+
+}  // namespace
+
+void AddSceneVerbs(CLI::App& app, Options& options) {
+  AddWorld(app, options);
+  AddAssets(app, options);
+  AddScene(app, options);
+  AddEpisodes(app, options);
+}
+
+}  // namespace crossnav::app

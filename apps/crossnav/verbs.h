@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The program's verbs and their options, as CLI11 takes them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "commands.h"
+
+namespace crossnav::app {
+
+using Command = std::function<Result<void>(Console&)>;
+
+/// Holds the options of every verb while CLI11 fills them in.
+struct Options {
+  CommonOptions common;
+  WorldOptions world;
+  AssetsOptions assets;
+  SceneOptions scene;
+  ViewsOptions views;
+  FramesOptions frames;
+  SceneImportOptions scene_import;
+  EpisodesOptions episodes;
+  RunOptions run;
+  DemoOptions demo;
+  EvalOptions eval;
+  SuiteOptions suite;
+  ReportOptions report;
+  MetricsOptions metrics;
+  ReplayOptions replay;
+  MapOptions map;
+  BenchOptions bench;
+  NetworksOptions networks;
+  StairsOptions stairs;
+  Command command;
+};
+
+/// Adds a verb with the options that all of them take.
+CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const char* what,
+                  const char* example, Command command);
+
+/// Houses, scenes and episodes: what is run in.
+void AddSceneVerbs(CLI::App& app, Options& options);
+/// Runs, their results, maps, networks and tools.
+void AddRunVerbs(CLI::App& app, Options& options);
+
+}  // namespace crossnav::app

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""Writes the card beside the exported network: what it is, how it was made, what it can and cannot do.
+
+Without --figures the figures of an earlier card of the same file are kept, and so are its thresholds.
+"""
+
+import argparse
+import hashlib
+import json
+import pathlib
+import subprocess
+
+import common
+import export
+import numpy as np
+import torch
+from evaluate import read_card
+
+LIMITS = [
+    "Trained on renders of generated houses alone: in five real frames it finds most chairs, but with low scores, and "
+    "calls a dining table sofa and bed (docs/networks-training.md). On real stairs it was never tried.",
+    "Square pictures with a field of view of about 90 degrees, a camera 0.6 to 1.2 m above the floor, depth in "
+    "metres: other cameras change what sizes and heights mean.",
+    "Six goals only. Armchairs and sofas, low tables and beds, balusters and plants are taken for each other; landings "
+    "of stairs are missed, see the worst cases.",
+    "Thin parts (legs, leaves, railings) are narrower than a cell of the masks, which are at a quarter of the input.",
+]
+
+
+def commit():
+    run = subprocess.run(["git", "-C", str(common.REPO), "rev-parse", "--short", "HEAD"], capture_output=True,
+                         text=True, check=False)
+    return run.stdout.strip() or "unknown"
+
+
+def listed(values):
+    return "[" + ", ".join(json.dumps(value) for value in values) + "]"
+
+
+def table(name, rows):
+    return f"\n[{name}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in rows.items())
+
+
+def houses_of(data, name):
+    return sorted(int(path.parent.name) for path in (data / name).glob("*/models.json"))
+
+
+def data_text(data, state):
+    sets = {name: houses_of(data, name) for name in common.SETS}
+    return table("data", {
+        "houses": f"{len(sets['train'])} of crossnav world generate, seeds {common.SETS['train']['seeds'].start} to "
+                  f"{max(sets['train'], default=0)}, {state.get('frames', 0)} frames",
+        "furniture": "two thirds of the models of sweethome3d-furniture (CC0, CC-BY 3.0) and parametric shapes; the "
+                     "last third, chosen by the hash of the models' names, is never trained on",
+        "development": f"{len(sets['dev'])} houses, seeds from {common.SETS['dev']['seeds'].start}",
+        "held_out": f"{len(sets['test'])} houses, seeds from {common.SETS['test']['seeds'].start}, with held-out furniture",
+        "frames_seen": state.get("frames_seen", 0), "minutes": round(state.get("used_s", 0) / 60, 1),
+        "seed": state.get("seed", 0), "commit": commit()})
+
+
+def write(network_file, data, state, figures):
+    old = read_card(network_file.with_suffix(".toml"))
+    content = network_file.read_bytes()
+    digest = hashlib.sha256(content).hexdigest()
+    figures = figures or (old.get("figures", {}) if old.get("sha256") == digest else {})
+    thresholds = old.get("thresholds", {})
+    size = common.INPUT_PX
+    text = f"""# SPDX-License-Identifier: MIT
+# Model card of {network_file.name}, written by networks/card.py. docs/networks-training.md explains the fields.
+family = "crossnav"
+name = "crossnav-small"
+file = "{network_file.name}"
+sha256 = "{digest}"
+licence = "MIT"
+source = "networks/ of this repository (make networks)"
+goals = {listed(common.GOALS)}
+limits = {listed(LIMITS)}
+
+[input]
+size = {size}
+image = "image"    # f32 [1, 3, {size}, {size}], RGB, 0 to 1
+depth = "depth"    # f32 [1, 1, {size}, {size}], planar [m], 0 = no reading
+height = "height"  # f32 [1, 1, {size}, {size}], of the seen point above the foot [m], 0 where no depth
+
+[output]
+stride = 4
+heat = "heat"      # [1, {len(common.GOALS)}, {size // 4}, {size // 4}], claims are its 3 x 3 maxima
+box = "box"        # [1, 4, {size // 4}, {size // 4}], left, top, right, bottom of the cell's middle [input px]
+mask = "mask"      # [1, {len(common.GOALS) + 1}, {size // 4}, {size // 4}], goals, then background
+stairs = "stairs"  # [1, 1, {size // 4}, {size // 4}]
+dense = "dense"    # [1, 24, 24, 512], unit vectors in the space of the text table
+
+[text]
+table = "text_vectors.npy"  # f16 [N, 512], CLIP ViT-B/32; the last four rows are made up
+names = {listed(common.CLASS_NAMES)}
+
+[thresholds]  # chosen on development houses by networks/thresholds.py
+heat = {listed(thresholds.get("heat", [0.3] * len(common.GOALS)))}
+nms_iou = 0.5
+mask = 0.5
+stairs = {thresholds.get("stairs", 0.5)}
+"""
+    text += data_text(data, state)
+    if figures:
+        text += "\n# Of networks/evaluate.py --set test: held-out houses with held-out furniture." + table(
+            "figures", {key: value for key, value in figures.items() if not isinstance(value, dict)})
+        for goal in common.GOALS:
+            if isinstance(figures.get(goal), dict):
+                text += table(f"figures.{goal}", figures[goal])
+    network_file.with_suffix(".toml").write_text(text, encoding="utf-8")
+
+
+def rounded(values):
+    if isinstance(values, dict):
+        return {key: rounded(value) for key, value in values.items()}
+    return None if isinstance(values, float) and np.isnan(values) else round(values, 3)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
+    parser.add_argument("--checkpoint", type=pathlib.Path, default=None)
+    parser.add_argument("--network", type=pathlib.Path, default=export.FILE)
+    parser.add_argument("--figures", type=pathlib.Path, default=None)
+    args = parser.parse_args()
+    state = torch.load(args.checkpoint or args.data / "checkpoint.pt", map_location="cpu", weights_only=True)
+    state = {key: value for key, value in state.items() if isinstance(value, (int, float))}
+    figures = rounded(json.loads(args.figures.read_text(encoding="utf-8"))) if args.figures else None
+    write(args.network, args.data, state, figures)
+    print(args.network.with_suffix(".toml").name, state)
+
+
+if __name__ == "__main__":
+    main()

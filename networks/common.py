@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""What every part of the pipeline agrees on: folders, sets of houses, goals, classes."""
+
+import pathlib
+
+REPO = pathlib.Path(__file__).resolve().parent.parent
+DATA = REPO / "build/networks"  # ignored by git
+SHARED = REPO.parent / "shared"
+
+INPUT_PX = 224  # chosen: the largest whose heads together stay below 25 ms on one core
+STORED_PX = 256  # of rendered frames
+HFOV_DEG = 90.0
+
+# In the order of kCategories (crossnav/core/categories.h).
+GOALS = ["chair", "bed", "plant", "toilet", "tv_monitor", "sofa"]
+
+# Seeds of houses and the part of the furniture that they are furnished from. Held-out seeds begin
+# at 5001 and held-out furniture appears in `test` alone.
+SETS = {
+    "train": {"seeds": range(2001, 2105), "furniture": "train", "frames": 150},
+    "dev": {"seeds": range(2901, 2907), "furniture": "train", "frames": 60},
+    "test": {"seeds": range(5101, 5111), "furniture": "held", "frames": 60},
+}
+
+STAIR_NAMES = {"stairs", "staircase", "stair"}
+
+# Classes of the dense head: their name (goals in the benchmark's spelling), the name whose CLIP text
+# vector they have (None: no word of the lists fits, the vector is made up), the raw names that
+# mean them.
+CLASSES = [
+    ("chair", "chair", ["chair", "dining chair", "office chair", "armchair"]),
+    ("bed", "bed", ["bed"]),
+    ("plant", "houseplant", ["plant", "potted plant", "houseplant"]),
+    ("toilet", "toilet", ["toilet"]),
+    ("tv_monitor", "television", ["tv", "television", "computer monitor", "monitor"]),
+    ("sofa", "couch", ["couch", "sofa"]),
+    ("stairs", "stairs", ["stairs", "staircase", "stair"]),
+    ("stool", "stool", ["stool", "ottoman"]),
+    ("bench", "bench", ["bench"]),
+    ("table", "table", ["dining table", "table"]),
+    ("desk", "desk", ["desk"]),
+    ("coffee table", "coffee table", ["coffee table"]),
+    ("bookcase", "bookcase", ["bookcase"]),
+    ("wardrobe", "wardrobe", ["wardrobe"]),
+    ("chest of drawers", "chest of drawers", ["chest of drawers"]),
+    ("bedside table", "nightstand", ["bedside table"]),
+    ("cabinet", "cabinetry", ["kitchen cabinet", "kitchen upper cabinet", "tv stand"]),
+    ("refrigerator", "refrigerator", ["refrigerator"]),
+    ("stove", "gas stove", ["stove"]),
+    ("sink", "sink", ["sink", "washbasin"]),
+    ("bathtub", "bathtub", ["bathtub"]),
+    ("shower", "shower", ["shower"]),
+    ("mirror", "mirror", ["mirror"]),
+    ("picture", "picture frame", ["picture"]),
+    ("window", "window", ["window"]),
+    ("curtain", "curtain", ["curtain"]),
+    ("door", "door", ["door", "door frame"]),
+    ("lamp", "lamp", ["floor lamp", "table lamp", "ceiling lamp"]),
+    ("box", "box", ["box", "basket"]),
+    ("trash can", "waste container", ["trash can"]),
+    ("vase", "vase", ["vase", "bowl"]),
+    ("book", "book", ["book"]),
+    ("laptop", "laptop", ["laptop"]),
+    ("rug", "runner (carpet)", ["rug"]),
+    ("wall", None, ["wall"]),
+    ("floor", None, ["floor"]),
+    ("ceiling", None, ["ceiling"]),
+    ("railing", None, ["railing"]),
+]
+CLASS_NAMES = [name for name, _, _ in CLASSES]
+CLASS_OF = {raw: index for index, (_, _, raws) in enumerate(CLASSES) for raw in raws}
