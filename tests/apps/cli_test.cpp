@@ -26,34 +26,20 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
 }
 
 TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"doctor",
-                           "assets import",
-                           "world generate",
-                           "world stats",
-                           "scene info",
-                           "scene render",
-                           "scene import",
-                           "scene views",
-                           "scene frames",
-                           "episodes generate",
-                           "episodes check",
-                           "run",
-                           "eval",
-                           "report",
-                           "metrics",
-                           "replay export",
-                           "map info",
-                           "map query",
-                           "map export",
-                           "bench",
-                           "bench stairs",
-                           "demo",
-                           "suite make",
-                           "suite run",
-                           "suite report",
-                           "networks list",
-                           "networks check",
-                           "networks look"}) {
+  for (const char* verb : {"doctor",         "assets import",
+                           "world generate", "world stats",
+                           "scene info",     "scene render",
+                           "scene import",   "scene views",
+                           "scene frames",   "episodes generate",
+                           "episodes check", "run",
+                           "eval",           "report",
+                           "metrics",        "replay export",
+                           "map info",       "map query",
+                           "map export",     "bench",
+                           "bench stairs",   "demo",
+                           "suite make",     "suite run",
+                           "suite report",   "networks list",
+                           "networks check", "networks look"}) {
     const Outcome outcome = Run(std::string(verb) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example:"), std::string::npos) << verb;
