@@ -7,22 +7,10 @@
 #include "category_data.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/core/check.h"
+#include "crossnav/core/lines.h"
 #include "crossnav/core/read_file.h"
 
 namespace crossnav {
-namespace {
-
-/// Takes the next line off `text`, without its end-of-line.
-std::string_view TakeLine(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
-}
-
-}  // namespace
-
 Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::string& where) {
   CategoryTable table;
   for (int number = 1; !text.empty(); ++number) {

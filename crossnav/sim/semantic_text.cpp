@@ -4,19 +4,11 @@
 #include <map>
 
 #include "crossnav/core/category_table.h"
+#include "crossnav/core/lines.h"
 #include "crossnav/sim/scene_reader.h"
 
 namespace crossnav::sim {
 namespace {
-
-/// Takes the next line off `text`, without its end-of-line.
-std::string_view TakeLine(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
-}
 
 template <class T>
 bool ParseNumber(std::string_view text, T& value, int base = 10) {
