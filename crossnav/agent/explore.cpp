@@ -85,6 +85,9 @@ class Sweep {
 
   void OfferUninspected(const VoxelKey& key) {
     if (!uninspected_.insert({key.x >> 2, key.y >> 2, key.z >> 2}).second) return;
+    const bool is_local = IsOnLevel(now_, CenterOf(key, voxel_m_));
+    // Nothing stands on a stair or a slope.
+    if (!is_local && !policy::IsFlatAround(now_.world.map, CenterOf(key, voxel_m_))) return;
     int count = 0;
     for (int dx = -2; dx <= 2; ++dx)
       for (int dy = -2; dy <= 2; ++dy) {
@@ -98,7 +101,6 @@ class Sweep {
     candidate.standing = {key};
     candidate.size = count;
     if (IsSpentHere(candidate)) return;
-    const bool is_local = IsOnLevel(now_, candidate.p_focus_world);
     Offer(std::move(candidate), key, config_.uninspected_m + (is_local ? 0 : config_.elsewhere_m));
   }
 

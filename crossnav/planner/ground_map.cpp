@@ -15,6 +15,7 @@ using geometry::VoxelState;
 
 constexpr int kBelow = 8;             // voxels of a window below the place it is about
 constexpr int kHeadSlack = 1;         // chosen: a ceiling may start one voxel low
+constexpr int kSeenAir = 3;           // chosen: above a surface; one voxel may be a ray along a wall
 constexpr double kFootReach_m = 0.5;  // chosen: an agent is never farther from its floor
 
 int ColumnOf(int x, int y) {
@@ -140,6 +141,7 @@ std::uint64_t GroundMap::StandingBits(int x, int y, int z_lo) const {
   const std::uint64_t air = Window(*tile, tile->air, column, z_lo);
   const std::uint64_t below = Window(*tile, tile->surface, column, z_lo - 1);
   std::uint64_t standing = air & below;
+  for (int i = 1; i < kSeenAir; ++i) standing &= air >> i;
   if (standing == 0) return 0;
   const std::uint64_t surface = Window(*tile, tile->surface, column, z_lo);
   for (std::uint64_t rest = standing; rest != 0; rest &= rest - 1) {

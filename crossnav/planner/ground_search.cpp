@@ -9,6 +9,7 @@ namespace crossnav::planner {
 namespace {
 
 constexpr int kBridge_vox = 4;  // chosen: the deepest tread
+constexpr int kEdge_vox = 2;    // chosen: less is a doorstep
 constexpr std::array<std::array<int, 2>, 8> kSteps = {
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
@@ -97,9 +98,11 @@ void GroundSearch::Expand(std::int32_t from_index) {
     switch (ground_.SideOf(from.key, step[0], step[1], &z)) {
       case Side::kBlocked:
         break;
-      case Side::kGround:
-        Relax(from_index, {from.key.x + step[0], from.key.y + step[1], z}, 1);
+      case Side::kGround: {
+        const VoxelKey to{from.key.x + step[0], from.key.y + step[1], z};
+        if (!IsEdge(from.key, to)) Relax(from_index, to, 1);
         break;
+      }
       case Side::kUnknown:
       case Side::kDrop: {
         const bool is_diagonal = step[0] != 0 && step[1] != 0;
@@ -110,6 +113,18 @@ void GroundSearch::Expand(std::int32_t from_index) {
       }
     }
   }
+}
+
+/// The front of a seat, not a tread: the foot that steps onto it meets the seat behind it, which is
+/// too high. A tread is two columns deep, so that two steps of a stair are never that near.
+bool GroundSearch::IsEdge(const VoxelKey& from, const VoxelKey& to) const {
+  if (to.z - from.z < kEdge_vox) return false;
+  const auto is_high = [&](int dx, int dy) {
+    const auto z = ground_.StandingNear(to.x + dx, to.y + dy, to.z, ground_.climb());
+    return z && *z - from.z > ground_.climb();
+  };
+  const int dx = to.x - from.x, dy = to.y - from.y;
+  return is_high(dx, dy) || (dx != 0 && dy != 0 && (is_high(dx, 0) || is_high(0, dy)));
 }
 
 void GroundSearch::Relax(std::int32_t from_index, const VoxelKey& to, double factor) {

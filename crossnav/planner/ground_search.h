@@ -58,6 +58,7 @@ class GroundSearch {
   std::int32_t Find(const VoxelKey& key) const;
   void Grow();
   void Expand(std::int32_t from);
+  bool IsEdge(const VoxelKey& from, const VoxelKey& to) const;
   void Relax(std::int32_t from, const VoxelKey& to, double factor);
   void LookUpRoom(Node& node) const;
 

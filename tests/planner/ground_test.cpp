@@ -51,6 +51,22 @@ TEST(GroundMap, OneStandsOnASurfaceWithAirAndHeadRoom) {
   EXPECT_TRUE(ground.IsStanding({3, 3, 1}));
 }
 
+// Window seats of `bench stairs`: the wall was seen up to a slanting line, and the rays along it left
+// one voxel of air above, which made stairs of it.
+TEST(GroundMap, ARayAlongAWallMakesNoGround) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 8, 3, 0);
+  for (int x = 0; x < 8; ++x) {  // at y = 3 seen up to a line that rises like a stair
+    AddColumn(map, x, 3, 0, 2 + x / 2);
+    SetState(map, {x, 3, 3 + x / 2}, VoxelState::kTraversable);
+  }
+  EXPECT_FALSE(GroundOf(map).IsStanding({0, 3, 3}));
+  EXPECT_FALSE(CostsFrom(GroundOf(map), {1, 1, 1}).contains({7, 3, 6}));
+  for (int x = 0; x < 8; ++x)  // seen as air, it is ground: steps along the wall
+    for (int z = 4; z < 6; ++z) SetState(map, {x, 3, z + x / 2}, VoxelState::kTraversable);
+  EXPECT_TRUE(CostsFrom(GroundOf(map), {1, 1, 1}).contains({7, 3, 6}));
+}
+
 TEST(GroundMap, TellsGroundWallsDropsAndTheUnseen) {
   VoxelMap map;
   AddGround(map, 0, 0, 3, 1, 0);
@@ -183,6 +199,20 @@ TEST(GroundSearch, WalksAFlightInBothDirectionsWithoutAnyStairMark) {
   ASSERT_TRUE(foot && top);
   EXPECT_TRUE(CostsFrom(ground, *foot).contains(*top));
   EXPECT_TRUE(CostsFrom(ground, *top).contains(*foot));
+}
+
+// Ottomans and couches of `bench stairs`: the front of a seat, lower by a rounded edge.
+TEST(GroundSearch, TheFrontOfASeatIsNoTread) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 4, 4, 0);
+  AddGround(map, 4, 0, 5, 4, 3);
+  AddGround(map, 5, 0, 8, 4, 4);
+  EXPECT_FALSE(CostsFrom(GroundOf(map), {1, 1, 1}).contains({6, 1, 5}));
+  VoxelMap stair;  // as high, but the first step can be stood on
+  AddGround(stair, 0, 0, 4, 4, 0);
+  AddGround(stair, 4, 0, 6, 4, 2);
+  AddGround(stair, 6, 0, 8, 4, 4);
+  EXPECT_TRUE(CostsFrom(GroundOf(stair), {1, 1, 1}).contains({6, 1, 5}));
 }
 
 /// Bellman and Ford's relaxation until nothing changes, over a dictionary: as slow as it is plain.
