@@ -15,9 +15,10 @@ using policy::CenteringAction;
 
 namespace {
 
-constexpr double kArrived_m = 0.20;           // chosen: less than one forward step
-constexpr int kLooksAtHistoryPoi = 3;         // chosen: one more than a live POI needs to be stable
-constexpr int kLooksAtFrontier = 2;           // chosen
+constexpr double kArrived_m = 0.20;    // chosen: less than one forward step
+constexpr int kLooksAtHistoryPoi = 3;  // chosen: one more than a live POI needs to be stable
+constexpr int kLooksAtFrontier = 2;    // chosen
+constexpr int kMaxPitches = 4;         // chosen: from the lowest pitch to one up, and one more
 constexpr double kFrontierBlacklist_m = 0.4;  // chosen: a few voxels that cannot be seen
 
 /// Centre of what the frontier borders on near the agent: where to look on arrival.
@@ -148,17 +149,22 @@ EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look) {
   const auto flights =
       policy::FlightsFrom(now.world.stairs, now.world.map, now.world.level_m, direction);
   const policy::Flight* flight = NearestFlight(flights, now.agent.p_world);
-  if (check.looks > 0 && flight && IsVerified(*flight, now.config.policy.stair)) {
+  // Up once, down twice, from level: whatever the pitch was on arrival.
+  const double step_rad = DegToRad(now.config.action.pitch_deg);
+  const bool is_looking = direction * now.agent.pitch_rad > 0.5 * step_rad;
+  if (is_looking && flight && IsVerified(*flight, now.config.policy.stair)) {
     StartSession(now, *flight);
     return EntranceVerdict::kVerified;
   }
-  const int max_looks = direction > 0 ? 1 : 2;
-  if (check.looks >= max_looks) {
+  const double max_rad = DegToRad(now.config.action.max_pitch_deg);
+  const double wanted_rad = std::clamp(direction > 0 ? step_rad : -2 * step_rad, -max_rad, max_rad);
+  const auto pitch = policy::PitchTowards(now.agent, wanted_rad, now.config.action);
+  if (!pitch || check.looks >= kMaxPitches) {
     RejectEntrance(now, check.p_focus_world);
     return EntranceVerdict::kRejected;
   }
   ++check.looks;
-  *look = direction > 0 ? Action::kLookUp : Action::kLookDown;
+  *look = pitch;
   return EntranceVerdict::kLooking;
 }
 

@@ -13,9 +13,9 @@ namespace {
 using geometry::IsSurface;
 using geometry::VoxelState;
 
-constexpr int kBelow = 8;             // voxels of a window below the place it is about
-constexpr int kHeadSlack = 1;         // chosen: a ceiling may start one voxel low
-constexpr int kSeenAir = 3;           // chosen: above a surface; one voxel may be a ray along a wall
+constexpr int kBelow = 8;      // voxels of a window below the place it is about
+constexpr int kHeadSlack = 1;  // chosen: a ceiling may start one voxel low
+constexpr int kSeenAir = 3;    // chosen: above a surface; one voxel may be a ray along a wall
 constexpr double kFootReach_m = 0.5;  // chosen: an agent is never farther from its floor
 
 int ColumnOf(int x, int y) {

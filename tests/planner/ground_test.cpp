@@ -51,8 +51,8 @@ TEST(GroundMap, OneStandsOnASurfaceWithAirAndHeadRoom) {
   EXPECT_TRUE(ground.IsStanding({3, 3, 1}));
 }
 
-// Window seats of `bench stairs`: the wall was seen up to a slanting line, and the rays along it left
-// one voxel of air above, which made stairs of it.
+// Window seats of `bench stairs`: the wall was seen up to a slanting line, and the rays along it
+// left one voxel of air above, which made stairs of it.
 TEST(GroundMap, ARayAlongAWallMakesNoGround) {
   VoxelMap map;
   AddGround(map, 0, 0, 8, 3, 0);
