@@ -50,7 +50,7 @@ class MemoryLoader : public bench::RunObserver {
     auto loaded = store::LoadMemory(path_, options);
     if (!loaded) return tl::unexpected(loaded.error());
     return state.Restore(std::move(loaded->map), std::move(loaded->memory),
-                         std::move(loaded->flights));
+                         std::move(loaded->flights), loaded->seen_stairs);
   }
 
  private:
@@ -78,6 +78,7 @@ class MapLog : public bench::RunObserver {
     info.encoder_name = encoder_;
     info.frame = frame_;
     info.flights = state.flights();
+    info.seen_stairs = state.seen_stairs();
     const auto saved = store::SaveMemory(path_, state.map(), state.memory(), info);
     if (!saved) return tl::unexpected(saved.error());
     return {};

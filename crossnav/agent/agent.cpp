@@ -138,6 +138,10 @@ const std::vector<geometry::StairFlight>& Agent::flights() const {
   return impl_->world.flights;
 }
 
+std::vector<geometry::SeenStair> Agent::seen_stairs() const {
+  return impl_->world.stairs.Export();
+}
+
 Result<void> Agent::SetGoal(const std::string& name) {
   auto text = impl_->perception.encoder->EncodeText(name);
   if (!text) return tl::unexpected(text.error());
@@ -162,7 +166,8 @@ Result<void> Agent::SetGoal(const std::string& name) {
 }
 
 Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memory,
-                            std::vector<geometry::StairFlight> flights) {
+                            std::vector<geometry::StairFlight> flights,
+                            const std::vector<geometry::SeenStair>& seen_stairs) {
   World& world = impl_->world;
   CROSSNAV_CHECK(world.step == 0, "a saved memory is given before the first step");
   if (map.config().voxel_m != impl_->config.map.voxel_m)
@@ -175,6 +180,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
   world.flights = std::move(flights);
+  world.stairs.Import(seen_stairs);
   for (const geometry::StairFlight& flight : world.flights)
     for (const Vector3d& p_end : {flight.p_foot_world, flight.p_top_world})
       world.levels_m.push_back(p_end.z());

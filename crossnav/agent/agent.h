@@ -46,7 +46,8 @@ class Agent {
   /// before the first goal. Call before SetGoal. The world frame is the saved one. Errors: another
   /// voxel size or feature dimension.
   Result<void> Restore(geometry::VoxelMap map, memory::SemanticMemory memory,
-                       std::vector<geometry::StairFlight> flights = {});
+                       std::vector<geometry::StairFlight> flights = {},
+                       const std::vector<geometry::SeenStair>& seen_stairs = {});
 
   /// One step. Errors: a malformed observation (sizes, NaN pose) or a failing network.
   Result<StepResult> Step(const Observation& obs);
@@ -56,6 +57,8 @@ class Agent {
   const memory::SemanticMemory& memory() const;
   /// The flights that were walked, in order of their first walk.
   const std::vector<geometry::StairFlight>& flights() const;
+  /// Voxels that were seen as stairs, walked or not; sorted.
+  std::vector<geometry::SeenStair> seen_stairs() const;
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A flight of stairs as an object: what links two floors. It outlives goals and sessions and is
-// saved with the memory. World frame, metres.
+// What is known of stairs beyond a goal, and saved with the memory: a flight as an object, which
+// links two floors, and the voxels that were seen as stairs. World frame, metres.
 #pragma once
 
 #include <vector>
 
 #include "crossnav/core/pose.h"
+#include "crossnav/geometry/voxel_key.h"
 
 namespace crossnav::geometry {
 
@@ -16,6 +17,14 @@ struct StairFlight {
   double confidence = 0;  ///< share of the steps at which stair evidence was seen [0, 1]
   int walked_up = 0;
   int walked_down = 0;
+};
+
+/// A surface voxel that stair pixels fell on: what policy::StairVoxel keeps of it.
+struct SeenStair {
+  VoxelKey key;
+  float probability = 0;     ///< best of the mask there [0, 1]
+  float geometry_score = 0;  ///< best of a component it was part of [0, 1]
+  bool is_confirmed = false;
 };
 
 }  // namespace crossnav::geometry

@@ -15,7 +15,7 @@ using geometry::VoxelState;
 
 constexpr int kBelow = 8;      // voxels of a window below the place it is about
 constexpr int kHeadSlack = 1;  // chosen: a ceiling may start one voxel low
-constexpr int kSeenAir = 3;    // chosen: above a surface; one voxel may be a ray along a wall
+constexpr int kSeenAir = 2;    // chosen: above a surface; one voxel may be a ray along a wall
 constexpr double kFootReach_m = 0.5;  // chosen: an agent is never farther from its floor
 
 int ColumnOf(int x, int y) {
@@ -215,7 +215,12 @@ Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const
   if (at < kBelow) return Side::kUnknown;
   while (at >= lowest && (air >> at & 1) != 0) --at;
   if (at < lowest) return Side::kDrop;
-  return (surface >> at & 1) != 0 ? Side::kBlocked : Side::kUnknown;
+  if ((surface >> at & 1) == 0) return Side::kUnknown;
+  // A surface under too little seen air is ground to be seen; under something, it is none.
+  const bool is_seen = (air >> (at + 1) & Span(0, kSeenAir - 1)) == Span(0, kSeenAir - 1);
+  const bool is_under = (surface & Span(at + 1, std::min(63, at + height_ - kHeadSlack))) != 0;
+  const bool is_bumped = !blocked_.empty() && blocked_.contains({x, y, key.z - kBelow + at + 1});
+  return is_seen || is_under || is_bumped ? Side::kBlocked : Side::kUnknown;
 }
 
 std::optional<VoxelKey> GroundMap::Bridge(const VoxelKey& key, int dx, int dy, int reach) const {

@@ -91,6 +91,21 @@ void StairEvidence::Update(const Image<float>& probability,
   }
 }
 
+std::vector<geometry::SeenStair> StairEvidence::Export() const {
+  std::vector<geometry::SeenStair> seen;
+  const auto share = [](double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); };
+  for (const auto& [key, voxel] : voxels_)
+    seen.push_back(
+        {key, share(voxel.probability), share(voxel.geometry_score), voxel.is_confirmed});
+  return seen;
+}
+
+void StairEvidence::Import(const std::vector<geometry::SeenStair>& seen) {
+  voxels_.clear();
+  for (const geometry::SeenStair& stair : seen)
+    voxels_[stair.key] = {stair.probability, stair.geometry_score, 0, 0, stair.is_confirmed};
+}
+
 std::vector<VoxelKey> StairEvidence::Reject(const Vector3d& p_world, double radius_m,
                                             double voxel_m) {
   std::vector<VoxelKey> rejected;

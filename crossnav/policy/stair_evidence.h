@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crossnav/core/observation.h"
+#include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/planner/astar.h"
 #include "crossnav/policy/candidates.h"
@@ -32,6 +33,10 @@ class StairEvidence {
               const VoxelMap& map, const StairConfig& config, int step);
 
   const std::map<VoxelKey, StairVoxel>& voxels() const { return voxels_; }
+
+  /// For a file: what does not depend on the step count, in order of key; and back.
+  std::vector<geometry::SeenStair> Export() const;
+  void Import(const std::vector<geometry::SeenStair>& seen);
 
   /// Forgets what lies in the cylinder (after a rejected entrance); returns the keys.
   std::vector<VoxelKey> Reject(const Vector3d& p_world, double radius_m, double voxel_m);

@@ -37,7 +37,8 @@ struct SaveInfo {
   std::string encoder_name{};      ///< of the features, as DenseEncoder::Name(); may be empty
   std::uint64_t encoder_hash = 0;  ///< of the encoder's weights or settings; 0 = not known
   std::string frame = "episode";   ///< what the world frame is, in the user's words
-  std::vector<geometry::StairFlight> flights{};  ///< Agent::flights()
+  std::vector<geometry::StairFlight> flights{};    ///< Agent::flights()
+  std::vector<geometry::SeenStair> seen_stairs{};  ///< Agent::seen_stairs()
 };
 
 /// The file's header: what `crossnav map info` prints.
@@ -89,6 +90,7 @@ struct LoadedMemory {
   geometry::VoxelMap map;
   memory::SemanticMemory memory;
   std::vector<geometry::StairFlight> flights;
+  std::vector<geometry::SeenStair> seen_stairs;
   std::vector<std::string> damaged;  ///< e.g. "feature block 12 (3,-1,0): checksum differs"
 };
 

@@ -5,10 +5,10 @@
 
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/store/block_codec.h"
-#include "crossnav/store/flight_table.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
 #include "crossnav/store/sqlite_file.h"
+#include "crossnav/store/stair_tables.h"
 
 namespace crossnav::store {
 namespace {
@@ -189,6 +189,7 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
     return tl::unexpected(done.error());
   auto flights = ReadFlights(*db, damaged);
   if (!flights) return tl::unexpected(flights.error());
+  auto seen_stairs = ReadSeenStairs(*db, damaged);
   if (!damaged.empty() && !options.skip_damaged)
     return tl::unexpected(DamageError(db->file(), damaged));
 
@@ -197,7 +198,11 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
     map.error().where = db->file() + ": " + map.error().where;
     return tl::unexpected(map.error());
   }
-  return LoadedMemory{header, std::move(*map), std::move(memory), std::move(*flights),
+  return LoadedMemory{header,
+                      std::move(*map),
+                      std::move(memory),
+                      std::move(*flights),
+                      std::move(seen_stairs),
                       std::move(damaged)};
 }
 

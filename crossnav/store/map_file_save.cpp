@@ -5,10 +5,10 @@
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/geometry/sparse_grid.h"
 #include "crossnav/store/block_codec.h"
-#include "crossnav/store/flight_table.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
 #include "crossnav/store/sqlite_file.h"
+#include "crossnav/store/stair_tables.h"
 
 namespace crossnav::store {
 namespace {
@@ -137,6 +137,7 @@ Result<SaveReport> SaveInTransaction(Database& db, const geometry::VoxelMap& map
   if (!feature_blocks) return tl::unexpected(feature_blocks.error());
 
   if (auto done = WriteFlights(db, info.flights); !done) return tl::unexpected(done.error());
+  if (auto done = WriteSeenStairs(db, info.seen_stairs); !done) return tl::unexpected(done.error());
 
   MapHeader header;
   header.revision = report.revision = *revision + 1;

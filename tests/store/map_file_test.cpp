@@ -69,6 +69,37 @@ TEST(MapFileTest, FlightsAreSavedWithTheMemory) {
   EXPECT_TRUE(LoadMemory(file.path())->flights.empty());
 }
 
+// Cause 11 of the navigator: a restored agent had to see every flight again.
+TEST(MapFileTest, WhatWasSeenAsStairsIsSavedWithTheMemory) {
+  const TempFile file("seen_stairs.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  SaveInfo info = kInfo;
+  info.seen_stairs = {{{-3, 2, 1}, 0.9F, 0.7F, true}, {{5, -6, 40}, 0.4F, 0, false}};
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
+  const auto loaded = LoadMemory(file.path());
+  ASSERT_TRUE(loaded) << loaded.error().Message();
+  ASSERT_EQ(loaded->seen_stairs.size(), 2u);
+  EXPECT_EQ(loaded->seen_stairs[0].key, (geometry::VoxelKey{-3, 2, 1}));
+  EXPECT_EQ(loaded->seen_stairs[0].probability, 0.9F);
+  EXPECT_EQ(loaded->seen_stairs[0].geometry_score, 0.7F);
+  EXPECT_TRUE(loaded->seen_stairs[0].is_confirmed);
+  EXPECT_FALSE(loaded->seen_stairs[1].is_confirmed);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(db, "UPDATE seen_stair SET data = zeroblob(30)", nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(db);
+  LoadOptions options;
+  EXPECT_FALSE(LoadMemory(file.path(), options));
+  options.skip_damaged = true;
+  const auto rest = LoadMemory(file.path(), options);
+  ASSERT_TRUE(rest);
+  EXPECT_EQ(rest->damaged, std::vector<std::string>{"seen stairs: checksum differs"});
+  EXPECT_TRUE(rest->seen_stairs.empty());
+}
+
 TEST(MapFileTest, ADamagedFlightIsNamedAndTheRestLoads) {
   const TempFile file("damaged_flight.map");
   SmallWorld world;

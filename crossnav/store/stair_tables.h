@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of walked flights in a map file; absent where none was saved, as in files of before.
+// The tables of walked flights and of voxels seen as stairs in a map file; absent where there was
+// nothing to save, as in files of before.
 #pragma once
 
 #include <string>
@@ -17,5 +18,9 @@ Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>
 /// Empty where there is no table. A record that is damaged is left out and named in `damaged`.
 Result<std::vector<geometry::StairFlight>> ReadFlights(Database& db,
                                                        std::vector<std::string>& damaged);
+
+/// The same for what was seen as stairs, walked or not: one record.
+Result<void> WriteSeenStairs(Database& db, const std::vector<geometry::SeenStair>& seen);
+std::vector<geometry::SeenStair> ReadSeenStairs(Database& db, std::vector<std::string>& damaged);
 
 }  // namespace crossnav::store
