@@ -11,6 +11,7 @@
 #include "crossnav/agent/paper_policy.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/sight.h"
 #include "crossnav/core/check.h"
 
 namespace crossnav::agent {
@@ -83,7 +84,7 @@ Result<void> CheckPercept(const perception::Percept& percept, const Observation&
 /// What later stages need of a frame.
 struct Seen {
   std::vector<policy::Sighting> sightings;
-  int detections = 0;
+  trace::Sight sight;
 };
 
 /// What counts as a hint of the goal: every sighting, however small.
@@ -218,7 +219,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   world.coverage.Add(end_voxels, obs.T_world_camera.translation(), goal.inspect_range_m,
                      config.map.voxel_m);
   clock.Stop("evidence");
-  return Seen{std::move(sightings), static_cast<int>(percept->detections.size())};
+  return Seen{std::move(sightings), SightOf(*percept, goal.text)};
 }
 
 Result<StepResult> Agent::Step(const Observation& obs) {
@@ -229,7 +230,7 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   StageClock clock(result.timing);
   self.world.changes.clear();
 
-  const auto seen = self.See(obs, agent, clock);  // map, memory, evidence
+  auto seen = self.See(obs, agent, clock);  // map, memory, evidence
   if (!seen) return tl::unexpected(seen.error());
 
   // Candidates, mode and target, plan, action.
@@ -244,7 +245,8 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   self.Record(result, decision);
   result.trace.agent = agent;
   result.trace.T_world_camera = obs.T_world_camera;
-  result.trace.detections = seen->detections;
+  result.trace.detections = static_cast<int>(seen->sight.boxes.size());
+  result.sight = std::move(seen->sight);
   ++self.world.step;
   return result;
 }

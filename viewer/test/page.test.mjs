@@ -79,6 +79,47 @@ test("the page draws the map and asks nobody", { skip }, async () => {
   await page.close();
 });
 
+/// Pixels of the layer over the camera image that are not clear.
+function inkOf(page) {
+  return page.evaluate(() => {
+    const canvas = document.getElementById("camera-sight");
+    const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    let count = 0;
+    for (let i = 3; i < pixels.length; i += 4) count += pixels[i] > 0;
+    return count;
+  });
+}
+
+test("what perception said lies over the camera image, part by part", { skip }, async () => {
+  const { page, trouble } = await show("sample.html", "#step=112");
+  const names = ["boxes", "masks", "stairs", "similarity"];
+  assert.deepEqual(await page.locator("#sights label").allTextContents(), names);
+  const sights = await page.evaluate(() => JSON.parse(
+    document.getElementById("replay-data").textContent).sights);
+  const withBox = sights.findIndex((s) => s.boxes.length > 0);
+  assert.ok(withBox >= 0);
+  const shown = async (index) => {
+    await page.evaluate((i) => { location.hash = ""; document.body.dataset.sight = ""; return i; }, index);
+    await page.keyboard.press("Home");
+    for (let i = 0; i < index; ++i) await page.keyboard.press("ArrowRight");
+    await page.waitForFunction((i) => document.body.dataset.sight === String(i), index, { timeout: 60000 });
+  };
+  await shown(withBox);
+  const all = await inkOf(page);
+  assert.ok(all > 0);
+  await keep(page, "sight");
+  await page.locator("#sights input").nth(3).check();
+  await page.waitForTimeout(500);
+  assert.ok((await inkOf(page)) > all, "similarity covers more than boxes and masks");
+  assert.match(await page.textContent("#sights output"), /^0\.20 to 0\.90$/);
+  await keep(page, "similarity");
+  for (let i = 0; i < 4; ++i) await page.locator("#sights input").nth(i).uncheck();
+  await page.waitForTimeout(500);
+  assert.equal(await inkOf(page), 0);
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
 test("keys, buttons and the time line move through the steps", { skip }, async () => {
   const { page, trouble } = await show("sample.html", "#step=0");
   await press(page, "ArrowRight", 1);
