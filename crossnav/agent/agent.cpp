@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "crossnav/agent/claims.h"
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
 #include "crossnav/agent/paper_policy.h"
@@ -142,6 +143,7 @@ const std::vector<geometry::StairFlight>& Agent::flights() const {
 Result<void> Agent::SetGoal(const std::string& name) {
   auto text = impl_->perception.encoder->EncodeText(name);
   if (!text) return tl::unexpected(text.error());
+  LearnNames(*impl_->perception.encoder, impl_->config, &impl_->world);
   GoalState fresh;
   fresh.goal = name;
   fresh.index = impl_->goal.index + 1;
@@ -214,10 +216,14 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   auto sightings =
       policy::LiftDetections(percept->detections, obs, config.map, config.policy.object,
                              config.policy.object.secondary_confidence);
+  const Vector3d p_camera_world = obs.T_world_camera.translation();
+  sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
   goal.hints.Update(sightings, HintConfig(config.policy.object), config.map.voxel_m, world.step);
-  world.coverage.Add(end_voxels, obs.T_world_camera.translation(), goal.inspect_range_m,
-                     config.map.voxel_m);
+  if (DoubtsClaims(config))
+    NoteViews(goal.live.all(), sightings, p_camera_world, config.policy.object, config.verify,
+              &goal.claims);
+  world.coverage.Add(end_voxels, p_camera_world, goal.inspect_range_m, config.map.voxel_m);
   clock.Stop("evidence");
   return Seen{std::move(sightings), SightOf(*percept, goal.text)};
 }
