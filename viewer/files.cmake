@@ -8,6 +8,7 @@ set(VIEWER_SCRIPTS
   src/scene.js
   src/overlay.js
   src/panels.js
+  src/sight.js
   src/timeline.js
   src/main.js)
 set(VIEWER_FILES src/index.html src/style.css ${VIEWER_SCRIPTS})

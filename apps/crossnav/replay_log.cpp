@@ -41,7 +41,7 @@ Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const bench::SceneContext& co
 Result<void> ReplayLog::OnStep(const bench::StepView& step) {
   last_step_ = step.trace.step;
   goal_index_ = step.trace.goal_index;
-  return writer_.Write({step.trace, &step.observation});
+  return writer_.Write({step.trace, &step.observation, &step.sight});
 }
 
 Result<void> ReplayLog::OnStageEnd(const bench::StageRecord& stage) {

@@ -6,11 +6,13 @@
 #include <ctime>
 #include <utility>
 
+#include "crossnav/agent/claims.h"
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
 #include "crossnav/agent/paper_policy.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/sight.h"
 #include "crossnav/core/check.h"
 
 namespace crossnav::agent {
@@ -83,7 +85,7 @@ Result<void> CheckPercept(const perception::Percept& percept, const Observation&
 /// What later stages need of a frame.
 struct Seen {
   std::vector<policy::Sighting> sightings;
-  int detections = 0;
+  trace::Sight sight;
 };
 
 /// What counts as a hint of the goal: every sighting, however small.
@@ -145,6 +147,7 @@ std::vector<geometry::SeenStair> Agent::seen_stairs() const {
 Result<void> Agent::SetGoal(const std::string& name) {
   auto text = impl_->perception.encoder->EncodeText(name);
   if (!text) return tl::unexpected(text.error());
+  LearnNames(*impl_->perception.encoder, impl_->config, &impl_->world);
   GoalState fresh;
   fresh.goal = name;
   fresh.index = impl_->goal.index + 1;
@@ -219,12 +222,16 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   auto sightings =
       policy::LiftDetections(percept->detections, obs, config.map, config.policy.object,
                              config.policy.object.secondary_confidence);
+  const Vector3d p_camera_world = obs.T_world_camera.translation();
+  sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
   goal.hints.Update(sightings, HintConfig(config.policy.object), config.map.voxel_m, world.step);
-  world.coverage.Add(end_voxels, obs.T_world_camera.translation(), goal.inspect_range_m,
-                     config.map.voxel_m);
+  if (DoubtsClaims(config))
+    NoteViews(goal.live.all(), sightings, p_camera_world, config.policy.object, config.verify,
+              &goal.claims);
+  world.coverage.Add(end_voxels, p_camera_world, goal.inspect_range_m, config.map.voxel_m);
   clock.Stop("evidence");
-  return Seen{std::move(sightings), static_cast<int>(percept->detections.size())};
+  return Seen{std::move(sightings), SightOf(*percept, goal.text)};
 }
 
 Result<StepResult> Agent::Step(const Observation& obs) {
@@ -235,7 +242,7 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   StageClock clock(result.timing);
   self.world.changes.clear();
 
-  const auto seen = self.See(obs, agent, clock);  // map, memory, evidence
+  auto seen = self.See(obs, agent, clock);  // map, memory, evidence
   if (!seen) return tl::unexpected(seen.error());
 
   // Candidates, mode and target, plan, action.
@@ -250,7 +257,8 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   self.Record(result, decision);
   result.trace.agent = agent;
   result.trace.T_world_camera = obs.T_world_camera;
-  result.trace.detections = seen->detections;
+  result.trace.detections = static_cast<int>(seen->sight.boxes.size());
+  result.sight = std::move(seen->sight);
   ++self.world.step;
   return result;
 }

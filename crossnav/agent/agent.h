@@ -17,6 +17,7 @@
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/perception/perception.h"
+#include "crossnav/trace/sight.h"
 #include "crossnav/trace/step_trace.h"
 
 namespace crossnav::agent {
@@ -24,6 +25,7 @@ namespace crossnav::agent {
 struct StepResult {
   Action action = Action::kStop;
   trace::StepTrace trace;
+  trace::Sight sight;                       ///< what perception said of the frame
   std::vector<trace::StageTime> timing;     ///< CPU ms per stage, in order
   bool all_explored = false;                ///< no candidate is left; `action` is meaningless then
   std::optional<Vector3d> p_claimed_world;  ///< with kStop: where the agent believes the goal to be

@@ -11,6 +11,7 @@
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/planner/planner_config.h"
+#include "crossnav/policy/claim.h"
 #include "crossnav/policy/policy_config.h"
 
 namespace crossnav::agent {
@@ -23,6 +24,7 @@ struct Config {
   memory::QueryConfig query;
   planner::PlannerConfig planner;
   policy::PolicyConfig policy;
+  policy::VerifyConfig verify;
 };
 
 /// Visits every field as visit(name, field[, range]); sections through visit.Section(name, struct).
@@ -35,6 +37,7 @@ void Visit(V& visit, Config& c) {
   visit.Section("query", c.query);
   visit.Section("planner", c.planner);
   visit.Section("policy", c.policy);
+  visit.Section("verify", c.verify);
 }
 
 }  // namespace crossnav::agent

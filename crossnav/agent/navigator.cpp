@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "crossnav/agent/claims.h"
 #include "crossnav/agent/explore.h"
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/progress.h"
@@ -166,7 +167,7 @@ std::optional<Action> ActOnApproach(Situation& now, const policy::Verification& 
   goal.events.push_back("view failed: " + verification.failed_check);
   activity.looks = 0;
   if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
-    goal.live.Discard(poi->id);
+    Reject(now, *poi);
     goal.events.push_back("verification failed: " + verification.failed_check);
     End(now, Ending::kRefuted);
   }
@@ -221,8 +222,15 @@ bool TryLastResort(Situation& now) {
 bool Prove(Situation& now, Decision& decision) {
   const auto& config = now.config;
   for (const policy::LivePoi* poi : now.goal.live.Stable(config.policy.object)) {
-    const auto verification = policy::Verify(*poi, now.sightings, now.obs, config.policy,
-                                             config.sensor.camera_height_m, config.map.voxel_m);
+    auto verification = policy::Verify(*poi, now.sightings, now.obs, config.policy,
+                                       config.sensor.camera_height_m, config.map.voxel_m);
+    if (verification.passed) {
+      const auto verdict = CheckClaim(now, *poi, verification);
+      if (verdict == policy::ClaimVerdict::kWeak) verification.failed_check = "second view";
+      if (verdict == policy::ClaimVerdict::kRefuted) verification.failed_check = "memory";
+      verification.passed = verdict == policy::ClaimVerdict::kAgreed;
+      if (verdict == policy::ClaimVerdict::kRefuted) Reject(now, *poi);
+    }
     if (poi->id == now.goal.active_live || verification.passed)
       decision.verification = verification;
     if (!verification.passed) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/agent/claims.h"
 #include "crossnav/policy/approach.h"
 #include "crossnav/policy/frontiers.h"
 
@@ -40,15 +41,16 @@ planner::GroundRules RulesOf(const Situation& now) {
 }
 
 std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& start,
-                                        const std::vector<VoxelKey>& object, double range_m,
-                                        const std::vector<Vector3d>& tried) {
-  if (object.empty()) return std::nullopt;
+                                        const ViewWish& wish) {
+  if (wish.object.empty()) return std::nullopt;
   const double voxel_m = now.config.map.voxel_m;
-  const policy::ViewTest view(now.world.map, object, range_m, now.config.policy.approach,
+  const policy::ViewTest view(now.world.map, wish.object, wish.range_m, now.config.policy.approach,
                               now.config.sensor.camera_height_m);
   GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
   while (const auto key = search.Next()) {
-    if (!view.IsView(*key) || IsNearTried(tried, FootOf(*key, voxel_m))) continue;
+    const Vector3d p_foot = FootOf(*key, voxel_m);
+    if (!IsNewView(wish.p_center_world, p_foot, wish.other_sides, now.config.verify)) continue;
+    if (!view.IsView(*key) || IsNearTried(wish.tried, p_foot)) continue;
     GroundTarget target;
     target.path = search.PathTo(*key);
     target.cost_m = search.cost() * voxel_m;
@@ -84,12 +86,18 @@ std::optional<GroundTarget> NearestTo(const Situation& now, const VoxelKey& star
   return target;
 }
 
+std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
+                                   const policy::LivePoi& poi) {
+  const bool is_active = poi.id == now.goal.active_live;
+  return NearestView(now, start,
+                     {poi.voxels, now.config.policy.approach.range_m - kSlack_m,
+                      is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{},
+                      ViewsToAvoid(now, poi), poi.p_center_world});
+}
+
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& start) {
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
-    const bool is_active = poi->id == now.goal.active_live;
-    auto target =
-        NearestView(now, start, poi->voxels, now.config.policy.approach.range_m - kSlack_m,
-                    is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{});
+    auto target = ViewOf(now, start, *poi);
     if (!target) continue;
     target->candidate.kind = CandidateKind::kLivePoi;
     target->candidate.id = poi->id;
@@ -121,7 +129,7 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
                   now.config.policy.poi.blacklist_xy_m, now.config.policy.explore.max_choices))
         continue;
       for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
-        auto target = NearestView(now, start, poi.voxels, range_m, {});
+        auto target = NearestView(now, start, {poi.voxels, range_m});
         if (!target) continue;
         if (nearest && nearest->cost_m <= target->cost_m) break;
         target->candidate.kind = CandidateKind::kHistoryPoi;

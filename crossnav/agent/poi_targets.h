@@ -21,15 +21,27 @@ struct GroundTarget {
 /// What may be walked on: every floor, or the start level alone for the planar variant.
 planner::GroundRules RulesOf(const Situation& now);
 
-/// The nearest place from which enough of `object` is in view within `range_m`; `tried` are places
-/// not to offer again.
+/// A place to look at something from.
+struct ViewWish {
+  const std::vector<geometry::VoxelKey>& object;
+  double range_m = 0;                   ///< within which enough of it must be in view
+  std::vector<Vector3d> tried{};        ///< places not to offer again
+  std::vector<Vector3d> other_sides{};  ///< of `p_center_world` than these cameras', if any
+  Vector3d p_center_world = Vector3d::Zero();
+};
+
+/// The nearest place that fulfils `wish`.
 std::optional<GroundTarget> NearestView(const Situation& now, const geometry::VoxelKey& start,
-                                        const std::vector<geometry::VoxelKey>& object,
-                                        double range_m, const std::vector<Vector3d>& tried);
+                                        const ViewWish& wish);
 
 /// The reachable place nearest to `p_world` on its own storey, if it is nearer than `start`.
 std::optional<GroundTarget> NearestTo(const Situation& now, const geometry::VoxelKey& start,
                                       const Vector3d& p_world);
+
+/// The nearest place to see `poi` from, out of those that were not tried and, where a second view
+/// of it is wanted, that are on another side.
+std::optional<GroundTarget> ViewOf(const Situation& now, const geometry::VoxelKey& start,
+                                   const policy::LivePoi& poi);
 
 /// The best live POI that can be approached.
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const geometry::VoxelKey& start);

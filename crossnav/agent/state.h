@@ -16,6 +16,7 @@
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/planner/ground_map.h"
 #include "crossnav/policy/candidates.h"
+#include "crossnav/policy/claim.h"
 #include "crossnav/policy/coverage.h"
 #include "crossnav/policy/frontier_worth.h"
 #include "crossnav/policy/live_poi.h"
@@ -53,6 +54,7 @@ struct World {
   std::optional<AgentPose> before_forward;  ///< pose before the last forward step
   policy::BumpMonitor bumps;                ///< policy.profile = paper
 
+  std::vector<policy::NamedText> names;        ///< that claims are held against, verify.memory = on
   std::vector<geometry::StateChange> changes;  ///< of this step
 
   /// Brings states and ground up to date with the evidence.
@@ -126,6 +128,7 @@ struct GoalState {
   Activity activity;
   std::vector<Attempt> attempts;  ///< everything that was tried and ended
   policy::LivePois hints;         ///< sightings too weak for a live POI
+  policy::ClaimBook claims;       ///< verify.memory = on
   int last_resorts = 0;           ///< of the things to try when nothing is left, how many were used
   double inspect_range_m = 0;
   policy::Resemblance resemblance;  ///< scoring = semantic

@@ -169,7 +169,8 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
   stage.cause.Add(step->trace, floors_->floor());
   NotePassing(stage);
   for (RunObserver* observer : observers_) {
-    const StepView view{observation, step->trace, step->timing, simulator_.agent(), agent_};
+    const StepView view{observation,        step->trace, step->timing,
+                        simulator_.agent(), agent_,      step->sight};
     if (auto ok = observer->OnStep(view); !ok) return tl::unexpected(ok.error());
   }
   if (step->all_explored) {

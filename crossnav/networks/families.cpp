@@ -18,6 +18,8 @@ constexpr std::array kFamilies = {
            &OpenYolo7EndToEnd},
     Family{"yolox", "YOLOX", "detector", &OpenYoloX},
     Family{"segformer", "SegFormer: the sum of its stair classes", "stairs", &OpenSegFormer},
+    Family{"mobile-sam", "MobileSAM: an encoder and a decoder of boxes", "segmenter",
+           &OpenMobileSam},
     Family{"dense", "dense image features with a table of text vectors", "encoder", &OpenDense},
 };
 

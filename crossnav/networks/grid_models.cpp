@@ -3,9 +3,11 @@
 // sum of some classes is stairs; and dense image features (`image` -> `features`) in either layout.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "crossnav/networks/frame_input.h"
 #include "crossnav/networks/parts.h"
+#include "crossnav/networks/text_encoder.h"
 #include "crossnav/networks/text_table.h"
 
 namespace crossnav::networks {
@@ -69,12 +71,34 @@ std::unique_ptr<perception::StairSegmenter> StairModel::MakeStairs() {
 
 class DenseModel : public Model, public std::enable_shared_from_this<DenseModel> {
  public:
-  DenseModel(ModelCard card, Network network, TextTable texts)
-      : card_(std::move(card)), network_(std::move(network)), texts_(std::move(texts)) {}
+  DenseModel(ModelCard card, Network network)
+      : card_(std::move(card)), network_(std::move(network)) {}
   std::unique_ptr<perception::DenseEncoder> MakeEncoder() override;
 
   const ModelCard& card() const { return card_; }
-  const TextTable& texts() const { return texts_; }
+
+  /// Texts come from a table, from a network, or from the network where the table has none.
+  Result<void> OpenTexts(const ModelOptions& options) {
+    const int dim = card_.output.dim;
+    if (!card_.text.table.empty() || card_.text.encoder.empty()) {
+      auto table = TextTable::Read(card_, dim);
+      if (!table) return tl::unexpected(table.error());
+      table_ = std::move(*table);
+    }
+    if (card_.text.encoder.empty()) return {};
+    auto encoder = TextEncoder::Open(card_, dim, options);
+    if (!encoder) return tl::unexpected(encoder.error());
+    encoder_ = std::move(*encoder);
+    return {};
+  }
+
+  Result<std::vector<float>> EncodeText(std::string_view text) {
+    if (table_) {
+      auto own = table_->Of(text);
+      if (own || !encoder_) return own;
+    }
+    return encoder_->Of(text);
+  }
 
   Result<perception::FeatureGrid> EncodeImage(const Observation& obs) {
     const Tensor input = ColourTensor(obs.rgb, card_.input, "image");
@@ -98,7 +122,8 @@ class DenseModel : public Model, public std::enable_shared_from_this<DenseModel>
  private:
   ModelCard card_;
   Network network_;
-  TextTable texts_;
+  std::optional<TextTable> table_;
+  std::optional<TextEncoder> encoder_;
 };
 
 class DensePart : public perception::DenseEncoder {
@@ -110,7 +135,7 @@ class DensePart : public perception::DenseEncoder {
     return model_->EncodeImage(obs);
   }
   Result<std::vector<float>> EncodeText(std::string_view text) override {
-    return model_->texts().Of(text);
+    return model_->EncodeText(text);
   }
 
  private:
@@ -153,12 +178,12 @@ Result<std::shared_ptr<Model>> OpenDense(const ModelCard& card, const ModelOptio
                 card.path.string());
   const Shape shape =
       o.layout == "hwc" ? Shape{1, o.rows, o.cols, o.dim} : Shape{1, o.dim, o.rows, o.cols};
-  auto texts = TextTable::Read(card, o.dim);
-  if (!texts) return tl::unexpected(texts.error());
   auto network =
       OpenNetwork(card, {{{"image", ImageShape(card.input)}}, {{"features", shape}}}, options);
   if (!network) return tl::unexpected(network.error());
-  return std::make_shared<DenseModel>(card, std::move(*network), std::move(*texts));
+  auto model = std::make_shared<DenseModel>(card, std::move(*network));
+  if (auto ok = model->OpenTexts(options); !ok) return tl::unexpected(ok.error());
+  return model;
 }
 
 }  // namespace crossnav::networks

@@ -225,6 +225,20 @@ Result<void> ReadText(Section section, const std::filesystem::path& folder, Mode
   section.Text("table", table);
   section.Text("names_file", names_file);
   section.Texts("names", text.names);
+  std::string encoder, vocabulary;
+  std::vector<std::string> templates;
+  section.Text("encoder", encoder);
+  section.Text("sha256", text.sha256);
+  section.Text("tokenizer", text.tokenizer, {"clip", "wordpiece"});
+  section.Text("vocabulary", vocabulary);
+  section.Whole("length", text.length, 2, kMostSide);
+  section.Text("padding", text.padding, {"end", "zero"});
+  section.Texts("templates", templates);
+  if (!templates.empty()) text.templates = templates;
+  if (!encoder.empty()) text.encoder = folder / encoder;
+  if (!vocabulary.empty()) text.vocabulary = folder / vocabulary;
+  if (!text.sha256.empty() && !IsHash(text.sha256))
+    section.Complain("sha256", "must be 64 hexadecimal digits in lower case");
   if (!table.empty()) text.table = folder / table;
   if (!names_file.empty()) text.names_file = folder / names_file;
   if (!table.empty() && text.names.empty() == names_file.empty())
@@ -245,6 +259,12 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
   top.Texts("labels", card.labels);
   top.Texts("goals", card.labels);  // the same, in cards of our networks
   for (const char* for_people : {"name", "limits", "data", "figures"}) top.Skip(for_people);
+  std::string decoder;
+  top.Text("decoder", decoder);
+  top.Text("decoder_sha256", card.decoder.sha256);
+  if (!card.decoder.sha256.empty() && !IsHash(card.decoder.sha256))
+    top.Complain("decoder_sha256", "must be 64 hexadecimal digits in lower case");
+  if (!decoder.empty()) card.decoder.file = path.parent_path() / decoder;
   if (card.family.empty()) top.Complain("family", "is missing");
   if (!card.sha256.empty() && !IsHash(card.sha256))
     top.Complain("sha256", "must be 64 hexadecimal digits in lower case");

@@ -60,10 +60,23 @@ struct ModelCard {
   } thresholds;
 
   struct Text {
-    std::filesystem::path table;       ///< .npy, a row for each name; empty = none
-    std::vector<std::string> names;    ///< or
-    std::filesystem::path names_file;  ///< the same in a file, one a line
+    std::filesystem::path table;               ///< .npy, a row for each name; empty = none
+    std::vector<std::string> names;            ///< or
+    std::filesystem::path names_file;          ///< the same in a file, one a line
+    std::filesystem::path encoder;             ///< ONNX file for texts that the table does not have
+    std::string sha256;                        ///< of that file; empty = any file
+    std::string tokenizer;                     ///< clip | wordpiece
+    std::filesystem::path vocabulary;          ///< of the tokenizer
+    int length = 77;                           ///< numbers that the encoder takes
+    std::string padding = "end";               ///< end (the tokenizer's own) | zero
+    std::vector<std::string> templates{"{}"};  ///< "{}" stands for the text
   } text;
+
+  /// The second file of a network that has two.
+  struct Second {
+    std::filesystem::path file;
+    std::string sha256;
+  } decoder;
 
   std::string name() const { return path.stem().string(); }
 };

@@ -65,6 +65,7 @@ Result<std::shared_ptr<Model>> OpenYolo7EndToEnd(const ModelCard& card,
                                                  const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenYoloX(const ModelCard& card, const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenSegFormer(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenMobileSam(const ModelCard& card, const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenDense(const ModelCard& card, const ModelOptions& options);
 
 }  // namespace crossnav::networks

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
+#include "crossnav/core/read_file.h"
 #include "crossnav/networks/depth_mask.h"
 #include "crossnav/networks/sha256.h"
 
@@ -74,12 +76,24 @@ Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config,
       if (!bytes) return tl::unexpected(bytes.error());
       card->sha256 = Sha256(*bytes);
       set.hashes_[card->name()] = card->sha256;
+      if (auto ok = set.HashSeconds(*card); !ok) return tl::unexpected(ok.error());
     }
     if (part == std::string_view("encoder"))
       set.encoder_name_ = EncoderNameOf(set.cards_.count(name) == 0 ? *card : set.cards_[name]);
     set.cards_.emplace(name, std::move(*card));
   }
   return set;
+}
+
+Result<void> NetworkSet::HashSeconds(const ModelCard& card) {
+  for (const auto& [what, file] :
+       {std::pair("decoder", card.decoder.file), std::pair("text", card.text.encoder)}) {
+    if (file.empty()) continue;
+    const auto bytes = ReadFile(file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    hashes_[card.name() + "." + what] = Sha256(*bytes);
+  }
+  return {};
 }
 
 Result<Model*> NetworkSet::ModelOf(const std::string& name, const ModelOptions& options) {

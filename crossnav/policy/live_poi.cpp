@@ -117,6 +117,12 @@ void LivePois::Discard(int id) {
   }
 }
 
+void LivePois::Forgive(int id) {
+  for (LivePoi& poi : pois_) {
+    if (poi.id == id) poi.is_discarded = false;
+  }
+}
+
 void LivePois::ForgiveDiscarded() {
   for (LivePoi& poi : pois_) poi.is_discarded = false;
 }

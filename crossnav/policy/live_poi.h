@@ -50,6 +50,7 @@ class LivePois {
   const LivePoi* Find(int id) const;
   void Discard(int id);
   const std::vector<LivePoi>& all() const { return pois_; }
+  void Forgive(int id);
   void ForgiveDiscarded();
 
  private:

@@ -120,11 +120,11 @@ std::string EncodePose(std::uint64_t time_ns, const AgentPose& agent) {
       .Take();
 }
 
-std::string EncodeImage(std::uint64_t time_ns, std::string_view jpeg) {
+std::string EncodeImage(std::uint64_t time_ns, std::string_view bytes, std::string_view format) {
   return ProtoMessage()
       .Message(1, Time(time_ns))
-      .Bytes(2, jpeg)
-      .Bytes(3, "jpeg")
+      .Bytes(2, bytes)
+      .Bytes(3, format)
       .Bytes(4, "camera")
       .Take();
 }

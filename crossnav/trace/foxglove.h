@@ -24,7 +24,8 @@ Rgb8 ColourOf(geometry::VoxelState state);
 std::string EncodeTransform(std::uint64_t time_ns, std::string_view child,
                             const Pose& T_world_child);
 std::string EncodePose(std::uint64_t time_ns, const AgentPose& agent);
-std::string EncodeImage(std::uint64_t time_ns, std::string_view jpeg);
+/// `format`: jpeg | png.
+std::string EncodeImage(std::uint64_t time_ns, std::string_view bytes, std::string_view format);
 std::string EncodeDepth(std::uint64_t time_ns, const Image<std::uint16_t>& depth_mm);
 /// `factor`: by how much the written image is smaller than `camera` says.
 std::string EncodeCalibration(std::uint64_t time_ns, const CameraIntrinsics& camera, int factor);

@@ -12,6 +12,7 @@
 #include "crossnav/core/box.h"
 #include "crossnav/core/image.h"
 #include "crossnav/core/observation.h"
+#include "crossnav/trace/sight.h"
 #include "crossnav/trace/step_trace.h"
 
 namespace crossnav::trace {
@@ -51,10 +52,12 @@ struct StageResult {
   double shortest_m = 0;
 };
 
-/// One step as the writer takes it. `observation` may be null: then there are no images.
+/// One step as the writer takes it. `observation` and `sight` may be null: then there are no
+/// images, or nothing of what perception said.
 struct ReplayFrame {
   const StepTrace& trace;
   const Observation* observation = nullptr;
+  const Sight* sight = nullptr;
 };
 
 /// One step as the reader gives it.
@@ -62,6 +65,8 @@ struct ReplayStep {
   StepTrace trace;
   std::string image_jpeg;         ///< empty where none was written
   Image<std::uint16_t> depth_mm;  ///< 0 = invalid; empty where none was written
+  std::optional<SightNote> sight;
+  std::string maps_png;  ///< MapsOf the sight; empty where none was written
 };
 
 struct Replay {

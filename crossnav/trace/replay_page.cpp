@@ -96,6 +96,11 @@ std::string PageData(const Replay& replay) {
     const std::string png = has_depth ? EncodeDepthPng(step.depth_mm, kDepthMaxM) : std::string();
     json.Value(std::string_view(Base64(png)));
   }
+  json.EndArray().Key("sights").BeginArray();
+  for (const ReplayStep& step : replay.steps)
+    json.Raw(step.sight ? ToJson(*step.sight) : std::string("null"));
+  json.EndArray().Key("maps").BeginArray();
+  for (const ReplayStep& step : replay.steps) json.Value(std::string_view(Base64(step.maps_png)));
   json.EndArray();
   AppendVoxels(json, replay);
   json.EndObject();

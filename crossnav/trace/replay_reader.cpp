@@ -35,6 +35,20 @@ Result<void> ReadImage(std::string_view data, ReplayStep& step) {
   return data.empty() ? Result<void>{} : Malformed("the image message is damaged");
 }
 
+Result<void> ReadMaps(std::string_view data, ReplayStep& step) {
+  while (const auto field = TakeField(data)) {
+    if (field->field == 2) step.maps_png = std::string(field->bytes);
+  }
+  return data.empty() ? Result<void>{} : Malformed("the message of maps is damaged");
+}
+
+Result<void> ReadBoxes(std::string_view data, ReplayStep& step) {
+  auto note = SightNoteFromJson(data);
+  if (!note) return tl::unexpected(note.error());
+  step.sight = std::move(*note);
+  return {};
+}
+
 Result<void> ReadDepth(std::string_view data, ReplayStep& step) {
   std::uint64_t width = 0, height = 0;
   std::string_view pixels, encoding;
@@ -85,6 +99,8 @@ Result<void> Take(Replay& replay, const std::string& topic, const McapMessage& m
   }
   const auto read = topic == "/camera/image"        ? ReadImage
                     : topic == "/camera/depth"      ? ReadDepth
+                    : topic == "/perception/boxes"  ? ReadBoxes
+                    : topic == "/perception/maps"   ? ReadMaps
                     : topic == "/map/voxel_changes" ? ReadChanges
                     : topic == "/agent/step"        ? ReadStep
                                                     : nullptr;

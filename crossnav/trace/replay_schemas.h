@@ -11,6 +11,7 @@ namespace crossnav::trace {
 std::string_view ReplayDescriptors();
 std::string_view StepJsonSchema();
 std::string_view StageJsonSchema();
+std::string_view SightJsonSchema();
 /// The page that replay_page.h fills (viewer/src, packed into one file).
 std::string_view ReplayPageTemplate();
 

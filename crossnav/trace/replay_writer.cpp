@@ -21,6 +21,7 @@ using geometry::VoxelState;
 struct Channels {
   std::uint16_t tf = 0, pose = 0, image = 0, calibration = 0, depth = 0;
   std::uint16_t step = 0, changes = 0, cloud = 0, plan = 0, goals = 0, log = 0, stage = 0;
+  std::uint16_t boxes = 0, maps = 0;
 };
 
 Channels AddChannels(McapWriter& mcap) {
@@ -44,6 +45,8 @@ Channels AddChannels(McapWriter& mcap) {
   c.goals = proto("/episode/goals", "foxglove.SceneUpdate");
   c.log = proto("/log", "foxglove.Log");
   c.stage = json("/episode/stage", "crossnav.Stage", StageJsonSchema());
+  c.boxes = json("/perception/boxes", "crossnav.Sight", SightJsonSchema());
+  c.maps = proto("/perception/maps", "foxglove.CompressedImage");
   return c;
 }
 
@@ -76,7 +79,7 @@ struct ReplayWriter::Impl {
     if (!obs.rgb.empty()) {
       const int factor = ShrinkFactor(std::max(obs.rgb.width, obs.rgb.height), options.image_px);
       Put(channels.image, t,
-          EncodeImage(t, EncodeJpeg(Shrink(obs.rgb, factor), options.jpeg_quality)));
+          EncodeImage(t, EncodeJpeg(Shrink(obs.rgb, factor), options.jpeg_quality), "jpeg"));
       Put(channels.calibration, t, EncodeCalibration(t, obs.camera, factor));
     }
     if (!obs.depth_m.empty()) {
@@ -84,6 +87,12 @@ struct ReplayWriter::Impl {
           ShrinkFactor(std::max(obs.depth_m.width, obs.depth_m.height), options.depth_px);
       Put(channels.depth, t, EncodeDepth(t, ShrinkDepthMm(obs.depth_m, factor)));
     }
+  }
+
+  void PutSight(std::uint64_t t, const Sight& sight) {
+    if (sight.width_px <= 0 || sight.height_px <= 0) return;
+    Put(channels.boxes, t, ToJson(NoteOf(sight)));
+    Put(channels.maps, t, EncodeImage(t, EncodePng(MapsOf(sight, options.maps_px)), "png"));
   }
 
   void PutMap(std::uint64_t t, const StepTrace& trace) {
@@ -158,6 +167,7 @@ Result<void> ReplayWriter::Write(const ReplayFrame& frame) {
   w.Put(w.channels.tf, t, EncodeTransform(t, "camera", trace.T_world_camera));
   w.Put(w.channels.pose, t, EncodePose(t, trace.agent));
   if (frame.observation != nullptr) w.PutImages(t, *frame.observation);
+  if (frame.sight != nullptr) w.PutSight(t, *frame.sight);
   w.Put(w.channels.step, t, ToJson(trace, VoxelText::kOmit));
   w.PutMap(t, trace);
   w.Put(w.channels.plan, t, EncodePlan(t, trace));

@@ -16,6 +16,7 @@ struct ReplayOptions {
   int image_px = 320;          // chosen: legible in the page, about 12 kB a step
   int jpeg_quality = 80;       // chosen: no visible blocks at that size
   int depth_px = 160;          // chosen: a preview, not data to map from
+  int maps_px = 96;            // chosen: of masks, stairs and similarity, under 2 kB a step
   int cloud_every_steps = 20;  // chosen: whole maps for other viewers are large; 0 = never
 };
 

@@ -93,7 +93,7 @@ TEST_F(Foxglove, CameraRotationIsTheCamerasOwn) {
 }
 
 TEST_F(Foxglove, ImagesParse) {
-  EXPECT_EQ(Parse("foxglove.CompressedImage", EncodeImage(0, "JPEG!")),
+  EXPECT_EQ(Parse("foxglove.CompressedImage", EncodeImage(0, "JPEG!", "jpeg")),
             R"(timestamp { } data: "JPEG!" format: "jpeg" frame_id: "camera")");
   Image<std::uint16_t> depth(2, 1);
   depth.data = {0x0102, 0xFFFF};

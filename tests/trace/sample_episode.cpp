@@ -102,6 +102,36 @@ Observation Look(const std::vector<Block>& house, const Pose& T_world_camera, in
   return obs;
 }
 
+/// What a made-up perception would say: masks of what is red or green, stairs on the flight.
+Sight SightOf(const Observation& obs) {
+  Sight sight;
+  sight.width_px = obs.rgb.width;
+  sight.height_px = obs.rgb.height;
+  sight.masks = MaskImage(obs.rgb.width, obs.rgb.height, 0);
+  sight.stair_probability = Image<float>(obs.rgb.width, obs.rgb.height, 0.0F);
+  sight.similarity = Image<float>(24, 24, 0.2F);
+  SightBox box{obs.rgb.width, obs.rgb.height, 0, 0, 0.86, 0.91};
+  for (int v = 0; v < obs.rgb.height; ++v)
+    for (int u = 0; u < obs.rgb.width; ++u) {
+      const Rgb8& c = obs.rgb.At(u, v);
+      const Vector3d p =
+          obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+      const bool is_wood = c.r > c.b + 40 && c.r < 150;
+      if (is_wood && p.y() > 4.7) sight.stair_probability.At(u, v) = 0.8F;
+      if (c.r < 2 * c.g && c.g < 2 * c.r) continue;
+      sight.masks.At(u, v) = 1;
+      sight.similarity.At(24 * u / obs.rgb.width, 24 * v / obs.rgb.height) = 0.9F;
+      box = {std::min(box.u0, u),
+             std::min(box.v0, v),
+             std::max(box.u1, u + 1),
+             std::max(box.v1, v + 1),
+             0.86,
+             0.91};
+    }
+  if (box.u1 > 0) sight.boxes.push_back(box);
+  return sight;
+}
+
 struct Waypoint {
   Vector3d p;
   int goal = 0;
@@ -219,6 +249,7 @@ class Recorder {
       t.events.push_back("goal activated: " + t.goal);
     }
     frame.observation = Look(house_, t.T_world_camera, image_px_);
+    frame.sight = SightOf(frame.observation);
     UpdateMap(frame);
     AddCandidates(to, t);
     episode_.frames.push_back(std::move(frame));

@@ -14,6 +14,7 @@ namespace crossnav::trace {
 struct SampleFrame {
   StepTrace trace;
   Observation observation;
+  Sight sight;  ///< of the house: stairs, the last pieces of furniture
 };
 
 struct SampleEpisode {

@@ -8,6 +8,7 @@ import {
 } from "./panels.js";
 import { Renderer } from "./renderer.js";
 import { KINDS, PATH_COLOUR, SceneBuilder, kindOf, rgbOf } from "./scene.js";
+import { SightLayer } from "./sight.js";
 import { Timeline } from "./timeline.js";
 import { VoxelHistory, blockFaces } from "./voxels.js";
 
@@ -35,7 +36,8 @@ class ReplayApp {
     this.overlay = new Overlay(byId("labels"), this.builder);
     const seek = (i) => this.seek(i);
     this.candidates = new CandidatesPanel(replay, (i) => this.highlight(i));
-    this.panels = [new CameraPanel(replay), new StatusPanel(replay, this.levels), this.candidates,
+    this.panels = [new CameraPanel(replay), new SightLayer(replay),
+      new StatusPanel(replay, this.levels), this.candidates,
       new VerificationPanel(replay), new LogPanel(replay, seek), new GoalsHead(replay, seek)];
     this.timeline = new Timeline(byId("timeline"), replay, seek);
     this.startRenderer();

@@ -2,7 +2,7 @@
 // The page in a browser without a screen, opened from the disk: it draws, it asks nobody, keys work.
 // $CROSSNAV_SCREENSHOTS (a folder) keeps what was seen.
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
@@ -75,6 +75,40 @@ test("the page draws the map and asks nobody", { skip }, async () => {
   assert.ok((await page.locator("#candidates tr").count()) >= 5);
   assert.ok(await page.locator("#camera-image").evaluate((image) => image.decode().then(() => image.naturalWidth)) > 0);
   await keep(page, "light");
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+/// Pixels of the layer over the camera image that are not clear.
+function inkOf(page) {
+  return page.evaluate(() => {
+    const canvas = document.getElementById("camera-sight");
+    const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    let count = 0;
+    for (let i = 3; i < pixels.length; i += 4) count += pixels[i] > 0;
+    return count;
+  });
+}
+
+test("what perception said lies over the camera image, part by part", { skip }, async () => {
+  const html = readFileSync(samplePath("sample.html"), "utf8");
+  const data = html.match(/<script id="replay-data"[^>]*>(.*?)<\/script>/s)[1];
+  const step = JSON.parse(data).sights.findIndex((sight) => sight.boxes.length > 0);
+  const { page, trouble } = await show("sample.html", `#step=${step}`);
+  await page.waitForFunction((i) => document.body.dataset.sight === String(i), step, { timeout: 60000 });
+  assert.deepEqual(await page.locator("#sights label").allTextContents(),
+    ["boxes", "masks", "stairs", "similarity"]);
+  const all = await inkOf(page);
+  assert.ok(all > 0);
+  await keep(page, "sight");
+  await page.locator("#sights input").nth(3).check();
+  await page.waitForTimeout(500);
+  assert.ok((await inkOf(page)) > all, "similarity covers more than boxes and masks");
+  assert.match(await page.textContent("#sights output"), /^0\.20 to 0\.90$/);
+  await keep(page, "similarity");
+  for (let i = 0; i < 4; ++i) await page.locator("#sights input").nth(i).uncheck();
+  await page.waitForTimeout(500);
+  assert.equal(await inkOf(page), 0);
   assert.deepEqual(trouble, []);
   await page.close();
 });

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/claims.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "crossnav/agent/poi_targets.h"
+#include "crossnav/core/category_table.h"
+
+namespace crossnav::agent {
+
+using policy::ClaimVerdict;
+
+namespace {
+
+std::string TwoDigits(double value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+/// The names that the goal is held against: all that do not mean it.
+std::vector<policy::NamedText> OthersThan(const std::string& goal, const World& world) {
+  std::vector<policy::NamedText> others;
+  for (const policy::NamedText& text : world.names)
+    if (CanonicalName(text.name) != CanonicalName(goal)) others.push_back(text);
+  return others;
+}
+
+/// A place to see it from another side can be reached.
+bool HasSecondView(const Situation& now, const policy::LivePoi& poi) {
+  const auto start = now.world.ground.StandingAt(now.agent.p_world);
+  return start && ViewOf(now, *start, poi);
+}
+
+std::string Describe(const std::string& goal, const policy::Verification& verification,
+                     const std::optional<policy::MemoryOpinion>& opinion, int views) {
+  std::string text = goal + " " + TwoDigits(verification.confidence) + " in the frame";
+  if (opinion)
+    text += ", " + TwoDigits(opinion->goal) + " in memory, " + opinion->other + " " +
+            TwoDigits(opinion->best_other);
+  return text + ", views " + std::to_string(views);
+}
+
+}  // namespace
+
+bool DoubtsClaims(const Config& config) {
+  return config.verify.memory == "on" && config.policy.profile == "full" && !config.policy.planar;
+}
+
+void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* world) {
+  if (!DoubtsClaims(config) || !world->names.empty()) return;
+  for (const char* name : policy::RivalNames())
+    if (auto vector = encoder.EncodeText(name)) world->names.push_back({name, std::move(*vector)});
+}
+
+std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sightings,
+                                              const Vector3d& p_camera_world, const Config& config,
+                                              GoalState* goal) {
+  if (!DoubtsClaims(config)) return sightings;
+  std::vector<int> revived;
+  sightings = policy::WithoutRejected(std::move(sightings), p_camera_world, config.policy.object,
+                                      config.verify, &goal->claims, &revived);
+  for (const int id : revived) {
+    goal->live.Forgive(id);
+    goal->events.push_back("new evidence for a rejected object");
+  }
+  return sightings;
+}
+
+ClaimVerdict CheckClaim(Situation& now, const policy::LivePoi& poi,
+                        const policy::Verification& verification) {
+  if (!DoubtsClaims(now.config)) return ClaimVerdict::kAgreed;
+  GoalState& goal = now.goal;
+  const policy::VerifyConfig& config = now.config.verify;
+  const policy::ClaimViews* seen = goal.claims.ViewsOf(poi.id);
+  const int views = seen ? static_cast<int>(seen->p_cameras_world.size()) : 0;
+  const auto opinion =
+      OpinionOf(now.world.memory, poi.voxels, goal.text, OthersThan(goal.goal, now.world));
+  ClaimVerdict verdict = Judge(opinion, verification.confidence, views, config);
+  const bool was_asked = goal.claims.second_view_of == poi.id;
+  if (verdict == ClaimVerdict::kWeak) {
+    goal.claims.second_view_of = poi.id;
+    if (!HasSecondView(now, poi)) {
+      // There is none: the memory decides, and a view that failed counts against the claim.
+      const bool is_likely = (!opinion || opinion->Margin() >= 0) &&
+                             (goal.active_live != poi.id || goal.failed_views == 0);
+      verdict = is_likely ? ClaimVerdict::kAgreed : ClaimVerdict::kRefuted;
+    }
+  }
+  const std::string facts = Describe(goal.goal, verification, opinion, views);
+  if (verdict == ClaimVerdict::kAgreed) goal.events.push_back("claim holds: " + facts);
+  if (verdict == ClaimVerdict::kRefuted) goal.events.push_back("claim refuted: " + facts);
+  if (verdict == ClaimVerdict::kWeak && !was_asked)
+    goal.events.push_back("claim is weak, another view: " + facts);
+  return verdict;
+}
+
+void Reject(Situation& now, const policy::LivePoi& poi) {
+  GoalState& goal = now.goal;
+  if (DoubtsClaims(now.config)) {
+    const policy::ClaimViews* seen = goal.claims.ViewsOf(poi.id);
+    const auto views = seen ? seen->p_cameras_world : std::vector<Vector3d>{};
+    const auto is_same = [&](const std::vector<geometry::VoxelKey>& voxels, const Vector3d& p) {
+      return policy::IsSameObject(poi.voxels, poi.p_center_world, voxels, p,
+                                  now.config.policy.object.merge_distance_m);
+    };
+    for (const policy::LivePoi& hint : goal.hints.all())
+      if (is_same(hint.voxels, hint.p_center_world)) goal.hints.Discard(hint.id);
+    for (HistoryPoi& place : goal.history)
+      place.is_exhausted = place.is_exhausted || is_same(place.voxels, place.p_center_world);
+    goal.claims.rejected.push_back({poi.id, poi.voxels, poi.p_center_world, poi.confidence, views});
+  }
+  goal.live.Discard(poi.id);
+}
+
+std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& poi) {
+  const policy::ClaimBook& claims = now.goal.claims;
+  if (claims.second_view_of != poi.id) return {};
+  const policy::ClaimViews* seen = claims.ViewsOf(poi.id);
+  return seen ? seen->p_cameras_world : std::vector<Vector3d>{};
+}
+
+}  // namespace crossnav::agent

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What perception said of a frame, kept for viewers.
+#pragma once
+
+#include <span>
+
+#include "crossnav/perception/perception.h"
+#include "crossnav/trace/sight.h"
+
+namespace crossnav::agent {
+
+/// Boxes, masks and stairs of `percept`, and the cosine of each feature cell with `goal_text`.
+/// Takes the stair image out of it.
+trace::Sight SightOf(perception::Percept& percept, std::span<const float> goal_text);
+
+}  // namespace crossnav::agent

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/policy/claim.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "crossnav/core/pose.h"
+
+namespace crossnav::policy {
+namespace {
+
+// chosen: what stands in homes, looks like a goal, and is none; floors and walls would win wherever
+// a thing is smaller than a cell of the features.
+constexpr std::array<const char*, 18> kRivals = {
+    "chair", "bed",          "plant",   "toilet",   "tv_monitor", "sofa",
+    "table", "desk",         "cabinet", "wardrobe", "sink",       "bathtub",
+    "stool", "refrigerator", "stove",   "bench",    "picture",    "bookcase"};
+
+double Dot(std::span<const double> a, std::span<const float> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+double Norm(std::span<const float> v) {
+  double squared = 0;
+  for (const float x : v) squared += static_cast<double>(x) * x;
+  return std::sqrt(squared);
+}
+
+bool IsOf(const Sighting& sighting, const std::vector<VoxelKey>& voxels, const Vector3d& p_center,
+          const ObjectConfig& object) {
+  return IsSameObject(voxels, p_center, sighting.voxels, sighting.p_center_world,
+                      object.merge_distance_m);
+}
+
+/// Seen from another side an object may share no voxel with what was rejected: most of a sighting
+/// in the box of the rejected voxels is of it, too.
+bool IsOfRejected(const Sighting& sighting, const RejectedObject& rejected,
+                  const ObjectConfig& object) {
+  if (IsOf(sighting, rejected.voxels, rejected.p_center_world, object)) return true;
+  constexpr int kMargin_vox = 2;  // chosen: noise of depth and pose
+  VoxelKey lo = rejected.voxels.front(), hi = lo;
+  for (const VoxelKey& key : rejected.voxels) {
+    lo = {std::min(lo.x, key.x), std::min(lo.y, key.y), std::min(lo.z, key.z)};
+    hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), std::max(hi.z, key.z)};
+  }
+  const auto inside =
+      std::count_if(sighting.voxels.begin(), sighting.voxels.end(), [&](const VoxelKey& key) {
+        return key.x >= lo.x - kMargin_vox && key.x <= hi.x + kMargin_vox &&
+               key.y >= lo.y - kMargin_vox && key.y <= hi.y + kMargin_vox &&
+               key.z >= lo.z - kMargin_vox && key.z <= hi.z + kMargin_vox;
+      });
+  return 2 * inside > static_cast<std::ptrdiff_t>(sighting.voxels.size());
+}
+
+void Grow(RejectedObject& rejected, const std::vector<VoxelKey>& seen) {
+  std::vector<VoxelKey> all;
+  std::set_union(rejected.voxels.begin(), rejected.voxels.end(), seen.begin(), seen.end(),
+                 std::back_inserter(all));
+  rejected.voxels = std::move(all);
+}
+
+}  // namespace
+
+std::span<const char* const> RivalNames() {
+  return kRivals;
+}
+
+std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
+                                       const std::vector<VoxelKey>& voxels,
+                                       std::span<const float> goal,
+                                       const std::vector<NamedText>& others) {
+  MemoryOpinion opinion;
+  std::vector<double> fused(static_cast<std::size_t>(std::max(0, memory.Dim())), 0.0);
+  for (const VoxelKey& key : voxels) {
+    const auto row = memory.RowOf(key);
+    if (!row) continue;
+    const std::vector<float> feature = memory.FeatureAt(*row);
+    for (std::size_t i = 0; i < fused.size(); ++i) fused[i] += memory.WeightAt(*row) * feature[i];
+    ++opinion.rows;
+  }
+  const double length = std::sqrt(Dot(fused, std::vector<float>(fused.begin(), fused.end())));
+  if (opinion.rows == 0 || !(length > 0)) return std::nullopt;
+  const auto cosine = [&](std::span<const float> text) {
+    return Dot(fused, text) / (length * std::max(1e-12, Norm(text)));
+  };
+  opinion.goal = cosine(goal);
+  for (const NamedText& other : others) {
+    const double answer = cosine(other.vector);
+    if (answer <= opinion.best_other) continue;
+    opinion.best_other = answer;
+    opinion.other = other.name;
+  }
+  return opinion;
+}
+
+bool IsOtherView(const Vector3d& p_object, const Vector3d& p_a, const Vector3d& p_b,
+                 const VerifyConfig& config) {
+  if ((p_a - p_b).head<2>().norm() < config.view_baseline_m) return false;
+  const Vector3d a = p_a - p_object, b = p_b - p_object;
+  const double angle_rad = WrapAngle(std::atan2(a.y(), a.x()) - std::atan2(b.y(), b.x()));
+  return std::abs(angle_rad) >= DegToRad(config.view_angle_deg);
+}
+
+bool IsNewView(const Vector3d& p_object, const Vector3d& p_camera,
+               const std::vector<Vector3d>& views, const VerifyConfig& config) {
+  return std::all_of(views.begin(), views.end(), [&](const Vector3d& p_view) {
+    return IsOtherView(p_object, p_camera, p_view, config);
+  });
+}
+
+const ClaimViews* ClaimBook::ViewsOf(int poi_id) const {
+  const auto it = std::find_if(views.begin(), views.end(),
+                               [&](const ClaimViews& v) { return v.poi_id == poi_id; });
+  return it == views.end() ? nullptr : &*it;
+}
+
+std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
+                                      const Vector3d& p_camera_world, const ObjectConfig& object,
+                                      const VerifyConfig& config, ClaimBook* book,
+                                      std::vector<int>* revived) {
+  auto& rejected = book->rejected;
+  std::erase_if(sightings, [&](const Sighting& sighting) {
+    const auto it = std::find_if(rejected.begin(), rejected.end(), [&](const RejectedObject& r) {
+      return IsOfRejected(sighting, r, object);
+    });
+    if (it == rejected.end()) return false;
+    const bool is_new =
+        sighting.confidence >= std::min(1.0, it->confidence + config.new_evidence) &&
+        IsNewView(it->p_center_world, p_camera_world, it->p_cameras_world, config);
+    if (!is_new) {
+      Grow(*it, sighting.voxels);
+      return true;
+    }
+    revived->push_back(it->poi_id);
+    rejected.erase(it);
+    return false;
+  });
+  return sightings;
+}
+
+void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
+               const Vector3d& p_camera_world, const ObjectConfig& object,
+               const VerifyConfig& config, ClaimBook* book) {
+  for (const LivePoi& poi : pois) {
+    const bool is_claimed =
+        std::any_of(sightings.begin(), sightings.end(), [&](const Sighting& sighting) {
+          return sighting.confidence >= object.found_confidence &&
+                 IsOf(sighting, poi.voxels, poi.p_center_world, object);
+        });
+    if (!is_claimed) continue;
+    auto it = std::find_if(book->views.begin(), book->views.end(),
+                           [&](const ClaimViews& v) { return v.poi_id == poi.id; });
+    if (it == book->views.end()) it = book->views.insert(it, ClaimViews{poi.id, {}});
+    if (IsNewView(poi.p_center_world, p_camera_world, it->p_cameras_world, config))
+      it->p_cameras_world.push_back(p_camera_world);
+  }
+}
+
+ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
+                   const VerifyConfig& config) {
+  const double margin = opinion ? opinion->Margin() : 0;
+  if (margin < -config.refute_margin) return ClaimVerdict::kRefuted;
+  const bool is_weak = confidence < config.strong_confidence || margin < config.strong_margin;
+  return is_weak && views < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
+}
+
+}  // namespace crossnav::policy

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Knowing when a claim is wrong: a detection that would end the search is held against what the
+// semantic memory fused at the object from every view, and, where it is weak, against a second view
+// from another side. What was refuted is remembered as an object. World frame, metres. Functions
+// over plain structs.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crossnav/memory/semantic_memory.h"
+#include "crossnav/policy/live_poi.h"
+
+namespace crossnav::policy {
+
+/// Settings `verify.*`; policy.profile = full.
+struct VerifyConfig {
+  std::string memory = "on";        ///< on | off: off believes the frame before the agent
+  double refute_margin = 0.02;      // chosen: cosine by which another name must answer better
+  double strong_margin = 0.02;      // chosen: cosine by which the goal must, or the claim is weak
+  double strong_confidence = 0.80;  // chosen: of a frame; less is weak
+  double view_angle_deg = 40;       // chosen: seen from the object, what makes a view another one
+  double view_baseline_m = 0.5;     // chosen: and so far apart at least
+  double new_evidence = 0.05;       // chosen: confidence over that of what was refuted
+};
+
+template <class V>
+void Visit(V& visit, VerifyConfig& c) {
+  visit("memory", c.memory, {"on", "off"});
+  visit("refute_margin", c.refute_margin, 0.0, 2.0);
+  visit("strong_margin", c.strong_margin, -2.0, 2.0);
+  visit("strong_confidence", c.strong_confidence, 0.0, 1.0);
+  visit("view_angle_deg", c.view_angle_deg, 0.0, 180.0);
+  visit("view_baseline_m", c.view_baseline_m, 0.0, 10.0);
+  visit("new_evidence", c.new_evidence, 0.0, 1.0);
+}
+
+/// A name and its unit text vector.
+struct NamedText {
+  std::string name;
+  std::vector<float> vector;
+};
+
+/// Names of things that a goal is held against: the benchmark's categories, and furniture that is
+/// taken for them. An encoder that cannot encode one goes without it.
+std::span<const char* const> RivalNames();
+
+/// What the memory says of an object.
+struct MemoryOpinion {
+  double goal = 0;         ///< cosine of the fused feature with the goal's text
+  double best_other = -1;  ///< and with the best of the other names; -1 without any
+  std::string other;       ///< that name
+  int rows = 0;            ///< feature-bearing voxels
+  double Margin() const { return goal - best_other; }
+};
+
+/// Mean over the object's voxels of all that was fused there, by its confidence, against the goal
+/// and against `others`. nullopt where the memory holds nothing of it.
+std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
+                                       const std::vector<VoxelKey>& voxels,
+                                       std::span<const float> goal,
+                                       const std::vector<NamedText>& others);
+
+/// From which sides an object was claimed: camera places that are pairwise other views.
+struct ClaimViews {
+  int poi_id = 0;
+  std::vector<Vector3d> p_cameras_world;
+};
+
+/// Whether `p_a` and `p_b` look at `p_object` from two sides: around the upright axis.
+bool IsOtherView(const Vector3d& p_object, const Vector3d& p_a, const Vector3d& p_b,
+                 const VerifyConfig& config);
+/// Whether `p_camera` is another view than all of `views`.
+bool IsNewView(const Vector3d& p_object, const Vector3d& p_camera,
+               const std::vector<Vector3d>& views, const VerifyConfig& config);
+
+/// An object that turned out not to be the goal.
+struct RejectedObject {
+  int poi_id = 0;
+  std::vector<VoxelKey> voxels;  ///< at least one; sorted; grows with what is seen of it
+  Vector3d p_center_world = Vector3d::Zero();
+  double confidence = 0;                  ///< the best it was claimed with
+  std::vector<Vector3d> p_cameras_world;  ///< views from which it was
+};
+
+/// All claims about one goal.
+struct ClaimBook {
+  std::vector<ClaimViews> views;
+  std::vector<RejectedObject> rejected;
+  int second_view_of = -1;  ///< id of the POI that is to be seen from another side, -1 = none
+
+  const ClaimViews* ViewsOf(int poi_id) const;
+};
+
+/// Drops sightings of rejected objects. One that is more confident than what was rejected, and from
+/// another side, is new evidence: it is kept, the object is rejected no more, and its POI's id goes
+/// to `revived`.
+std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
+                                      const Vector3d& p_camera_world, const ObjectConfig& object,
+                                      const VerifyConfig& config, ClaimBook* book,
+                                      std::vector<int>* revived);
+
+/// Notes from where each POI was claimed in this frame with the confidence that STOP asks for.
+void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
+               const Vector3d& p_camera_world, const ObjectConfig& object,
+               const VerifyConfig& config, ClaimBook* book);
+
+enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
+
+/// kWeak: another view is wanted. `confidence` is the frame's, `views` from how many sides the
+/// object was claimed.
+ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
+                   const VerifyConfig& config);
+
+}  // namespace crossnav::policy

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Small random networks of the paper's architectures as files for crossnav's tests, and what PyTorch says of a made-up picture.
+
+    reference.py OUT [NETWORK ...]
+
+Writes each network's ONNX files (weights rounded to half precision), its card, and golden.tsv: one line for each number that the adapters
+must reproduce. With --full the networks have their own size: nothing for a repository, but the same test reads it.
+"""
+
+import argparse
+import pathlib
+import sys
+
+import numpy as np
+import onnx
+import torch
+
+import architectures
+import export
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+TEXTS = ["chair", "a photo of a bed.", "tv monitor", "Küchentisch", "椅子"]
+BEST = 3  # boxes of a label
+
+
+def picture(size):
+    """The same numbers as in tests/networks/paper_test.cpp: rows x columns x RGB."""
+    v, u = np.mgrid[0:size, 0:size]
+    return np.stack([(7 * u + 3 * v) % 256, (u * v) // 8 % 256, (u * u // 16 + 5 * v) % 256], -1).astype(np.uint8)
+
+
+def tensor(size, scale=1 / 255, mean=(0, 0, 0), deviation=(1, 1, 1), bgr=False):
+    pixels = picture(size)[..., ::-1] if bgr else picture(size)
+    x = (pixels.astype(np.float64) * scale - np.array(mean)) / np.array(deviation)
+    return torch.from_numpy(x.astype(np.float32).transpose(2, 0, 1)[None].copy())
+
+
+def boxes(name, found, labels, size):
+    """`found`: rows of x0, y0, x1, y1, then a score for each class. The best of each label, where it is the row's best class."""
+    scores, best = found[:, 4:].max(1)
+    for label, goal in enumerate(labels):
+        mine = [(float(s), *b.tolist()) for s, b, c in zip(scores, found[:, :4], best) if int(c) == label]
+        mine = [m for m in mine if min(m[3], size) - max(m[1], 0) > 2 and min(m[4], size) - max(m[2], 0) > 2]
+        for score, *box in sorted(mine, reverse=True)[:BEST]:
+            yield [name, "box", goal, score, *(min(max(x, 0), size) for x in box)]
+
+
+def corners(x, y, w, h):
+    return torch.stack([x - w / 2, y - h / 2, x + w / 2, y + h / 2], 1)
+
+
+def golden(name, made, wish):
+    module, size = made.parts[0].module, made.size
+    if name == "clip_text":
+        yield from texts(name, made)
+    elif name == "segformer_b2":
+        logits = module(tensor(size, 1 / 255, [0.485, 0.456, 0.406], [0.229, 0.224, 0.225]))
+        stairs = logits.softmax(1)[:, [53, 59, 121]].sum(1, keepdim=True)
+        whole = torch.nn.functional.interpolate(stairs, size=(size, size), mode="bilinear", align_corners=False)[0, 0]
+        for i in range(0, size, max(1, size // 8)):
+            yield [name, "stairs", i, (3 * i) % size, float(whole[(3 * i) % size, i])]
+    elif name == "mobile_sam":
+        box = torch.tensor([[0.25, 0.25, 0.75, 0.875]]) * size
+        x = tensor(size, 1, module.model.pixel_mean.flatten().tolist(), module.model.pixel_std.flatten().tolist())
+        masks, quality = architectures.decode_box(module.model, module(x), box)
+        whole = torch.nn.functional.interpolate(masks, size=(size, size), mode="bilinear", align_corners=False)[0, 0]
+        yield [name, "quality", *box[0].tolist(), float(quality.clamp(0, 1))]
+        yield [name, "pixels", *box[0].tolist(), int((whole > 0).sum())]
+    elif name == "rtdetr":
+        labels, found, scores = module(tensor(size), torch.tensor([[size, size]]))
+        table = torch.zeros(scores.shape[1], len(wish.labels))
+        table[torch.arange(len(table)), labels[0]] = scores[0]
+        yield from boxes(name, torch.cat([found[0], table], 1), wish.labels, size)
+    elif name == "yolox":
+        raw = module(tensor(size, 1, bgr=True))[0]
+        cells = [(s, y, x) for s in (8, 16, 32) for y in range(size // s) for x in range(size // s)]
+        stride, y, x = (torch.tensor(c, dtype=torch.float32) for c in zip(*cells))
+        found = corners((raw[:, 0] + x) * stride, (raw[:, 1] + y) * stride, raw[:, 2].exp() * stride, raw[:, 3].exp() * stride)
+        yield from boxes(name, torch.cat([found, raw[:, 4:5] * raw[:, 5:]], 1), wish.labels, size)
+    elif name == "yolov7":
+        raw = module(tensor(size))[0]
+        yield from boxes(name, torch.cat([corners(*raw[:, :4].T), raw[:, 4:5] * raw[:, 5:]], 1), wish.labels, size)
+    else:
+        out = module(tensor(size))
+        raw = (out[0] if isinstance(out, tuple) else out)[0].T
+        yield from boxes(name, torch.cat([corners(*raw[:, :4].T), raw[:, 4:4 + len(wish.labels)]], 1), wish.labels, size)
+
+
+def texts(name, made):
+    """Padded with the end, as transformers does."""
+    from transformers import CLIPTokenizer
+
+    folder = pathlib.Path(__file__).resolve().parents[2] / "tests/networks/data/tokens"
+    sys.path.insert(0, str(folder.parents[1]))
+    import make_tokens
+
+    merges = [tuple(line.split()) for line in (folder / "merges.txt").read_text().splitlines()[1:]]
+    tokenizer: CLIPTokenizer = make_tokens.clip(merges)
+    length = made.parts[0].inputs["input_ids"].shape[1]
+    for text in TEXTS:
+        ids = tokenizer(text)["input_ids"]
+        ids += [ids[-1]] * (length - len(ids))
+        vector = made.parts[0].module(torch.tensor([ids]))[0]
+        yield [name, "text", text, *(vector / vector.norm()).tolist()]
+
+
+def round_weights(made):
+    for part in made.parts:
+        for value in [*part.module.parameters(), *part.module.buffers()]:
+            if value.is_floating_point():
+                value.data = value.data.half().float()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("networks", nargs="*", default=list(architectures.NETWORKS))
+    parser.add_argument("--full", action="store_true")
+    args = parser.parse_args()
+    from export import export as write
+    from halve import halve
+
+    lines = {}
+    golden_file = args.out / "golden.tsv"
+    if golden_file.exists():
+        for line in golden_file.read_text().splitlines():
+            lines.setdefault(line.split("\t")[0], []).append(line)
+    for name in args.networks:
+        wish = architectures.Wish(small=not args.full)
+        made = write(name, wish, args.out, prepare=round_weights)
+        for part in made.parts:
+            path = args.out / f"{name}{part.suffix}.onnx"
+            if not args.full:
+                onnx.save(halve(onnx.load(path)), path)
+        card = args.out / f"{name}.toml"
+        if card.exists():
+            kept = [line for line in card.read_text().splitlines() if "sha256" not in line]
+            card.write_text("\n".join(kept) + "\n[thresholds]\nscore = 0.0\nnms_iou = 1.0\n")
+        with torch.no_grad():
+            rows = list(golden(name, made, wish))
+        lines[name] = ["\t".join(f"{x:.6g}" if isinstance(x, float) else str(x) for x in row) for row in rows]
+        print(name, len(rows), "lines")
+    golden_file.write_text("\n".join(line for name in sorted(lines) for line in lines[name]) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// A detector that lies: it takes a couch for a bed. What the agent does about it.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "agent/two_rooms.h"
+
+namespace crossnav::agent {
+namespace {
+
+using crossnav::testing::BoxOf;
+using test::BoxWalker;
+using test::FakeSight;
+using test::FakeSuite;
+using testing::RunAgent;
+using testing::SmallConfig;
+using testing::Walk;
+
+const Box3 kSofa = BoxOf(2.6, 1.6, 0, 3.4, 2.4, 0.7);
+const Box3 kBed = BoxOf(6.4, 2.2, 0, 7.8, 3.8, 0.6);
+const Vector3d kSofaCentre(3.0, 2.0, 0.35);
+
+/// One long room; the couch stands between the agent and the bed.
+BoxWalker LongRoom() {
+  BoxWalker walker;
+  walker.sensor = SmallConfig().sensor;
+  walker.rooms.shell = BoxOf(0, 0, 0, 8, 4, 2.6);
+  walker.rooms.solids = {kSofa, kBed};
+  walker.pose.p_world = Vector3d(0.8, 2.0, 0);
+  return walker;
+}
+
+bool IsOn(const Box3& box, const Vector3d& p) {
+  return box.HorizontalDistance(p) < 0.05 && p.z() < box.max.z() + 0.05 && p.z() > 0.05;
+}
+
+/// Seen from within `lie_deg` of the direction to -x, the couch is a bed with confidence .75.
+FakeSight Liar(double lie_deg, bool has_features) {
+  FakeSight bed, sofa, sight;
+  test::SeeBox(kBed, "bed", &bed);
+  test::SeeBox(kSofa, "bed", &sofa);
+  sight.detect = [=](const Observation& obs, std::string_view goal) {
+    auto found = bed.detect(obs, goal);
+    const Vector3d d = obs.T_world_camera.translation() - kSofaCentre;
+    const double off_rad = std::abs(WrapAngle(std::atan2(d.y(), d.x()) - DegToRad(180)));
+    if (off_rad > DegToRad(lie_deg)) return found;
+    for (auto lie : sofa.detect(obs, goal)) {
+      lie.confidence = 0.75F;
+      found.push_back(lie);
+    }
+    return found;
+  };
+  sight.segment = [=](const Observation& obs, perception::Detection& detection) {
+    (detection.confidence < 0.8F ? sofa : bed).segment(obs, detection);
+  };
+  sight.text = [](std::string_view text) {
+    if (text == "bed") return std::vector<float>{1, 0, 0, 0};
+    if (text == "sofa") return std::vector<float>{0, 1, 0, 0};
+    return std::vector<float>{0, 0, 0, 1};
+  };
+  sight.features = [has_features](const Observation& obs) {
+    perception::FeatureGrid grid{16, 16, 4, {}};
+    for (int i = 0; i < 256; ++i) {
+      const int u = (i % 16) * obs.rgb.width / 16, v = (i / 16) * obs.rgb.height / 16;
+      const Vector3d p =
+          obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+      std::vector<float> cell{0.5F, 0.5F, 0.5F, 0.5F};
+      if (has_features && IsOn(kSofa, p)) cell = {0.5F, 0.8F, 0.33F, 0};
+      if (has_features && IsOn(kBed, p)) cell = {0.8F, 0.5F, 0.33F, 0};
+      grid.data.insert(grid.data.end(), cell.begin(), cell.end());
+    }
+    return grid;
+  };
+  return sight;
+}
+
+struct Outcome {
+  Walk walk;
+  bool at_bed = false, at_sofa = false;
+};
+
+Outcome SearchForBed(const FakeSight& sight, const std::string& memory) {
+  Config config = SmallConfig();
+  config.verify.memory = memory;
+  Agent agent(config, FakeSuite(sight));
+  EXPECT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker = LongRoom();
+  Outcome outcome{RunAgent(agent, walker, 600)};
+  const auto& p = outcome.walk.p_claimed_world;
+  outcome.at_bed = p && kBed.HorizontalDistance(*p) < 0.1;
+  outcome.at_sofa = p && kSofa.HorizontalDistance(*p) < 0.1;
+  return outcome;
+}
+
+int CountEvents(const Walk& walk, const std::string& text) {
+  int count = 0;
+  for (const std::string& trace : walk.traces) count += trace.find(text) != std::string::npos;
+  return count;
+}
+
+TEST(Claims, OffBelievesTheFrame) {
+  EXPECT_TRUE(SearchForBed(Liar(15, true), "off").at_sofa);
+  EXPECT_TRUE(SearchForBed(Liar(15, false), "off").at_sofa);
+}
+
+TEST(Claims, WhatTheMemoryCallsByAnotherNameIsNotClaimed) {
+  const Outcome outcome = SearchForBed(Liar(180, true), "on");
+  EXPECT_TRUE(outcome.at_bed) << outcome.walk.traces.size();
+  EXPECT_EQ(CountEvents(outcome.walk, "claim refuted"), 1) << "the couch is remembered as refuted";
+}
+
+TEST(Claims, AWeakClaimNeedsAViewFromAnotherSide) {
+  const Outcome outcome = SearchForBed(Liar(15, false), "on");
+  EXPECT_TRUE(outcome.at_bed) << outcome.walk.traces.size();
+  EXPECT_GE(CountEvents(outcome.walk, "claim is weak"), 1);
+}
+
+TEST(Claims, TheRightObjectIsClaimedWithOrWithout) {
+  for (const std::string memory : {"on", "off"}) {
+    Agent agent(
+        [&] {
+          Config config = SmallConfig();
+          config.verify.memory = memory;
+          return config;
+        }(),
+        FakeSuite(testing::CouchSight()));
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    BoxWalker walker = testing::TwoRooms();
+    EXPECT_EQ(RunAgent(agent, walker, 400).last_action, Action::kStop) << memory;
+  }
+}
+
+}  // namespace
+}  // namespace crossnav::agent

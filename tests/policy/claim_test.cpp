@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/policy/claim.h"
+
+#include <gtest/gtest.h>
+
+namespace crossnav::policy {
+namespace {
+
+using memory::MemoryRow;
+using memory::SemanticMemory;
+
+const VerifyConfig kConfig;
+const ObjectConfig kObject;
+
+memory::MemoryRow Row(const VoxelKey& key, float weight, std::vector<float> feature) {
+  MemoryRow row{key, weight, weight};
+  for (const float x : feature) row.half.push_back(x == 0 ? 0 : 0x3c00);  // 0 or 1
+  return row;
+}
+
+std::vector<VoxelKey> Column(int x) {
+  return {{x, 0, 0}, {x, 0, 1}, {x, 0, 2}, {x, 0, 3}, {x, 0, 4}};
+}
+
+Sighting SightingOf(int x, double confidence) {
+  Sighting sighting;
+  sighting.voxels = Column(x);
+  sighting.p_center_world = Vector3d(0.1 * x, 0, 0.25);
+  sighting.confidence = confidence;
+  return sighting;
+}
+
+TEST(Opinion, IsThatOfAllViewsByTheirWeight) {
+  SemanticMemory memory({}, 0.1, 2);
+  memory.AppendRow(Row({0, 0, 0}, 3, {1, 0}));
+  memory.AppendRow(Row({0, 0, 1}, 1, {0, 1}));
+  const std::vector<NamedText> others = {{"sofa", {0, 1}}, {"desk", {0, -1}}};
+  const auto opinion = OpinionOf(memory, Column(0), std::vector<float>{1, 0}, others);
+  ASSERT_TRUE(opinion.has_value());
+  EXPECT_EQ(opinion->rows, 2);
+  EXPECT_EQ(opinion->other, "sofa");
+  EXPECT_NEAR(opinion->goal, 3 / std::sqrt(10.0), 1e-6);
+  EXPECT_NEAR(opinion->best_other, 1 / std::sqrt(10.0), 1e-6);
+}
+
+TEST(Opinion, IsNoneWhereNothingIsRemembered) {
+  const SemanticMemory memory({}, 0.1, 2);
+  EXPECT_FALSE(OpinionOf(memory, Column(0), std::vector<float>{1, 0}, {}).has_value());
+}
+
+TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedOnesNoMore) {
+  const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.7, 0.7, "sofa", 9},
+      denies{0.5, 0.9, "sofa", 9};
+  EXPECT_EQ(Judge(agrees, 0.9, 1, kConfig), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, 0.72, 1, kConfig), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, 0.72, 2, kConfig), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(unsure, 0.9, 1, kConfig), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(denies, 0.99, 3, kConfig), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(std::nullopt, 0.9, 1, kConfig), ClaimVerdict::kWeak);
+}
+
+TEST(Views, AreOthersByAngleAroundTheObjectAndByDistance) {
+  const Vector3d p_object(0, 0, 0.5);
+  const Vector3d south(0, -2, 0.9), further(0.1, -4, 0.9), east(2, 0, 0.9);
+  EXPECT_FALSE(IsOtherView(p_object, south, further, kConfig));
+  EXPECT_TRUE(IsOtherView(p_object, south, east, kConfig));
+  EXPECT_FALSE(IsOtherView(p_object, 0.05 * south, 0.05 * east, kConfig)) << "0.14 m apart";
+}
+
+TEST(Views, AreNotedOnceForASide) {
+  LivePoi poi;
+  poi.id = 7;
+  poi.voxels = Column(0);
+  poi.p_center_world = Vector3d(0, 0, 0.25);
+  ClaimBook book;
+  const auto note = [&](const Vector3d& p_camera, double confidence) {
+    NoteViews({poi}, {SightingOf(0, confidence)}, p_camera, kObject, kConfig, &book);
+    const ClaimViews* views = book.ViewsOf(7);
+    return views ? views->p_cameras_world.size() : 0;
+  };
+  EXPECT_EQ(note({2, 0, 0.9}, 0.65), 0U) << "not what STOP asks for";
+  EXPECT_EQ(note({2, 0, 0.9}, 0.75), 1U);
+  EXPECT_EQ(note({3, 0, 0.9}, 0.75), 1U);
+  EXPECT_EQ(note({0, 3, 0.9}, 0.75), 2U);
+}
+
+TEST(Rejected, AnObjectIsNotTriedAgainWithoutNewEvidence) {
+  ClaimBook book;
+  book.rejected.push_back({3, Column(0), Vector3d(0, 0, 0.25), 0.75, {Vector3d(2, 0, 0.9)}});
+  std::vector<int> revived;
+  const auto left = [&](const Vector3d& p_camera, double confidence) {
+    return WithoutRejected({SightingOf(0, confidence), SightingOf(30, 0.7)}, p_camera, kObject,
+                           kConfig, &book, &revived)
+        .size();
+  };
+  EXPECT_EQ(left({2, 0, 0.9}, 0.95), 1U) << "from the same side";
+  EXPECT_EQ(left({0, 2, 0.9}, 0.76), 1U) << "no more sure than before";
+  EXPECT_TRUE(revived.empty());
+  EXPECT_EQ(left({0, 2, 0.9}, 0.85), 2U);
+  EXPECT_EQ(revived, std::vector<int>{3});
+  EXPECT_TRUE(book.rejected.empty());
+}
+
+}  // namespace
+}  // namespace crossnav::policy
