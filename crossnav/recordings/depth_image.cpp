@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/recordings/depth_image.h"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>

@@ -89,10 +89,11 @@ Result<Recording> ReadFolder(const Folder& folder, const RecordingOptions& optio
     auto obs = MakeObservation(*rig, std::move(*images),
                                *T_world_folder * pose.pose * T_base_camera, frame.depth.string());
     if (!obs) return tl::unexpected(obs.error());
+    obs->time_ns = frame.time_ns;
     ++counts.frames;
     const double share =
         static_cast<double>(counts.depth_images) / static_cast<double>(folder.frames.size());
-    if (auto ok = visit(recording, {std::move(*obs), frame.time_ns, share}); !ok)
+    if (auto ok = visit(recording, {std::move(*obs), share}); !ok)
       return tl::unexpected(ok.error());
   }
   if (auto ok = CheckFrames(counts, folder.path.string()); !ok) return tl::unexpected(ok.error());

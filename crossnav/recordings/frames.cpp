@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/recordings/frames.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "crossnav/recordings/depth_image.h"
 #include "crossnav/sim/image_codec.h"
 
 namespace crossnav::recordings {
 namespace {
 
-Result<void> CheckSize(int width, int height, const CameraIntrinsics& K, const char* which,
-                       const std::string& where) {
-  if (width == K.width_px && height == K.height_px) return {};
-  return Fail(ErrorCode::kMismatch,
-              std::string("the ") + which + " image is " + std::to_string(width) + " x " +
-                  std::to_string(height) + " px, and its camera " + std::to_string(K.width_px) +
-                  " x " + std::to_string(K.height_px),
-              where);
+constexpr double kFarthest_m = 1e5;  // as the agent's: far beyond any house
+
+Result<void> CheckCamera(int width, int height, const CameraIntrinsics& K, const char* which,
+                         const std::string& where) {
+  if (width != K.width_px || height != K.height_px) {
+    return Fail(ErrorCode::kMismatch,
+                std::string("the ") + which + " image is " + std::to_string(width) + " x " +
+                    std::to_string(height) + " px, and its camera " + std::to_string(K.width_px) +
+                    " x " + std::to_string(K.height_px),
+                where);
+  }
+  const bool is_good = K.fx > 0 && K.fy > 0 && std::isfinite(K.fx + K.fy + K.cx + K.cy);
+  if (is_good) return {};
+  return Fail(ErrorCode::kInvalid,
+              std::string("the intrinsics of the ") + which + " camera are no camera's", where);
+}
+
+bool IsInReach(const Pose& pose) {
+  return IsValidPose(pose) && pose.translation().cwiseAbs().maxCoeff() < kFarthest_m;
 }
 
 }  // namespace
@@ -33,8 +47,10 @@ Result<RgbImage> DecodeColour(std::span<const std::uint8_t> bytes, const std::st
 
 Result<Observation> MakeObservation(const Rig& rig, Images images, const Pose& T_world_camera,
                                     const std::string& where) {
-  auto ok = CheckSize(images.depth_m.width, images.depth_m.height, rig.depth.K, "depth", where);
+  auto ok = CheckCamera(images.depth_m.width, images.depth_m.height, rig.depth.K, "depth", where);
   if (!ok) return tl::unexpected(ok.error());
+  if (!IsInReach(T_world_camera) || !IsInReach(rig.T_colour_depth))
+    return Fail(ErrorCode::kInvalid, "a pose is not finite, or more than 100 km away", where);
   Observation obs;
   obs.T_world_camera = T_world_camera;
   if (images.rgb.empty()) {
@@ -43,7 +59,7 @@ Result<Observation> MakeObservation(const Rig& rig, Images images, const Pose& T
     obs.rgb = RgbImage(obs.depth_m.width, obs.depth_m.height);
     return obs;
   }
-  ok = CheckSize(images.rgb.width, images.rgb.height, rig.colour.K, "colour", where);
+  ok = CheckCamera(images.rgb.width, images.rgb.height, rig.colour.K, "colour", where);
   if (!ok) return tl::unexpected(ok.error());
   obs.camera = rig.colour.K;
   obs.rgb = rig.colour.IsDistorted() ? Rectify(images.rgb, rig.colour) : std::move(images.rgb);

@@ -28,7 +28,8 @@ Result<RgbImage> DecodeColour(std::span<const std::uint8_t> bytes, const std::st
 std::span<const std::uint8_t> BytesOf(std::string_view text);
 
 /// Without lenses, depth registered into the colour image. `T_world_camera` is that of the camera
-/// whose grid is used. Errors: kMismatch, an image of another size than its intrinsics.
+/// whose grid is used. Errors: kMismatch, an image of another size than its
+/// intrinsics; kInvalid, intrinsics or poses that are not finite.
 Result<Observation> MakeObservation(const Rig& rig, Images images, const Pose& T_world_camera,
                                     const std::string& where);
 

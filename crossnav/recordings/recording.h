@@ -62,8 +62,7 @@ struct Recording {
 
 struct RecordedFrame {
   Observation obs;
-  std::int64_t time_ns = 0;  ///< of the depth image, as the recording counts
-  double share_done = 0;     ///< of the recording, [0, 1]
+  double share_done = 0;  ///< of the recording, [0, 1]
 };
 
 /// An error stops the reading and is returned.

@@ -129,8 +129,9 @@ class BagReader {
     auto obs =
         MakeObservation(rig_, std::move(*images), T_world_bag_ * pose.pose, pair.depth.where);
     if (!obs) return tl::unexpected(obs.error());
+    obs->time_ns = pair.depth.time_ns;
     ++counts.frames;
-    return visit_(recording_, {std::move(*obs), pair.depth.time_ns, share_done_});
+    return visit_(recording_, {std::move(*obs), share_done_});
   }
 
   Result<RosImage> ParsedOf(const std::string& topic, const HeldImage& held) const {

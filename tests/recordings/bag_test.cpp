@@ -31,7 +31,7 @@ TEST(RosbagsBag, RawImagesAreMatchedRegisteredInterpolatedAndCounted) {
   ASSERT_EQ(counts.frames, 18);
   ASSERT_EQ(result.frames.size(), 18U);
   const Observation& first = result.frames[0].obs;
-  EXPECT_EQ(result.frames[0].time_ns, 100'050'000'000);
+  EXPECT_EQ(first.time_ns, 100'050'000'000);
   // Halfway between two poses of the robot; the colour camera is 0.06 m to its right, 1 m up.
   EXPECT_TRUE(first.T_world_camera.translation().isApprox(Vector3d(0.025, -0.06, 1), 1e-9));
   EXPECT_TRUE(first.T_world_camera.linear().col(2).isApprox(Vector3d::UnitX(), 1e-9));

@@ -76,7 +76,7 @@ TEST_F(Folders, TumIsMatchedInterpolatedAndCounted) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int i = std::array{1, 2, 4}[k];
     const Observation& obs = result.frames[k].obs;
-    EXPECT_EQ(result.frames[k].time_ns, 10'000'000'000 + i * 100'000'000);
+    EXPECT_EQ(obs.time_ns, 10'000'000'000 + i * 100'000'000);
     EXPECT_TRUE(obs.T_world_camera.translation().isApprox(Vector3d(0.1 * i, 0, 1), 1e-6));
     ExpectFlat(obs.depth_m, 3.0 - 0.1 * i);
     EXPECT_EQ(obs.rgb.data, testing::Gradient(24, 18).data);
@@ -155,6 +155,17 @@ TEST_F(Folders, ImagesOfAnotherSizeThanTheFirstAreAnError) {
   WriteSevenScenes();
   testing::WriteColour(At("frame-000001.color.png"), 30, 20);
   ExpectError(ReadAll(folder_.path(), Small()), {"30 x 20", "24 x 18"});
+}
+
+TEST_F(Folders, IntrinsicsAndPosesThatAreNoNumbersAreErrors) {
+  WriteTum();
+  RecordingOptions options = Small();
+  options.colour->cx = std::numeric_limits<double>::quiet_NaN();
+  ExpectError(ReadAll(folder_.path(), options), {"depth/1.png", "intrinsics"});
+  options = Small();
+  options.T_base_camera = Pose::Identity();
+  options.T_base_camera->translation().x() = 1e300;
+  ExpectError(ReadAll(folder_.path(), options), {"depth/1.png", "not finite"});
 }
 
 TEST_F(Folders, TheAxisThatPointsUpAndTheMountingAreApplied) {
