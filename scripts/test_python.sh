@@ -9,6 +9,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 python="$root/build/python-venv/bin/python"
 wheel=$(echo "$root"/build/wheel/*.whl)
 "$python" -m pip install -q --disable-pip-version-check --no-deps "$wheel"
+program="$(cd "${1:-$root/build/release}" && pwd)/apps/crossnav/crossnav"
 cd "$root/build/python-venv"  # not where the sources lie
-CROSSNAV_ROOT="$root" CROSSNAV_WHEEL="$wheel" \
+CROSSNAV_ROOT="$root" CROSSNAV_WHEEL="$wheel" CROSSNAV_PROGRAM="$program" \
   "$python" -m pytest -q -p no:cacheprovider --durations=5 "$root/python/tests"

@@ -12,6 +12,7 @@
 #include "crossnav/sim/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "map_build.h"
 #include "perception_source.h"
 #include "session.h"
 
@@ -178,33 +179,42 @@ Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Con
   return {};
 }
 
-Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Console& console) {
-  const auto config = LoadConfig(common);
-  if (!config) return tl::unexpected(config.error());
-  const auto loaded = Load(options, *config, console);
+Result<MapAnswer> AnswerQuery(const MapOptions& options, const bench::RunConfig& config,
+                              Console& console) {
+  const auto loaded = Load(options, config, console);
   if (!loaded) return tl::unexpected(loaded.error());
-  const auto vectors = EncodeText(options, loaded->header, *config);
+  const auto vectors = EncodeText(options, loaded->header, config);
   if (!vectors) return tl::unexpected(vectors.error());
-  memory::QueryConfig query = config->agent.query;
+  memory::QueryConfig query = config.agent.query;
   query.top_k = options.top;
   Json places = Json::array();
+  MapAnswer answer;
   for (const auto& cluster :
        memory::Query(loaded->memory, vectors->text, query, vectors->background)) {
     const Vector3d& p = cluster.p_center_world;
-    const auto place = PlaceToStand(options, loaded->map, cluster, config->agent);
+    const auto place = PlaceToStand(options, loaded->map, cluster, config.agent);
     const std::string where = place
                                   ? fmt::format("stand at ({:.2f}, {:.2f}, {:.2f}), {:.1f} m away",
                                                 place->p_foot_world.x(), place->p_foot_world.y(),
                                                 place->p_foot_world.z(), place->path_m)
                                   : "no reachable place to see it from";
-    console.Print(fmt::format("  {:6.3f}  ({:.2f}, {:.2f}, {:.2f})  {} voxels, {}\n", cluster.score,
-                              p.x(), p.y(), p.z(), cluster.voxels.size(), where));
+    answer.text += fmt::format("  {:6.3f}  ({:.2f}, {:.2f}, {:.2f})  {} voxels, {}\n",
+                               cluster.score, p.x(), p.y(), p.z(), cluster.voxels.size(), where);
     places.push_back(
         ClusterJson(cluster, place, loaded->map.config().voxel_m, options.with_voxels));
   }
-  if (places.empty())
-    console.Print("nothing in this map stands out for \"" + options.text + "\"\n");
-  console.Document(Json({{"text", options.text}, {"places", std::move(places)}}).dump(1));
+  if (places.empty()) answer.text = "nothing in this map stands out for \"" + options.text + "\"\n";
+  answer.json = Json({{"text", options.text}, {"places", std::move(places)}}).dump(1);
+  return answer;
+}
+
+Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  const auto answer = AnswerQuery(options, *config, console);
+  if (!answer) return tl::unexpected(answer.error());
+  console.Print(answer->text);
+  console.Document(answer->json);
   return {};
 }
 

@@ -113,9 +113,73 @@ void AddResults(CLI::App& app, Options& o) {
   page->add_option("--out", o.replay.out, "Page to write (.html)")->required();
 }
 
+/// What a recording does not say of itself, or says wrongly.
+void AddSensor(CLI::App* verb, MapBuildOptions& o) {
+  verb->add_option("--intrinsics", o.intrinsics,
+                   "Colour camera [px], and the depth camera's where it has none of its own")
+      ->type_name("FX,FY,CX,CY")
+      ->delimiter(',')
+      ->expected(4);
+  verb->add_option("--depth-intrinsics", o.depth_intrinsics, "Depth camera [px]")
+      ->type_name("FX,FY,CX,CY")
+      ->delimiter(',')
+      ->expected(4);
+  verb->add_option("--extrinsics", o.extrinsics,
+                   "Pose of the depth camera in the colour camera [m]")
+      ->type_name("X,Y,Z,QX,QY,QZ,QW")
+      ->delimiter(',')
+      ->expected(7);
+  verb->add_option("--mount", o.mount, "Pose of the colour camera on what the poses are of [m]")
+      ->type_name("X,Y,Z,QX,QY,QZ,QW")
+      ->delimiter(',')
+      ->expected(7);
+  verb->add_option("--up", o.recording.up, "Axis of the recording's world that points up")
+      ->check(CLI::IsMember({"z", "y", "-y"}));
+  verb->add_option("--depth-unit", o.recording.depth_unit_m, "Metres of one step of integer depth")
+      ->check(CLI::Range(1e-6, 1.0));
+}
+
+void AddMapBuild(CLI::App& map, Options& o) {
+  MapBuildOptions& b = o.map_build;
+  CLI::App* build = AddVerb(map, o, "build", "A map and memory of a sensor's recording",
+                            "crossnav map build --from bag.mcap --perception networks --goal chair "
+                            "--out home.map",
+                            [&o](Console& c) { return MapBuild(o.map_build, o.common, c); });
+  build
+      ->add_option("--from", b.from,
+                   "Folder of TUM RGB-D, 7-Scenes or numbered frames, or ROS 2 bag (MCAP)")
+      ->required()
+      ->type_name("PATH");
+  build->add_option("--out", b.out, "Map file to write")->required()->type_name("MAP");
+  build
+      ->add_option("--perception", b.perception,
+                   "none (geometry alone), or networks: features that can be asked for")
+      ->check(CLI::IsMember({"none", "networks"}));
+  build->add_option("--goal", b.goal, "Then answer this text, as map query does")
+      ->type_name("TEXT");
+  build->add_option("--top", b.top, "Places at most")->check(CLI::Range(1, 1000));
+  AddSensor(build, b);
+  build->add_option("--match", b.recording.match_s, "Colour and depth are a pair within [s]")
+      ->check(CLI::Range(0.0, 10.0));
+  build->add_option("--pose-gap", b.pose_gap_s, "Longest time between two poses [s]")
+      ->check(CLI::Range(0.0, 60.0));
+  build
+      ->add_option("--max-speed", b.recording.poses.speed_mps,
+                   "A pose that moves faster is a jump [m/s]")
+      ->check(CLI::Range(0.01, 1000.0));
+  build->add_option("--colour-topic", b.recording.bag.colour_topic, "Of a bag's images");
+  build->add_option("--depth-topic", b.recording.bag.depth_topic, "Likewise");
+  build->add_option("--pose-topic", b.recording.bag.pose_topic, "nav_msgs/Odometry of a bag");
+  build->add_option("--world-frame", b.recording.bag.world_frame,
+                    "Frame of a bag's transforms; default: the root above the camera");
+  build->add_flag("--skip-damaged", b.recording.skip_damaged,
+                  "Leave out images that cannot be read, and take a bag that has no end");
+}
+
 void AddMap(CLI::App& app, Options& o) {
-  CLI::App* map = app.add_subcommand("map", "Look into a saved memory");
+  CLI::App* map = app.add_subcommand("map", "Make a memory of a recording, look into a saved one");
   map->require_subcommand(1);
+  AddMapBuild(*map, o);
   CLI::App* info = AddVerb(*map, o, "info", "What a map file holds", "crossnav map info home.map",
                            [&o](Console& c) { return MapInfo(o.map, o.common, c); });
   CLI::App* query = AddVerb(*map, o, "query", "Places that answer a text, best first",

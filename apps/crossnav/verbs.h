@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "commands.h"
+#include "map_build.h"
 
 namespace crossnav::app {
 
@@ -29,6 +30,7 @@ struct Options {
   MetricsOptions metrics;
   ReplayOptions replay;
   MapOptions map;
+  MapBuildOptions map_build;
   BenchOptions bench;
   NetworksOptions networks;
   StairsOptions stairs;

@@ -3,9 +3,12 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <optional>
+#include <system_error>
 
-#include "crossnav/core/read_file.h"
 #include "crossnav/trace/proto_wire.h"
 
 namespace crossnav::trace {
@@ -13,6 +16,50 @@ namespace {
 
 constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{1}
                                          << 30;  // chosen: 1000 times what we write
+constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 31;  // chosen: an incompressible one
+constexpr std::uint64_t kHeadBytes = 9;                            // kind and length of a record
+
+/// Where the bytes come from. Reading is sequential but for the last few bytes.
+class Input {
+ public:
+  virtual ~Input() = default;
+  virtual std::uint64_t Size() const = 0;
+  /// Bytes [at, at + count), which lie within the size; valid until the next call. Fewer where the
+  /// system refuses.
+  virtual std::string_view Read(std::uint64_t at, std::uint64_t count) = 0;
+};
+
+class MemoryInput : public Input {
+ public:
+  explicit MemoryInput(std::string_view bytes) : bytes_(bytes) {}
+  std::uint64_t Size() const override { return bytes_.size(); }
+  std::string_view Read(std::uint64_t at, std::uint64_t count) override {
+    return bytes_.substr(at, count);
+  }
+
+ private:
+  std::string_view bytes_;
+};
+
+/// Holds one record at a time, however large the file.
+class FileInput : public Input {
+ public:
+  FileInput(std::ifstream file, std::uint64_t size) : file_(std::move(file)), size_(size) {}
+  std::uint64_t Size() const override { return size_; }
+  std::string_view Read(std::uint64_t at, std::uint64_t count) override {
+    if (at != at_) file_.seekg(static_cast<std::streamoff>(at));
+    if (buffer_.size() < count) buffer_.resize(count);
+    file_.read(buffer_.data(), static_cast<std::streamsize>(count));
+    const auto got = static_cast<std::uint64_t>(file_.gcount());
+    at_ = at + got;
+    return std::string_view(buffer_).substr(0, got);
+  }
+
+ private:
+  std::ifstream file_;
+  std::uint64_t size_, at_ = 0;
+  std::string buffer_;
+};
 
 /// Takes values off the front of a record's content; `is_good` turns false where it is too short.
 struct Content {
@@ -69,27 +116,33 @@ std::optional<RawRecord> TakeRecord(std::string_view& bytes) {
 
 class Scanner {
  public:
-  Scanner(std::string name, std::string_view file, const McapVisitor& visit)
-      : name_(std::move(name)), file_(file), visit_(visit) {}
+  Scanner(std::string name, Input& input, const McapVisitor& visit)
+      : name_(std::move(name)), input_(input), size_(input.Size()), visit_(visit) {}
 
   Result<McapContents> Run() {
-    std::string_view rest = file_;
-    if (!rest.starts_with(kMcapMagic)) {
+    contents_.total_bytes = size_;
+    if (input_.Read(0, std::min<std::uint64_t>(size_, kMcapMagic.size())) != kMcapMagic) {
       return Fail(ErrorCode::kMalformed, "this is not an MCAP file (wrong first bytes)", name_);
     }
-    rest.remove_prefix(kMcapMagic.size());
+    crc_ = Crc32(kMcapMagic);
+    std::uint64_t next = kMcapMagic.size();
     // What follows the data section only repeats it.
     for (bool is_data = true; is_data;) {
-      offset_ = file_.size() - rest.size();
+      offset_ = next;
       contents_.good_bytes = offset_;
-      const auto record = TakeRecord(rest);
-      if (!record) return Torn();
-      if (record->op == McapOp::kFooter) return Bad("a footer before the end of the data");
-      is_data = record->op != McapOp::kDataEnd;
-      if (const auto good = Read(*record); !good) return tl::unexpected(good.error());
+      const auto head = ReadHead();
+      if (!head) return Torn();
+      next = offset_ + kHeadBytes + head->length;
+      if (head->op == McapOp::kFooter) return Bad("a footer before the end of the data");
+      if (head->length > kMaxRecordBytes) return Bad("a record of more than 2 GiB");
+      const std::string_view content = input_.Read(offset_ + kHeadBytes, head->length);
+      if (content.size() != head->length)
+        return Fail(ErrorCode::kIo, "cannot be read at byte " + std::to_string(offset_), name_);
+      is_data = head->op != McapOp::kDataEnd;
+      if (const auto good = Read({head->op, content}); !good) return tl::unexpected(good.error());
     }
-    contents_.is_complete = rest.ends_with(kMcapMagic);
-    contents_.good_bytes = contents_.is_complete ? file_.size() : offset_;
+    contents_.is_complete = size_ - next >= kMcapMagic.size() && EndsWithMagic();
+    contents_.good_bytes = contents_.is_complete ? size_ : offset_;
     return std::move(contents_);
   }
 
@@ -99,14 +152,42 @@ class Scanner {
                 name_ + ", record at byte " + std::to_string(offset_));
   }
 
+  struct Head {
+    McapOp op = McapOp::kHeader;
+    std::uint64_t length = 0;  ///< of the content, which lies in the file
+  };
+
+  /// Of the record at `offset_`; nothing where the file ends within it.
+  std::optional<Head> ReadHead() {
+    if (size_ - offset_ < kHeadBytes) return std::nullopt;
+    const std::string_view bytes = input_.Read(offset_, kHeadBytes);
+    Content in{bytes};
+    const auto op = static_cast<McapOp>(in.Number<std::uint8_t>());
+    const Head head{op, in.Number<std::uint64_t>()};
+    if (!in.is_good || head.length > size_ - offset_ - kHeadBytes) return std::nullopt;
+    if (op != McapOp::kDataEnd) crc_ = Crc32(bytes, crc_);
+    return head;
+  }
+
+  bool EndsWithMagic() {
+    const std::uint64_t count = kMcapMagic.size();
+    return size_ >= count && input_.Read(size_ - count, count) == kMcapMagic;
+  }
+
   Result<McapContents> Torn() {
     // A file with its closing bytes was not cut off: then a length inside it is wrong.
-    const bool has_end = file_.size() > 2 * kMcapMagic.size() && file_.ends_with(kMcapMagic);
-    if (has_end) return Bad("its length leads past the end of the file");
+    if (size_ > 2 * kMcapMagic.size() && EndsWithMagic())
+      return Bad("its length leads past the end of the file");
     return std::move(contents_);
   }
 
   Result<void> Read(const RawRecord& record) {
+    if (record.op != McapOp::kDataEnd) crc_ = Crc32(record.content, crc_);
+    return Interpret(record);
+  }
+
+  /// A record of the file, or of a chunk.
+  Result<void> Interpret(const RawRecord& record) {
     Content in{record.content};
     switch (record.op) {
       case McapOp::kSchema:
@@ -124,7 +205,7 @@ class Scanner {
       }
       case McapOp::kDataEnd: {
         const auto crc = in.Number<std::uint32_t>();
-        const bool is_same = crc == 0 || crc == Crc32(file_.substr(0, offset_));
+        const bool is_same = crc == 0 || crc == crc_;
         return is_same ? Result<void>{} : Bad("the checksum of the data does not match");
       }
       default:
@@ -195,15 +276,17 @@ class Scanner {
     while (!records.empty()) {
       const auto record = TakeRecord(records);
       if (!record || record->op == McapOp::kChunk) return Bad("a record in the chunk is damaged");
-      if (auto good = Read(*record); !good) return good;
+      if (auto good = Interpret(*record); !good) return good;
     }
     return {};
   }
 
   std::string name_;
-  std::string_view file_;
+  Input& input_;
+  std::uint64_t size_;
   const McapVisitor& visit_;
   std::string chunk_;
+  std::uint32_t crc_ = 0;  ///< of the file up to and with the record that is read
   std::uint64_t offset_ = 0;
   McapContents contents_;
 };
@@ -212,13 +295,20 @@ class Scanner {
 
 Result<McapContents> ScanMcap(const std::string& name, std::string_view bytes,
                               const McapVisitor& visit) {
-  return Scanner(name, bytes, visit).Run();
+  MemoryInput input(bytes);
+  return Scanner(name, input, visit).Run();
 }
 
 Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisitor& visit) {
-  const auto bytes = ReadFile(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return ScanMcap(path.string(), *bytes, visit);
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    return Fail(ErrorCode::kIo, "is a folder where a file is needed", path.string());
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Fail(ErrorCode::kNotFound, "cannot be opened", path.string());
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return Fail(ErrorCode::kIo, "has no size: " + error.message(), path.string());
+  FileInput input(std::move(file), size);
+  return Scanner(path.string(), input, visit).Run();
 }
 
 }  // namespace crossnav::trace

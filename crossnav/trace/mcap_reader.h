@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads an MCAP file from front to back, without needing its index, so that a file that a killed
-// program left behind is read up to the tear. Checksums are verified. Compression: zstd or none.
+// program left behind is read up to the tear. One record is held at a time. Checksums are verified.
+// Compression: zstd or none.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +19,7 @@ struct McapContents {
   std::uint64_t messages = 0;
   bool is_complete = false;      ///< false: the file ends before its footer
   std::uint64_t good_bytes = 0;  ///< up to the end of the last whole record
+  std::uint64_t total_bytes = 0;
 };
 
 /// Called for each message in file order; `message.data` is valid during the call only. `so_far`

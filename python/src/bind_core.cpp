@@ -99,6 +99,8 @@ void BindObservation(nb::module_& m) {
       .def_prop_ro("depth_m", &DepthOf, nb::rv_policy::reference_internal,
                    "H x W float32 [m], a view without a copy.")
       .def_ro("camera", &Observation::camera)
+      .def_rw("time_ns", &Observation::time_ns,
+              "Of the depth image, since its sensor's epoch; 0 = not known.")
       .def_prop_ro(
           "T_world_camera", [](const Observation& o) { return ToArray(o.T_world_camera); },
           kOwnArray, "4 x 4 float64, camera to world.");

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Depth images of 16 bits in files and messages -> metres. Adapter over libpng.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "crossnav/core/image.h"
+#include "crossnav/core/result.h"
+
+namespace crossnav::recordings {
+
+inline constexpr int kMostSide_px = 8192;  ///< of an image, as sensor.width_px
+
+/// Grey PNG of 16 bits as it stands, H x W. Errors: kMalformed (broken), kUnsupported (another kind
+/// of PNG, or larger than kMostSide_px).
+Result<Image<std::uint16_t>> DecodePng16(std::span<const std::uint8_t> bytes,
+                                         const std::string& where);
+
+/// Binary PGM (P5) of 16 bits as it stands, H x W. Errors: kMalformed.
+Result<Image<std::uint16_t>> DecodePgm16(std::span<const std::uint8_t> bytes,
+                                         const std::string& where);
+
+/// PNG or PGM, by content.
+Result<Image<std::uint16_t>> DecodeDepth16(std::span<const std::uint8_t> bytes,
+                                           const std::string& where);
+
+/// Planar depth [m]; 0 and 65535 (what 7-Scenes and some drivers write for it) are invalid.
+DepthImage DepthOf(const Image<std::uint16_t>& raw, double unit_m);
+
+}  // namespace crossnav::recordings
