@@ -24,6 +24,8 @@ struct Options {
   RunOptions run;
   DemoOptions demo;
   EvalOptions eval;
+  SlurmOptions slurm;
+  MergeOptions merge;
   SuiteOptions suite;
   ReportOptions report;
   MetricsOptions metrics;
