@@ -228,6 +228,19 @@ void AddTools(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(StairTrialKinds()));
   stairs->add_option("--keep", o.stairs.keep,
                      "Folder for worlds and episodes of failed attempts, for crossnav run");
+  CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",
+                            "crossnav bench noise --scenes scenes --episodes e.json --count 12",
+                            [&o](Console& c) { return BenchNoise(o.noise, o.common, c); });
+  noise->add_option("--scenes", o.noise.scenes, "Folder of scenes")->required();
+  noise->add_option("--episodes", o.noise.episodes, "Episode file")->required();
+  noise->add_option("--count", o.noise.count, "Episodes of it, spread over the scenes")
+      ->check(CLI::Range(1, 100000));
+  noise->add_option("--jobs", o.noise.jobs, "Processes")->check(CLI::Range(1, 1024));
+  noise->add_option("--kind", o.noise.kinds, "Only this kind; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember(NoiseKinds()));
+  noise->add_option("--out", o.noise.out, "JSON to write, for scripts/plot_noise.py");
 }
 
 }  // namespace

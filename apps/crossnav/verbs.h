@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "commands.h"
+#include "noise_command.h"
 
 namespace crossnav::app {
 
@@ -34,6 +35,7 @@ struct Options {
   BenchOptions bench;
   NetworksOptions networks;
   StairsOptions stairs;
+  NoiseSweepOptions noise;
   Command command;
 };
 
