@@ -145,6 +145,23 @@ struct EvalOptions {
 };
 Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Console& console);
 
+struct SlurmOptions {
+  EvalOptions eval;  ///< what the tasks do; shard and jobs are theirs
+  int tasks = 0, cpus = 1;
+  std::string partition, time, memory, account;  ///< as sbatch takes them; empty = the cluster's
+  std::vector<std::string> sbatch;               ///< more options of sbatch
+  bool dry_run = false;
+};
+/// Writes the scripts of a job array into OUT/slurm and submits them.
+Result<void> Slurm(const SlurmOptions& options, const CommonOptions& common, Console& console);
+
+struct MergeOptions {
+  std::vector<std::string> runs;  ///< folders or result files
+  std::string out;
+  bool partial = false;  ///< accept missing episodes
+};
+Result<void> Merge(const MergeOptions& options, const CommonOptions& common, Console& console);
+
 struct SuiteOptions {
   std::string name, out = "out/suites";
   std::string furniture;  ///< as in WorldOptions, for suites that use a pack

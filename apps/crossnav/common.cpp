@@ -5,17 +5,7 @@
 namespace crossnav::app {
 
 Result<bench::RunConfig> LoadConfig(const CommonOptions& options, const std::string& variant) {
-  bench::RunConfig config;
-  if (!options.config_file.empty()) {
-    if (auto ok = bench::ApplyConfigFile(options.config_file, config); !ok) {
-      return tl::unexpected(ok.error());
-    }
-  }
-  if (auto ok = bench::ApplyVariant(variant, config); !ok) return tl::unexpected(ok.error());
-  if (auto ok = bench::ApplyOverrides(options.overrides, config); !ok) {
-    return tl::unexpected(ok.error());
-  }
-  return config;
+  return bench::ReadConfig({options.config_file, variant, options.overrides});
 }
 
 }  // namespace crossnav::app

@@ -19,6 +19,17 @@ void AddProtocol(CLI::App* verb, T& options) {
   AddPerception(verb, options.perception);
 }
 
+/// What `eval` and `slurm` share.
+void AddEvaluation(CLI::App* verb, EvalOptions& eval) {
+  verb->add_option("--scenes", eval.scenes, "Folder of scenes")->required();
+  verb->add_option("--episodes", eval.episodes, "Episode file")->required();
+  verb->add_option("--out", eval.out, "Folder of the run")->required();
+  verb->add_option("--keep-replays", eval.keep_replays,
+                   "none, or failures: of episodes that did not complete, in RUN/replays")
+      ->check(CLI::IsMember({"none", "failures"}));
+  AddProtocol(verb, eval);
+}
+
 void AddRuns(CLI::App& app, Options& o) {
   CLI::App* run = AddVerb(app, o, "run", "One episode",
                           "crossnav run --scenes scenes --episodes episodes.json.gz --episode ID "
@@ -46,17 +57,43 @@ void AddRuns(CLI::App& app, Options& o) {
               "crossnav eval --scenes scenes --episodes episodes.json.gz --out runs/full "
               "--jobs 4",
               [&o](Console& c) { return Eval(o.eval, o.common, c); });
-  eval->add_option("--scenes", o.eval.scenes, "Folder of scenes")->required();
-  eval->add_option("--episodes", o.eval.episodes, "Episode file")->required();
-  eval->add_option("--out", o.eval.out, "Folder of the run")->required();
+  AddEvaluation(eval, o.eval);
   eval->add_option("--jobs", o.eval.jobs, "Processes")->check(CLI::Range(1, 1024));
   eval->add_option("--shard", o.eval.shard, "Part I of N of the episodes, I from 0")
       ->type_name("I/N");
-  eval->add_option("--keep-replays", o.eval.keep_replays,
-                   "none, or failures: of episodes that did not complete, in RUN/replays")
-      ->check(CLI::IsMember({"none", "failures"}));
   eval->add_flag("--resume", o.eval.resume, "Go on where the run stopped (the default)");
-  AddProtocol(eval, o.eval);
+}
+
+void AddCluster(CLI::App& app, Options& o) {
+  CLI::App* slurm =
+      AddVerb(app, o, "slurm", "An evaluation as a job array of Slurm, then merge and report",
+              "crossnav slurm --scenes scenes --episodes episodes.json.gz --out runs/full "
+              "--tasks 60 --cpus 4 --time 2:00:00 --memory 4G",
+              [&o](Console& c) { return Slurm(o.slurm, o.common, c); });
+  AddEvaluation(slurm, o.slurm.eval);
+  slurm->add_option("--tasks", o.slurm.tasks, "Tasks of the array; each evaluates one shard")
+      ->required()
+      ->check(CLI::Range(1, 100000));
+  slurm->add_option("--cpus", o.slurm.cpus, "Processors of a task; as many processes evaluate")
+      ->check(CLI::Range(1, 1024));
+  slurm->add_option("--partition", o.slurm.partition, "Partition; default: the cluster's");
+  slurm->add_option("--time", o.slurm.time,
+                    "Time limit of a task, as sbatch takes it; it requeues itself a minute before");
+  slurm->add_option("--memory", o.slurm.memory, "Memory of a task, as sbatch's --mem: 4G");
+  slurm->add_option("--account", o.slurm.account, "Account to charge");
+  slurm
+      ->add_option("--sbatch", o.slurm.sbatch,
+                   "One more option of sbatch; may be repeated: --sbatch=--qos=low")
+      ->type_name("OPTION")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  slurm->add_flag("--dry-run", o.slurm.dry_run, "Write OUT/slurm/*, submit nothing");
+  CLI::App* merge = AddVerb(app, o, "merge", "The shards of a run as one result file",
+                            "crossnav merge runs/full/shards --out runs/full/results.jsonl",
+                            [&o](Console& c) { return Merge(o.merge, o.common, c); });
+  merge->add_option("RUN", o.merge.runs, "Run folders or result files")->required();
+  merge->add_option("--out", o.merge.out, "Result file to write (.jsonl)")->required();
+  merge->add_flag("--partial", o.merge.partial, "Accept missing episodes");
 }
 
 void AddSuites(CLI::App& app, Options& o) {
@@ -255,12 +292,26 @@ void AddTools(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(StairTrialKinds()));
   stairs->add_option("--keep", o.stairs.keep,
                      "Folder for worlds and episodes of failed attempts, for crossnav run");
+  CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",
+                            "crossnav bench noise --scenes scenes --episodes e.json --count 12",
+                            [&o](Console& c) { return BenchNoise(o.noise, o.common, c); });
+  noise->add_option("--scenes", o.noise.scenes, "Folder of scenes")->required();
+  noise->add_option("--episodes", o.noise.episodes, "Episode file")->required();
+  noise->add_option("--count", o.noise.count, "Episodes of it, spread over the scenes")
+      ->check(CLI::Range(1, 100000));
+  noise->add_option("--jobs", o.noise.jobs, "Processes")->check(CLI::Range(1, 1024));
+  noise->add_option("--kind", o.noise.kinds, "Only this kind; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember(NoiseKinds()));
+  noise->add_option("--out", o.noise.out, "JSON to write, for scripts/plot_noise.py");
 }
 
 }  // namespace
 
 void AddRunVerbs(CLI::App& app, Options& options) {
   AddRuns(app, options);
+  AddCluster(app, options);
   AddSuites(app, options);
   AddResults(app, options);
   AddMap(app, options);

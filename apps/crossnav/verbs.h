@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "map_build.h"
+#include "noise_command.h"
 
 namespace crossnav::app {
 
@@ -25,6 +26,8 @@ struct Options {
   RunOptions run;
   DemoOptions demo;
   EvalOptions eval;
+  SlurmOptions slurm;
+  MergeOptions merge;
   SuiteOptions suite;
   ReportOptions report;
   MetricsOptions metrics;
@@ -34,6 +37,7 @@ struct Options {
   BenchOptions bench;
   NetworksOptions networks;
   StairsOptions stairs;
+  NoiseSweepOptions noise;
   Command command;
 };
 

@@ -7,13 +7,15 @@
 #include <set>
 #include <string_view>
 
+#include "crossnav/bench/config_file.h"
+
 namespace crossnav::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 6> kTaskSections = {"sensor",       "action", "navmesh",
-                                                           "ground_truth", "eval",   "dataset"};
+constexpr std::array<std::string_view, 7> kTaskSections = {
+    "sensor", "noise", "action", "navmesh", "ground_truth", "eval", "dataset"};
 
 std::string Difference(const std::string& key, const std::string& a, const std::string& b) {
   return key + ": " + a + " and " + b;
@@ -40,6 +42,11 @@ void Flatten(const Json& json, const std::string& name, std::map<std::string, st
 std::map<std::string, std::string> SettingsOf(const RunHeader& header) {
   std::map<std::string, std::string> flat;
   Flatten(Json::parse(header.config_json, nullptr, /*allow_exceptions=*/false), "", flat);
+  std::map<std::string, std::string> defaults;
+  Flatten(Json::parse(DumpJson(RunConfig())), "", defaults);
+  for (const auto& [key, value] : defaults) {
+    if (key.starts_with("noise.")) flat.emplace(key, value);  // records from before there was any
+  }
   flat.erase("eval.seed");        // header.seed
   flat.erase("eval.perception");  // header.perception
   return flat;

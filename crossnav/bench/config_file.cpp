@@ -278,6 +278,30 @@ Result<void> ApplyVariant(std::string_view variant, RunConfig& config) {
       "--variant");
 }
 
+RunConfig DefaultsOfProfile(const std::string& profile) {
+  RunConfig config;
+  config.noise = sim::NoiseOfProfile(profile);
+  // A stray reading would stay in a map that never clears.
+  if (profile != "none") config.agent.map.clearing = "evidence";
+  return config;
+}
+
+Result<RunConfig> ReadConfig(const ConfigSources& sources) {
+  const auto apply = [&](RunConfig config) -> Result<RunConfig> {
+    if (!sources.file.empty()) {
+      if (auto ok = ApplyConfigFile(sources.file, config); !ok) return tl::unexpected(ok.error());
+    }
+    if (auto ok = ApplyVariant(sources.variant, config); !ok) return tl::unexpected(ok.error());
+    if (auto ok = ApplyOverrides(sources.overrides, config); !ok) {
+      return tl::unexpected(ok.error());
+    }
+    return config;
+  };
+  auto config = apply({});
+  if (!config || config->noise.profile == "none") return config;
+  return apply(DefaultsOfProfile(config->noise.profile));
+}
+
 std::string DumpToml(const RunConfig& config) {
   std::string text, section;
   for (const ConfigField& field : ReadOnlyFields(config)) {

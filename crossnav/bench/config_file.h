@@ -28,6 +28,21 @@ Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig
 /// full | no-history-poi | planar (method.md, "Variants").
 Result<void> ApplyVariant(std::string_view variant, RunConfig& config);
 
+/// Everything a user may say of settings, in the order in which it is applied.
+struct ConfigSources {
+  std::filesystem::path file;  ///< empty = none
+  std::string variant = "full";
+  std::vector<std::string> overrides;
+};
+
+/// The defaults, those of the noise profile that the sources name, then the sources. Under a
+/// profile `map.clearing` is "evidence" unless a source says otherwise.
+Result<RunConfig> ReadConfig(const ConfigSources& sources);
+
+/// `config` with the settings that its noise profile stands for: what to apply the sources to again
+/// where they named a profile.
+RunConfig DefaultsOfProfile(const std::string& profile);
+
 /// The effective configuration, every field, as one JSON object (nested) or as TOML.
 std::string DumpJson(const RunConfig& config);
 std::string DumpToml(const RunConfig& config);

@@ -1,30 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include "crossnav/bench/report.h"
 
 namespace crossnav::bench {
 namespace {
 
-/// The result files of a run: the file itself, or all results*.jsonl of its folder.
-Result<std::vector<std::filesystem::path>> FilesOf(const std::filesystem::path& run) {
-  std::error_code error;
-  if (std::filesystem::is_regular_file(run, error)) return std::vector{run};
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(run, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("results") && name.ends_with(".jsonl")) files.push_back(entry.path());
-  }
-  if (files.empty()) {
-    return Fail(ErrorCode::kNotFound, "holds no results*.jsonl; run `crossnav eval` first",
-                run.string());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 Result<ReportRun> ReadRun(const std::filesystem::path& path, bool require_all) {
-  const auto files = FilesOf(path);
+  const auto files = ResultFilesOf(path);
   if (!files) return tl::unexpected(files.error());
   auto merged = MergeResults(*files, require_all);
   if (!merged) return tl::unexpected(merged.error());

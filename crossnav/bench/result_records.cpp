@@ -9,6 +9,7 @@
 #include <cstring>
 #include <set>
 
+#include "crossnav/bench/gzip_file.h"
 #include "crossnav/core/check.h"
 
 namespace crossnav::bench {
@@ -31,6 +32,18 @@ Result<int> OpenForAppend(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor < 0) return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
   return descriptor;
+}
+
+/// Keeps other processes out until this one closes the file or ends. Of the process alone: workers
+/// that outlive it by a moment do not hold it. File systems without locks are used without.
+Result<void> Lock(int descriptor, const std::filesystem::path& path) {
+  struct flock lock = {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  if (::fcntl(descriptor, F_SETLK, &lock) == 0 || (errno != EACCES && errno != EAGAIN)) return {};
+  return Fail(ErrorCode::kMismatch,
+              "another process writes it; wait for its end, or choose another --out",
+              path.string());
 }
 
 Result<void> CheckResumable(const ResultFile& file, const RunHeader& header,
@@ -128,6 +141,33 @@ Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bo
   return merged;
 }
 
+Result<std::vector<std::filesystem::path>> ResultFilesOf(const std::filesystem::path& run) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(run, error)) return std::vector{run};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(run, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("results") && name.ends_with(".jsonl")) files.push_back(entry.path());
+  }
+  if (files.empty()) {
+    return Fail(ErrorCode::kNotFound, "holds no results*.jsonl; run `crossnav eval` first",
+                run.string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Result<void> WriteResults(const std::filesystem::path& path, const ResultFile& results) {
+  std::string text;
+  if (results.header) {
+    RunHeader header = *results.header;
+    header.shard = "0/1";
+    text = ToJsonLine(header) + "\n";
+  }
+  for (const EpisodeRecord& record : results.episodes) text += ToJsonLine(record) + "\n";
+  return WriteTextFile(path, text);
+}
+
 ResultWriter::ResultWriter(int descriptor, std::filesystem::path path)
     : descriptor_(descriptor), path_(std::move(path)) {}
 
@@ -141,24 +181,22 @@ ResultWriter::~ResultWriter() {
 Result<ResultWriter> ResultWriter::Open(const std::filesystem::path& path, const RunHeader& header,
                                         std::vector<EpisodeRecord>& finished) {
   finished.clear();
-  bool needs_header = true;
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) {
-    auto file = ReadResults(path);
-    if (!file) return tl::unexpected(file.error());
-    if (file->valid_bytes > 0) {
-      if (auto ok = CheckResumable(*file, header, path); !ok) return tl::unexpected(ok.error());
-      needs_header = false;
-    }
-    if (::truncate(path.c_str(), static_cast<off_t>(file->valid_bytes)) != 0) {
-      return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
-    }
-    finished = std::move(file->episodes);
-  }
-  auto descriptor = OpenForAppend(path);
+  const auto descriptor = OpenForAppend(path);
   if (!descriptor) return tl::unexpected(descriptor.error());
   ResultWriter writer(*descriptor, path);
-  if (needs_header) {
+  if (auto ok = Lock(*descriptor, path); !ok) return tl::unexpected(ok.error());
+  auto file = ReadResults(path);
+  if (!file) return tl::unexpected(file.error());
+  if (auto ok = Lock(*descriptor, path); !ok) return tl::unexpected(ok.error());  // reading ends it
+  const bool is_new = file->valid_bytes == 0;
+  if (!is_new) {
+    if (auto ok = CheckResumable(*file, header, path); !ok) return tl::unexpected(ok.error());
+  }
+  if (::ftruncate(*descriptor, static_cast<off_t>(file->valid_bytes)) != 0) {
+    return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
+  }
+  finished = std::move(file->episodes);
+  if (is_new) {
     if (auto ok = writer.AppendLine(ToJsonLine(header)); !ok) return tl::unexpected(ok.error());
   }
   return writer;

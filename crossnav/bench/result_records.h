@@ -67,10 +67,18 @@ std::string HeaderDifference(const RunHeader& a, const RunHeader& b);
 /// where `require_all`, missing ones.
 Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bool require_all);
 
+/// The result files of a run, sorted: the file itself, or all results*.jsonl of its folder.
+Result<std::vector<std::filesystem::path>> ResultFilesOf(const std::filesystem::path& run);
+
+/// Writes merged results as the one file of an unsharded run, whole or not at all. What is there is
+/// replaced.
+Result<void> WriteResults(const std::filesystem::path& path, const ResultFile& results);
+
 class ResultWriter {
  public:
   /// Starts `path`, or continues it when it exists and its header matches (a torn last line is cut
-  /// off). A mismatch is an error. `finished` gets the episodes already there.
+  /// off). A mismatch, and another process that has it open, are errors. `finished` gets the
+  /// episodes already there.
   static Result<ResultWriter> Open(const std::filesystem::path& path, const RunHeader& header,
                                    std::vector<EpisodeRecord>& finished);
   ResultWriter(ResultWriter&& other) noexcept;

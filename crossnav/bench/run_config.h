@@ -10,6 +10,7 @@
 #include "crossnav/networks/networks_config.h"
 #include "crossnav/sim/ground_truth.h"
 #include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/noise_config.h"
 
 namespace crossnav::bench {
 
@@ -40,6 +41,7 @@ struct DatasetConfig {
 struct RunConfig {
   agent::Config agent;
   sim::NavMeshSettings navmesh;
+  sim::NoiseConfig noise;
   sim::GroundTruthConfig ground_truth;
   networks::NetworksConfig networks;
   EvalConfig eval;
@@ -74,6 +76,7 @@ template <class V>
 void Visit(V& visit, RunConfig& c) {
   Visit(visit, c.agent);
   visit.Section("navmesh", c.navmesh);
+  visit.Section("noise", c.noise);
   visit.Section("ground_truth", c.ground_truth);
   visit.Section("networks", c.networks);
   visit.Section("eval", c.eval);

@@ -10,6 +10,7 @@
 #include "crossnav/bench/cause.h"
 #include "crossnav/bench/outcome.h"
 #include "crossnav/bench/timing.h"
+#include "crossnav/core/rng.h"
 #include "crossnav/sim/ground_truth.h"
 #include "crossnav/sim/simulator.h"
 
@@ -271,6 +272,7 @@ Result<EpisodeRecord> RunEpisode(const SceneContext& context, const Episode& epi
   }
   sim::Simulator simulator(context.scene(), context.navmesh(), context.caster(),
                            config.agent.sensor, config.agent.action);
+  simulator.UseNoise(config.noise, HashString(episode.episode_id));
   auto perception = make_perception ? make_perception(simulator)
                                     : sim::GroundTruthPerception(simulator, config.ground_truth);
   if (!perception) return tl::unexpected(perception.error());

@@ -51,20 +51,36 @@ Result<void> Simulator::Reset(const AgentPose& start) {
   agent_.p_world = OnGround(caster_, *p);
   agent_.yaw_rad = WrapAngle(start.yaw_rad);
   agent_.pitch_rad = std::clamp(start.pitch_rad, -max_pitch, max_pitch);
+  if (noise_) noise_->Start(agent_);
   return {};
 }
 
+void Simulator::UseNoise(const NoiseConfig& noise, std::uint64_t episode_seed) {
+  noise_.emplace(noise, episode_seed);
+  if (!noise_->IsOn()) noise_.reset();
+}
+
 double Simulator::Step(Action action) {
+  const double moved_m = Execute(action);
+  if (noise_) noise_->Moved(action, agent_);
+  return moved_m;
+}
+
+double Simulator::Execute(Action action) {
   const double max_pitch = DegToRad(action_.max_pitch_deg);
   const auto tilt = [&](double by) {
     agent_.pitch_rad = std::clamp(agent_.pitch_rad + by, -max_pitch, max_pitch);
   };
+  const auto turn = [&](double by) {
+    if (noise_) by += noise_->TurnError_rad();
+    agent_.yaw_rad = WrapAngle(agent_.yaw_rad + by);
+  };
   switch (action) {
     case Action::kTurnLeft:
-      agent_.yaw_rad = WrapAngle(agent_.yaw_rad + DegToRad(action_.turn_deg));
+      turn(DegToRad(action_.turn_deg));
       return 0;
     case Action::kTurnRight:
-      agent_.yaw_rad = WrapAngle(agent_.yaw_rad - DegToRad(action_.turn_deg));
+      turn(-DegToRad(action_.turn_deg));
       return 0;
     case Action::kLookUp:
       tilt(DegToRad(action_.pitch_deg));
@@ -79,7 +95,9 @@ double Simulator::Step(Action action) {
   }
   const Vector3d ahead(std::cos(agent_.yaw_rad), std::sin(agent_.yaw_rad), 0);
   const Vector3d before = agent_.p_world;
-  const Vector3d reached = navmesh_.WalkStraight(before, before + action_.forward_m * ahead);
+  const double length_m = action_.forward_m * (noise_ ? noise_->MoveFactor() : 1);
+  if (length_m == 0) return 0;
+  const Vector3d reached = navmesh_.WalkStraight(before, before + length_m * ahead);
   agent_.p_world = OnGround(caster_, reached);
   return (agent_.p_world - before).norm();
 }
@@ -89,6 +107,10 @@ Observation Simulator::Observe() {
   observation.camera = sensor_.Intrinsics();
   observation.T_world_camera = CameraPose(agent_, sensor_.camera_height_m);
   frame_ = caster_.Render(observation.camera, observation.T_world_camera, channels_);
+  if (noise_) {
+    observation.T_world_camera = CameraPose(noise_->believed(), sensor_.camera_height_m);
+    noise_->Disturb(frame_);
+  }
   observation.rgb = frame_.rgb;
   observation.depth_m = frame_.depth_m;
   return observation;

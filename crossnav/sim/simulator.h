@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "crossnav/core/action.h"
 #include "crossnav/core/camera.h"
@@ -10,6 +11,7 @@
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/sim/ray_caster.h"
 #include "crossnav/sim/scene.h"
+#include "crossnav/sim/sensor_noise.h"
 
 namespace crossnav::sim {
 
@@ -24,10 +26,11 @@ class Simulator {
   Result<void> Reset(const AgentPose& start);
 
   /// Executes one action (kStop does nothing). A blocked forward stops at the obstacle: no sliding.
-  /// Returns the distance moved [m].
+  /// Returns the distance really moved [m].
   double Step(Action action);
 
-  /// Renders the current view. Also keeps the frame for ground-truth perception.
+  /// Renders the current view. Also keeps the frame for ground-truth perception. Under noise the
+  /// pose is the believed one.
   Observation Observe();
 
   /// Whether observations carry colour; without it their pictures are black and come sooner.
@@ -35,7 +38,11 @@ class Simulator {
     channels_ = is_wanted ? Channels::kAll : Channels::kWithoutColour;
   }
 
-  const AgentPose& agent() const { return agent_; }
+  /// From the next Reset on, steps, poses and frames are as imperfect as `noise` says; the same
+  /// seed gives the same. Settings that are all off change nothing.
+  void UseNoise(const NoiseConfig& noise, std::uint64_t episode_seed);
+
+  const AgentPose& agent() const { return agent_; }  ///< the true one
   const Frame& last_frame() const { return frame_; }
   const Scene& scene() const { return scene_; }
   const NavMesh& navmesh() const { return navmesh_; }
@@ -47,7 +54,10 @@ class Simulator {
   const RayCaster& caster_;
   SensorConfig sensor_;
   ActionConfig action_;
+  double Execute(Action action);
+
   AgentPose agent_;
+  std::optional<SensorNoise> noise_;  // nothing = perfect
   Frame frame_;
   Channels channels_ = Channels::kAll;
 };

@@ -20,7 +20,9 @@ struct Body {
       : scene(s),
         config(c),
         simulator(s.context->scene(), s.context->navmesh(), s.context->caster(), c.agent.sensor,
-                  c.agent.action) {}
+                  c.agent.action) {
+    simulator.UseNoise(c.noise, 0);
+  }
   SceneHandle scene;
   bench::RunConfig config;
   sim::Simulator simulator;

@@ -16,6 +16,10 @@ bench::RunConfig ConfigOf(const Settings& settings) {
   const auto toml = nb::cast<std::string>(pair[0]);
   const auto name = nb::cast<std::string>(pair[1]);
   Unwrap(bench::ApplyConfigText(toml, name, config));
+  if (config.noise.profile != "none") {  // whose settings lie below those of the user
+    config = bench::DefaultsOfProfile(config.noise.profile);
+    Unwrap(bench::ApplyConfigText(toml, name, config));
+  }
   return config;
 }
 

@@ -2,6 +2,8 @@
 #include "crossnav/bench/result_records.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "bench/record_builder.h"
 #include "support/temp_folder.h"
@@ -173,6 +175,30 @@ TEST(ResultRecords, ResumeWithAnotherConfigIsRefusedAndLeavesTheFileAlone) {
   EXPECT_EQ(writer.error().code, ErrorCode::kMismatch);
   EXPECT_NE(writer.error().Message().find("config_hash"), std::string::npos);
   EXPECT_EQ(ReadText(path), text);
+}
+
+TEST(ResultRecords, AFileThatAnotherProcessWritesIsLeftAlone) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  std::vector<EpisodeRecord> finished;
+  auto writer = ResultWriter::Open(path, MakeHeader(), finished);
+  ASSERT_TRUE(writer) << writer.error().Message();
+  const auto size = std::filesystem::file_size(path);  // reading it here would end the lock
+  const auto other_process = [&] {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      std::vector<EpisodeRecord> none;
+      const auto second = ResultWriter::Open(path, MakeHeader(), none);
+      ::_exit(second ? 0 : second.error().code == ErrorCode::kMismatch ? 1 : 2);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+  };
+  EXPECT_EQ(other_process(), 1);
+  EXPECT_EQ(std::filesystem::file_size(path), size);
+  { const ResultWriter ended = std::move(*writer); }
+  EXPECT_EQ(other_process(), 0);
 }
 
 TEST(ResultRecords, MissingKeyIsReportedWithItsLine) {

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "noise_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/evaluation.h"
+#include "crossnav/bench/gzip_file.h"
+#include "crossnav/bench/map_error.h"
+#include "crossnav/bench/output_path.h"
+#include "crossnav/bench/worker_pool.h"
+#include "perception_source.h"
+#include "session.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Kind {
+  const char* name;
+  const char* key;  ///< the setting that is swept
+  std::vector<std::string> values;
+};
+
+/// chosen: a small, a usual and a large value of each; the usual one is near a profile's.
+const std::vector<Kind>& Kinds() {
+  static const std::vector<Kind> kinds = {
+      {"profile", "noise.profile", {"realsense", "kinect", "spot"}},
+      {"depth", "noise.depth_sigma_per_m2", {"0.002", "0.005", "0.015"}},
+      {"edges", "noise.depth_shift_px", {"0.5", "1", "3"}},
+      {"holes", "noise.depth_hole_share", {"0.02", "0.1", "0.4"}},
+      {"range", "noise.depth_max_m", {"6", "4", "2.5"}},
+      {"drift", "noise.drift_xy_m", {"0.002", "0.006", "0.02"}},
+      {"height", "noise.drift_z_m", {"0.001", "0.003", "0.01"}},
+      {"yaw", "noise.drift_yaw_deg", {"0.05", "0.1", "0.4"}},
+      {"turns", "noise.turn_sigma_deg", {"1", "3", "8"}},
+      {"moves", "noise.forward_sigma", {"0.03", "0.1", "0.3"}},
+      {"slip", "noise.slip", {"0.01", "0.05", "0.2"}},
+      {"drops", "noise.drop", {"0.02", "0.1", "0.4"}}};
+  return kinds;
+}
+
+struct Case {
+  std::string kind, value;  ///< "none" and nothing for the perfect sensors
+  bench::RunConfig config;
+};
+
+/// What the episodes of a case amount to.
+struct Sum {
+  int episodes = 0, complete = 0, goals = 0, reached = 0, measured = 0;
+  int floor_change = 0, floor_change_complete = 0;
+  double map_m = 0, stray_share = 0;
+};
+
+Result<std::vector<Case>> CasesOf(const NoiseSweepOptions& options, const CommonOptions& common) {
+  std::vector<Case> cases;
+  const auto add = [&](const std::string& kind, const std::string& value,
+                       std::vector<std::string> overrides) -> Result<void> {
+    CommonOptions all = common;
+    all.overrides.insert(all.overrides.begin(), overrides.begin(), overrides.end());
+    const auto config = LoadRunConfig(all, {});
+    if (!config) return tl::unexpected(config.error());
+    cases.push_back({kind, value, *config});
+    return {};
+  };
+  // Evidence clears as it does under a profile, so that a case differs from "clearing" by its
+  // noise.
+  const std::string clearing = "map.clearing=evidence";
+  if (auto ok = add("none", "", {}); !ok) return tl::unexpected(ok.error());
+  if (auto ok = add("clearing", "evidence", {clearing}); !ok) return tl::unexpected(ok.error());
+  for (const Kind& kind : Kinds()) {
+    if (!options.kinds.empty() &&
+        std::find(options.kinds.begin(), options.kinds.end(), kind.name) == options.kinds.end()) {
+      continue;
+    }
+    for (const std::string& value : kind.values) {
+      auto ok = add(kind.name, value, {clearing, std::string(kind.key) + "=" + value});
+      if (!ok) return tl::unexpected(ok.error());
+    }
+  }
+  return cases;
+}
+
+/// `count` episodes, spread evenly over the file.
+std::vector<bench::Episode> Chosen(const std::vector<bench::Episode>& all, int count) {
+  std::vector<bench::Episode> chosen;
+  const auto size = static_cast<std::int64_t>(all.size());
+  const std::int64_t wanted = std::min<std::int64_t>(count, size);
+  for (std::int64_t i = 0; i < wanted; ++i) {
+    chosen.push_back(all[static_cast<std::size_t>(i * size / wanted)]);
+  }
+  return chosen;
+}
+
+/// Measures the map when the episode is over.
+class MapMeasure : public bench::RunObserver {
+ public:
+  explicit MapMeasure(const bench::SceneContext& context) : context_(context) {}
+  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord&) override {
+    error_ = bench::MeasureMapError(state.map(), context_.caster());
+    return {};
+  }
+  const bench::MapError& error() const { return error_; }
+
+ private:
+  const bench::SceneContext& context_;
+  bench::MapError error_;
+};
+
+/// In a worker: the map's error, and on the next line the record.
+Result<std::string> Play(SceneCache& cache, const bench::Episode& episode,
+                         const bench::RunConfig& config, const PerceptionSource& perception) {
+  const auto context = cache.Get(episode.scene_id);
+  if (!context) return tl::unexpected(context.error());
+  MapMeasure measure(**context);
+  const std::vector<bench::RunObserver*> observers = {&measure};
+  const auto record = bench::RunEpisode(**context, episode, config, observers, perception.Maker());
+  if (!record) return tl::unexpected(record.error());
+  return fmt::format("{} {}\n", measure.error().mean_m, measure.error().stray_share) +
+         bench::ToJsonLine(*record);
+}
+
+void AddEpisode(const bench::Episode& episode, const std::string& text, Sum& sum) {
+  ++sum.episodes;
+  sum.goals += static_cast<int>(episode.goals.size());
+  sum.floor_change += episode.cross_floor_required ? 1 : 0;
+  const std::size_t end = text.find('\n');
+  if (end == std::string::npos) return;  // without a result: not successful
+  double map_m = 0, stray_share = 0;
+  std::sscanf(text.c_str(), "%lf %lf", &map_m, &stray_share);
+  const auto record = bench::EpisodeFromJsonLine(text.substr(end + 1), episode.episode_id);
+  if (!record) return;
+  ++sum.measured;
+  sum.map_m += map_m;
+  sum.stray_share += stray_share;
+  const auto reached = std::count_if(record->stages.begin(), record->stages.end(),
+                                     [](const auto& stage) { return stage.success; });
+  sum.reached += static_cast<int>(reached);
+  const bool is_complete = static_cast<std::size_t>(reached) == episode.goals.size();
+  sum.complete += is_complete ? 1 : 0;
+  sum.floor_change_complete += is_complete && episode.cross_floor_required ? 1 : 0;
+}
+
+Json RowOf(const Case& one, const Sum& sum) {
+  const double measured = std::max(1, sum.measured);
+  return {{"kind", one.kind},
+          {"value", one.value},
+          {"episodes", sum.episodes},
+          {"complete", sum.complete},
+          {"floor_change", sum.floor_change},
+          {"floor_change_complete", sum.floor_change_complete},
+          {"goals", sum.goals},
+          {"goals_reached", sum.reached},
+          {"map_error_m", sum.map_m / measured},
+          {"map_stray_share", sum.stray_share / measured}};
+}
+
+std::string TextOf(const Json& rows) {
+  std::string text = fmt::format("{:<10} {:>10} {:>10} {:>13} {:>10} {:>10} {:>8}\n", "noise",
+                                 "value", "complete", "floor change", "goals", "map [m]", "stray");
+  for (const Json& row : rows) {
+    const auto share = [&](const char* part, const char* all) {
+      return fmt::format("{} of {}", row[part].get<int>(), row[all].get<int>());
+    };
+    text += fmt::format(
+        "{:<10} {:>10} {:>10} {:>13} {:>10} {:>10.3f} {:>6.1f} %\n", row["kind"].get<std::string>(),
+        row["value"].get<std::string>(), share("complete", "episodes"),
+        share("floor_change_complete", "floor_change"), share("goals_reached", "goals"),
+        row["map_error_m"].get<double>(), 100 * row["map_stray_share"].get<double>());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> NoiseKinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : Kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+Result<void> BenchNoise(const NoiseSweepOptions& options, const CommonOptions& common,
+                        Console& console) {
+  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  const auto cases = CasesOf(options, common);
+  if (!cases) return tl::unexpected(cases.error());
+  const auto perception = PerceptionSource::Read(cases->front().config);
+  if (!perception) return tl::unexpected(perception.error());
+  const auto file = bench::ReadEpisodes(options.episodes);
+  if (!file) return tl::unexpected(file.error());
+  const auto episodes = Chosen(bench::GroupedByScene(file->episodes), options.count);
+  if (episodes.empty()) return Fail(ErrorCode::kInvalid, "holds no episode", options.episodes);
+  SceneCache cache(options.scenes, cases->front().config);
+  std::vector<Sum> sums(cases->size());
+  int done = 0;
+  bench::PoolTask task;
+  task.count = static_cast<int>(cases->size() * episodes.size());
+  task.jobs = options.jobs;
+  task.item_seconds = cases->front().config.eval.episode_seconds;
+  const auto case_of = [&](int item) { return static_cast<std::size_t>(item) / episodes.size(); };
+  const auto episode_of = [&](int item) -> const bench::Episode& {
+    return episodes[static_cast<std::size_t>(item) % episodes.size()];
+  };
+  task.work = [&](int item) {
+    return Play(cache, episode_of(item), (*cases)[case_of(item)].config, *perception);
+  };
+  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
+    if (answer.end == bench::ItemEnd::kError) return tl::unexpected(answer.error);
+    AddEpisode(episode_of(item), answer.text, sums[case_of(item)]);
+    console.Progress(fmt::format("{} of {} episodes", ++done, task.count));
+    return {};
+  };
+  if (auto ok = bench::RunPool(task); !ok) return ok;
+  console.EndProgress();
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < cases->size(); ++i) rows.push_back(RowOf((*cases)[i], sums[i]));
+  console.Print(TextOf(rows));
+  const Json document = {{"episodes_hash", bench::HexHash(file->content_hash)},
+                         {"episodes", episodes.size()},
+                         {"rows", rows}};
+  console.Document(document.dump(1));
+  if (options.out.empty()) return {};
+  return bench::WriteTextFile(options.out, document.dump(1) + "\n");
+}
+
+}  // namespace crossnav::app

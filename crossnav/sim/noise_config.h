@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// How imperfect the simulated sensors and wheels are. All off by default: the simulator is perfect
+// unless a profile or a single setting says otherwise. docs/noise.md has the models.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace crossnav::sim {
+
+struct NoiseConfig {
+  std::string profile = "none";  ///< none | realsense | kinect | spot; what is set besides wins
+  std::uint64_t seed = 1;        ///< together with the episode's id
+  // Depth. Standard deviation at planar depth z: depth_sigma_m + depth_sigma_per_m2 * z^2 [m].
+  double depth_sigma_m = 0;
+  double depth_sigma_per_m2 = 0;
+  double depth_step_per_m2 = 0;  ///< depths are multiples of this * z^2 [m]: steps of disparity
+  double depth_shift_px = 0;     ///< std. dev. of where a pixel really looks: ragged edges
+  double depth_edge_hole = 0;    ///< probability that a pixel beside a jump in depth is lost
+  double depth_hole_share = 0;   ///< share of the picture that is lost in patches
+  double depth_max_m = 0;        ///< beyond it there is no depth; 0 = no limit
+  // Pose as the agent is told it. Standard deviations of what one executed step adds.
+  double drift_xy_m = 0;           ///< each horizontal axis, a move
+  double drift_z_m = 0;            ///< a move
+  double drift_yaw_deg = 0;        ///< a move or a turn
+  int loop_closure_steps = 0;      ///< mean number of steps between two closures; 0 = never
+  double loop_closure_gain = 0.8;  // chosen: share of the error that a closure takes back
+  // Actions as they are executed.
+  double forward_sigma = 0;   ///< std. dev. of a move, as a share of its length
+  double turn_sigma_deg = 0;  ///< std. dev. of a turn
+  double slip = 0;            ///< probability that the wheels spin and a move leads nowhere
+  // Frames.
+  double drop = 0;            ///< probability that a frame is lost: no depth, black picture
+  double exposure_stops = 0;  ///< std. dev. of the exposure of a frame, in powers of two
+  double blur_px = 0;         ///< longest horizontal motion blur; a frame's is uniform in 0 to this
+};
+
+template <class V>
+void Visit(V& visit, NoiseConfig& c) {
+  visit("profile", c.profile, {"none", "realsense", "kinect", "spot"});
+  visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
+  visit("depth_sigma_m", c.depth_sigma_m, 0.0, 1.0);
+  visit("depth_sigma_per_m2", c.depth_sigma_per_m2, 0.0, 1.0);
+  visit("depth_step_per_m2", c.depth_step_per_m2, 0.0, 1.0);
+  visit("depth_shift_px", c.depth_shift_px, 0.0, 100.0);
+  visit("depth_edge_hole", c.depth_edge_hole, 0.0, 1.0);
+  visit("depth_hole_share", c.depth_hole_share, 0.0, 1.0);
+  visit("depth_max_m", c.depth_max_m, 0.0, 1000.0);
+  visit("drift_xy_m", c.drift_xy_m, 0.0, 1.0);
+  visit("drift_z_m", c.drift_z_m, 0.0, 1.0);
+  visit("drift_yaw_deg", c.drift_yaw_deg, 0.0, 90.0);
+  visit("loop_closure_steps", c.loop_closure_steps, 0, 1000000);
+  visit("loop_closure_gain", c.loop_closure_gain, 0.0, 1.0);
+  visit("forward_sigma", c.forward_sigma, 0.0, 1.0);
+  visit("turn_sigma_deg", c.turn_sigma_deg, 0.0, 90.0);
+  visit("slip", c.slip, 0.0, 1.0);
+  visit("drop", c.drop, 0.0, 1.0);
+  visit("exposure_stops", c.exposure_stops, 0.0, 10.0);
+  visit("blur_px", c.blur_px, 0.0, 200.0);
+}
+
+/// The settings that `profile` stands for, with the default seed. Unknown names give none's.
+NoiseConfig NoiseOfProfile(const std::string& profile);
+
+}  // namespace crossnav::sim
