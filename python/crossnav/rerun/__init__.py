@@ -28,7 +28,7 @@ MAP_EVERY = 10
 def _needed() -> None:
     """Raises crossnav.Error where the packages of the extra are not installed."""
     try:
-        import google.protobuf  # noqa: F401
+        import google.protobuf  # type: ignore[import-untyped]  # noqa: F401
         import mcap  # noqa: F401
         import mcap_protobuf  # noqa: F401
         import PIL  # noqa: F401

@@ -88,8 +88,9 @@ def step_record(recording: rr.RecordingStream, record: dict[str, Any],
     _candidates(recording, record["candidates"])
     _scores(recording, record)
     number = record["goal_index"] + 1
-    lines = [f"# {record['goal']}", f"goal {number}{f' of {goals}' if goals else ''}, "
-             f"step {record['step']}: **{record['action']}**", "",
+    of = f" of {goals}" if goals else ""
+    lines = [f"# {record['goal']}",
+             f"goal {number}{of}, step {record['step']}: **{record['action']}**", "",
              f"{record['mode']}: {record['reason']}", "", f"activity: {record.get('activity', '')}"]
     recording.log("status", rr.TextDocument("\n".join(lines),
                                             media_type=rr.MediaType.MARKDOWN))

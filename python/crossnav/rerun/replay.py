@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from google.protobuf.message import DecodeError
+from google.protobuf.message import DecodeError  # type: ignore[import-untyped]
 from mcap.exceptions import McapError
 from mcap.reader import McapReader, make_reader
 from mcap_protobuf.decoder import DecoderFactory
