@@ -9,7 +9,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 python="$root/build/python-venv/bin/python"
 wheel=$(echo "$root"/build/wheel/*.whl)
 "$python" -m pip install -q --disable-pip-version-check --no-deps "$wheel"
-program="$(cd "${1:-$root/build/release}" && pwd)/apps/crossnav/crossnav"
+program="${1:-$root/build/release}/apps/crossnav/crossnav"  # where it is built, it writes replays
+program=$([ -x "$program" ] && realpath "$program" || true)
 cd "$root/build/python-venv"  # not where the sources lie
-CROSSNAV_ROOT="$root" CROSSNAV_WHEEL="$wheel" CROSSNAV_PROGRAM="$program" \
+CROSSNAV_PROGRAM="$program" CROSSNAV_ROOT="$root" CROSSNAV_WHEEL="$wheel" \
   "$python" -m pytest -q -p no:cacheprovider --durations=5 "$root/python/tests"

@@ -2,6 +2,8 @@
 """The embedded house with small pictures, made once."""
 
 import math
+import os
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +32,23 @@ def scene(scenes_dir: Path) -> crossnav.Scene:
 @pytest.fixture(scope="session")
 def episode(scene: crossnav.Scene) -> crossnav.Episode:
     return crossnav.make_episode(scene, ["sofa", "toilet", "bed"], start_floor=0, seed=1)
+
+
+@pytest.fixture(scope="session")
+def replay(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The replay of 30 steps that the program itself wrote; trace.jsonl beside it."""
+    program = os.environ.get("CROSSNAV_PROGRAM", "")
+    if not program:
+        pytest.skip("scripts/test_python.sh names the program, where it is built")
+    out = tmp_path_factory.mktemp("demo")
+    # Exit status 1: no goal is found in so few steps.
+    done = subprocess.run(
+        [program, "demo", "2", "--quiet", "--out", str(out), "--set", "eval.action_budget=30",
+         "--set", "sensor.width_px=160", "--set", "sensor.height_px=160"],
+        capture_output=True, text=True, check=False)
+    written = out / "2" / "replay.mcap"
+    assert written.is_file(), done.stderr
+    return written
 
 
 @pytest.fixture
