@@ -21,24 +21,6 @@ std::size_t TerminalWidth() {
   return size.ws_col;
 }
 
-const char* NameOf(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::kNotFound:
-      return "not_found";
-    case ErrorCode::kMalformed:
-      return "malformed";
-    case ErrorCode::kUnsupported:
-      return "unsupported";
-    case ErrorCode::kInvalid:
-      return "invalid";
-    case ErrorCode::kMismatch:
-      return "mismatch";
-    case ErrorCode::kIo:
-      return "io";
-  }
-  return "unknown";
-}
-
 void Write(std::FILE* stream, const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stream);
   std::fflush(stream);

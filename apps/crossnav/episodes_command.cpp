@@ -38,18 +38,11 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   if (!config) return tl::unexpected(config.error());
   if (options.goals > 0) config->dataset.goals = options.goals;
   if (options.repeats) config->dataset.allow_repeats = true;
-  const auto ids = bench::ListScenes(options.scenes);
-  if (!ids) return tl::unexpected(ids.error());
-  SceneCache cache(options.scenes, *config, ids->size());
-  std::vector<bench::GeneratorScene> scenes;
-  for (const std::string& id : *ids) {
-    console.Progress(fmt::format("scene {} of {}: {}", scenes.size() + 1, ids->size(), id));
-    const auto context = cache.Get(id);
-    if (!context) return tl::unexpected(context.error());
-    scenes.push_back({id, *context});
-  }
+  SceneCache cache(options.scenes, *config);
+  const auto scenes = cache.GetAll(console);
+  if (!scenes) return tl::unexpected(scenes.error());
   const auto file =
-      bench::GenerateEpisodes(scenes, *config, {options.count, options.cross_floor, options.seed});
+      bench::GenerateEpisodes(*scenes, *config, {options.count, options.cross_floor, options.seed});
   if (!file) return tl::unexpected(file.error());
   if (auto ok = bench::WriteEpisodes(options.out, *file); !ok) return ok;
   const Tally tally = Count(*file);
@@ -58,10 +51,10 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
     stages += fmt::format("{}{}", stages.empty() ? "" : "/", count);
   console.Print(
       fmt::format("{}: {} episodes in {} scenes, {} require a floor change (first at stage {})\n",
-                  options.out, tally.episodes, scenes.size(), tally.cross_floor, stages));
+                  options.out, tally.episodes, scenes->size(), tally.cross_floor, stages));
   console.Document(Json({{"file", options.out},
                          {"episodes", tally.episodes},
-                         {"scenes", scenes.size()},
+                         {"scenes", scenes->size()},
                          {"cross_floor_required", tally.cross_floor},
                          {"first_transition_stage", tally.first_stage}})
                        .dump());

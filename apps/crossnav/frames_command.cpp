@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/sim/atomic_file.h"
 #include "crossnav/sim/frame_places.h"
@@ -81,10 +80,6 @@ Arrays Reduce(const sim::Frame& frame, int size) {
   return arrays;
 }
 
-double Rounded(double value) {
-  return std::round(value * 1e4) / 1e4;
-}
-
 Json PlaceJson(const sim::FramePlace& place) {
   const Vector3d& p = place.pose.p_world;
   return {{"position", {Rounded(p.x()), Rounded(p.y()), Rounded(p.z())}},
@@ -112,30 +107,25 @@ Json HeaderJson(const OpenScene& open, const FramesOptions& options, double hfov
 
 Result<void> SceneFrames(const FramesOptions& options, const CommonOptions& common,
                          Console& console) {
-  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
-  const auto config = LoadConfig(common);
-  if (!config) return tl::unexpected(config.error());
-  const auto open = OpenSceneFolder(options.scene, *config, console);
-  if (!open) return tl::unexpected(open.error());
+  const auto job = OpenSceneJob(options.scene, options.out, common, console);
+  if (!job) return tl::unexpected(job.error());
+  const OpenScene& open = job->open;
   const fs::path out = options.out;
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) return Fail(ErrorCode::kIo, "cannot make the folder: " + error.message(), options.out);
-  SensorConfig sensor = config->agent.sensor;
+  SensorConfig sensor = job->config.agent.sensor;
   sensor.width_px = sensor.height_px = options.size_px * kOversample;
   sim::FrameRules rules;
   rules.count = options.count;
   rules.seed = options.seed;
   rules.camera_height_m = sensor.camera_height_m;
-  const auto places = sim::FramePlaces(*open->scene, *open->navmesh, *open->caster, rules);
+  const auto places = sim::FramePlaces(*open.scene, *open.navmesh, *open.caster, rules);
   const std::string shape =
       fmt::format("{}, {}, {}", places.size(), options.size_px, options.size_px);
   NpyFile rgb(out / "rgb.npy", "|u1", shape + ", 3");
   NpyFile depth(out / "depth_mm.npy", "<u2", shape), ids(out / "instance.npy", "<u2", shape);
-  Json document = HeaderJson(*open, options, sensor.hfov_deg), frames = Json::array();
+  Json document = HeaderJson(open, options, sensor.hfov_deg), frames = Json::array();
   for (const sim::FramePlace& place : places) {
     const Arrays arrays = Reduce(
-        open->caster->Render(sensor.Intrinsics(), CameraPose(place.pose, place.camera_height_m)),
+        open.caster->Render(sensor.Intrinsics(), CameraPose(place.pose, place.camera_height_m)),
         options.size_px);
     rgb.Add(arrays.rgb);
     depth.Add(arrays.depth_mm);

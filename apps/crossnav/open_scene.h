@@ -22,4 +22,17 @@ struct OpenScene {
 Result<OpenScene> OpenSceneFolder(const std::string& folder, const bench::RunConfig& config,
                                   Console& console);
 
+struct SceneJob {
+  bench::RunConfig config;
+  OpenScene open;
+};
+
+/// Opens the scene in `folder` and makes the folder `out` for what a verb draws of it; nothing is
+/// made where the scene or the settings are bad.
+Result<SceneJob> OpenSceneJob(const std::string& folder, const std::string& out,
+                              const CommonOptions& common, Console& console);
+
+/// To a tenth of a millimetre: what JSON files of pictures hold.
+double Rounded(double value);
+
 }  // namespace crossnav::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "replay_log.h"
 
+#include "crossnav/agent/sight.h"
+
 namespace crossnav::app {
 namespace {
 
@@ -41,7 +43,8 @@ Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const bench::SceneContext& co
 Result<void> ReplayLog::OnStep(const bench::StepView& step) {
   last_step_ = step.trace.step;
   goal_index_ = step.trace.goal_index;
-  return writer_.Write({step.trace, &step.observation, &step.sight});
+  const trace::Sight sight = agent::SightOf(step.percept, step.state.goal_text());
+  return writer_.Write({step.trace, &step.observation, &sight});
 }
 
 Result<void> ReplayLog::OnStageEnd(const bench::StageRecord& stage) {

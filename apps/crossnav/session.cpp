@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "crossnav/bench/config_file.h"
 #include "crossnav/sim/ground_truth_encoder.h"
 
@@ -34,6 +36,20 @@ Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) 
   if (goals_ != nullptr) (*context)->UseGoals(*goals_, scene_id);
   entries_.push_back({scene_id, std::move(*context)});
   return entries_.back().context.get();
+}
+
+Result<std::vector<bench::GeneratorScene>> SceneCache::GetAll(Console& console) {
+  const auto ids = bench::ListScenes(scenes_dir_);
+  if (!ids) return tl::unexpected(ids.error());
+  keep_ = std::max(keep_, entries_.size() + ids->size());
+  std::vector<bench::GeneratorScene> scenes;
+  for (const std::string& id : *ids) {
+    console.Progress(fmt::format("scene {} of {}: {}", scenes.size() + 1, ids->size(), id));
+    const auto context = Get(id);
+    if (!context) return tl::unexpected(context.error());
+    scenes.push_back({id, *context});
+  }
+  return scenes;
 }
 
 bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& variant,

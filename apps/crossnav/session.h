@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "crossnav/bench/episode_generator.h"
 #include "crossnav/bench/episodes.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/bench/scene_context.h"
@@ -25,8 +26,8 @@ Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protoc
 /// Scenes, loaded when first asked for; the last few are kept.
 class SceneCache {
  public:
-  SceneCache(std::filesystem::path scenes_dir, const bench::RunConfig& config, std::size_t keep = 2)
-      : scenes_dir_(std::move(scenes_dir)), config_(config), keep_(keep) {}
+  SceneCache(std::filesystem::path scenes_dir, const bench::RunConfig& config)
+      : scenes_dir_(std::move(scenes_dir)), config_(config) {}
 
   /// Scenes take the viewpoints of an ObjectNav file; those of other files are found anew. `file`
   /// must outlive the cache.
@@ -36,6 +37,9 @@ class SceneCache {
 
   Result<const bench::SceneContext*> Get(const std::string& scene_id);
 
+  /// Every scene of the folder, all kept from now on; for drawing episodes.
+  Result<std::vector<bench::GeneratorScene>> GetAll(Console& console);
+
  private:
   struct Entry {
     std::string scene_id;
@@ -43,7 +47,7 @@ class SceneCache {
   };
   std::filesystem::path scenes_dir_;
   const bench::RunConfig& config_;
-  std::size_t keep_;
+  std::size_t keep_ = 2;
   std::vector<Entry> entries_;  // oldest first
   const std::map<std::string, std::vector<bench::GoalObject>>* goals_ = nullptr;
 };

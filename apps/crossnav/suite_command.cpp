@@ -92,20 +92,13 @@ Result<void> MakeEpisodes(const bench::SuiteDefinition& suite, const SuitePlace&
   bench::PoolTask task;
   task.count = 1;
   task.work = [&](int) -> Result<std::string> {
-    const auto ids = bench::ListScenes(place.scenes());
-    if (!ids) return tl::unexpected(ids.error());
-    SceneCache cache(place.scenes(), config, ids->size());
-    std::vector<bench::GeneratorScene> scenes;
-    for (const std::string& id : *ids) {
-      console.Progress(fmt::format("scene {} of {}: {}", scenes.size() + 1, ids->size(), id));
-      const auto context = cache.Get(id);
-      if (!context) return tl::unexpected(context.error());
-      scenes.push_back({id, *context});
-    }
+    SceneCache cache(place.scenes(), config);
+    const auto scenes = cache.GetAll(console);
+    if (!scenes) return tl::unexpected(scenes.error());
     console.EndProgress();
     console.Log(fmt::format("drawing {} episodes", suite.episodes));
     const auto file = bench::GenerateEpisodes(
-        scenes, config, {suite.episodes, 0, suite.episode_seed, suite.first_transitions});
+        *scenes, config, {suite.episodes, 0, suite.episode_seed, suite.first_transitions});
     if (!file) return tl::unexpected(file.error());
     if (auto ok = bench::WriteEpisodes(place.episodes(), *file); !ok) {
       return tl::unexpected(ok.error());

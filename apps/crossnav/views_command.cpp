@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/sim/atomic_file.h"
 #include "crossnav/sim/object_views.h"
@@ -19,10 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kMinObject_px = 50;  // chosen: below that nobody could name it
-
-double Rounded(double value) {
-  return std::round(value * 1e4) / 1e4;
-}
 
 Json BoxJson(const perception::PixelBox& box) {
   return Json::array({box.u0, box.v0, box.u1, box.v1});
@@ -107,23 +102,18 @@ std::string Summary(const Json& document, const std::string& out) {
 
 Result<void> SceneViews(const ViewsOptions& options, const CommonOptions& common,
                         Console& console) {
-  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
-  const auto config = LoadConfig(common);
-  if (!config) return tl::unexpected(config.error());
-  const auto open = OpenSceneFolder(options.scene, *config, console);
-  if (!open) return tl::unexpected(open.error());
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error) return Fail(ErrorCode::kIo, "cannot make the folder: " + error.message(), options.out);
+  const auto job = OpenSceneJob(options.scene, options.out, common, console);
+  if (!job) return tl::unexpected(job.error());
+  const OpenScene& open = job->open;
   sim::ViewRules rules;
-  rules.sensor = config->agent.sensor;
+  rules.sensor = job->config.agent.sensor;
   rules.per_object = options.per_object;
-  Json document = HeaderJson(*open, rules), views = Json::array(), unseen = Json::array();
-  for (const sim::SceneInstance& instance : open->scene->instances) {
+  Json document = HeaderJson(open, rules), views = Json::array(), unseen = Json::array();
+  for (const sim::SceneInstance& instance : open.scene->instances) {
     if (instance.category.empty()) continue;
-    console.Progress(fmt::format("instance {} of {}", instance.id, open->scene->instances.size()));
+    console.Progress(fmt::format("instance {} of {}", instance.id, open.scene->instances.size()));
     const std::size_t before = views.size();
-    if (auto ok = WriteViews(*open, instance, rules, options.out, views); !ok) return ok;
+    if (auto ok = WriteViews(open, instance, rules, options.out, views); !ok) return ok;
     if (views.size() > before) continue;
     unseen.push_back({{"instance", instance.id}, {"category", instance.category}});
   }

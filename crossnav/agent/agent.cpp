@@ -12,7 +12,6 @@
 #include "crossnav/agent/paper_policy.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
-#include "crossnav/agent/sight.h"
 #include "crossnav/core/check.h"
 
 namespace crossnav::agent {
@@ -85,7 +84,7 @@ Result<void> CheckPercept(const perception::Percept& percept, const Observation&
 /// What later stages need of a frame.
 struct Seen {
   std::vector<policy::Sighting> sightings;
-  trace::Sight sight;
+  perception::Percept percept;
 };
 
 /// What counts as a hint of the goal: every sighting, however small.
@@ -138,6 +137,10 @@ const memory::SemanticMemory& Agent::memory() const {
 
 const std::vector<geometry::StairFlight>& Agent::flights() const {
   return impl_->world.flights;
+}
+
+std::span<const float> Agent::goal_text() const {
+  return impl_->goal.text;
 }
 
 std::vector<geometry::SeenStair> Agent::seen_stairs() const {
@@ -231,7 +234,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
               &goal.claims);
   world.coverage.Add(end_voxels, p_camera_world, goal.inspect_range_m, config.map.voxel_m);
   clock.Stop("evidence");
-  return Seen{std::move(sightings), SightOf(*percept, goal.text)};
+  return Seen{std::move(sightings), std::move(*percept)};
 }
 
 Result<StepResult> Agent::Step(const Observation& obs) {
@@ -257,8 +260,8 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   self.Record(result, decision);
   result.trace.agent = agent;
   result.trace.T_world_camera = obs.T_world_camera;
-  result.trace.detections = static_cast<int>(seen->sight.boxes.size());
-  result.sight = std::move(seen->sight);
+  result.trace.detections = static_cast<int>(seen->percept.detections.size());
+  result.percept = std::move(seen->percept);
   ++self.world.step;
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,6 @@
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/perception/perception.h"
-#include "crossnav/trace/sight.h"
 #include "crossnav/trace/step_trace.h"
 
 namespace crossnav::agent {
@@ -25,7 +25,7 @@ namespace crossnav::agent {
 struct StepResult {
   Action action = Action::kStop;
   trace::StepTrace trace;
-  trace::Sight sight;                       ///< what perception said of the frame
+  perception::Percept percept;              ///< what perception said of the frame
   std::vector<trace::StageTime> timing;     ///< CPU ms per stage, in order
   bool all_explored = false;                ///< no candidate is left; `action` is meaningless then
   std::optional<Vector3d> p_claimed_world;  ///< with kStop: where the agent believes the goal to be
@@ -55,6 +55,8 @@ class Agent {
   Result<StepResult> Step(const Observation& obs);
 
   const Config& config() const;
+  /// Text vector of the active goal; empty before the first.
+  std::span<const float> goal_text() const;
   const geometry::VoxelMap& map() const;
   const memory::SemanticMemory& memory() const;
   /// The flights that were walked, in order of their first walk.

@@ -34,8 +34,8 @@ std::optional<double> SimilarityAt(const World& world, const GoalState& goal,
       here.push_back(field[static_cast<std::size_t>(*row)]);
   if (here.empty()) return std::nullopt;
   std::sort(here.begin(), here.end(), std::greater<>());
-  here.resize(std::max<std::size_t>(1, here.size() / 4));
-  return std::accumulate(here.begin(), here.end(), 0.0) / static_cast<double>(here.size());
+  const auto best = static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, here.size() / 4));
+  return std::accumulate(here.begin(), here.begin() + best, 0.0) / static_cast<double>(best);
 }
 
 }  // namespace crossnav::agent

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace crossnav::agent {
 namespace {
@@ -29,7 +28,7 @@ Image<float> SimilarityOf(const perception::FeatureGrid& grid, std::span<const f
 
 }  // namespace
 
-trace::Sight SightOf(perception::Percept& percept, std::span<const float> goal_text) {
+trace::Sight SightOf(const perception::Percept& percept, std::span<const float> goal_text) {
   trace::Sight sight;
   sight.width_px = percept.stair_probability.width;
   sight.height_px = percept.stair_probability.height;
@@ -41,7 +40,7 @@ trace::Sight SightOf(perception::Percept& percept, std::span<const float> goal_t
     for (std::size_t i = 0; i < detection.mask.data.size(); ++i)
       sight.masks.data[i] |= static_cast<std::uint8_t>(detection.mask.data[i] != 0);
   }
-  sight.stair_probability = std::move(percept.stair_probability);
+  sight.stair_probability = percept.stair_probability;
   sight.similarity = SimilarityOf(percept.features, goal_text);
   return sight;
 }

@@ -10,7 +10,6 @@
 namespace crossnav::agent {
 
 /// Boxes, masks and stairs of `percept`, and the cosine of each feature cell with `goal_text`.
-/// Takes the stair image out of it.
-trace::Sight SightOf(perception::Percept& percept, std::span<const float> goal_text);
+trace::Sight SightOf(const perception::Percept& percept, std::span<const float> goal_text);
 
 }  // namespace crossnav::agent

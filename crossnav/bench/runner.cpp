@@ -171,7 +171,7 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
   NotePassing(stage);
   for (RunObserver* observer : observers_) {
     const StepView view{observation,        step->trace, step->timing,
-                        simulator_.agent(), agent_,      step->sight};
+                        simulator_.agent(), agent_,      step->percept};
     if (auto ok = observer->OnStep(view); !ok) return tl::unexpected(ok.error());
   }
   if (step->all_explored) {

@@ -26,7 +26,7 @@ struct StepView {
   const std::vector<trace::StageTime>& timing;
   const AgentPose& agent;  ///< true pose
   const agent::Agent& state;
-  const trace::Sight& sight;
+  const perception::Percept& percept;
 };
 
 /// What one step took, simulator included, observers not [ms].

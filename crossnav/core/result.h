@@ -20,6 +20,25 @@ enum class ErrorCode {
   kIo,           ///< the operating system refused
 };
 
+/// "not_found", as programs and other languages see it.
+constexpr const char* NameOf(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kNotFound:
+      return "not_found";
+    case ErrorCode::kMalformed:
+      return "malformed";
+    case ErrorCode::kUnsupported:
+      return "unsupported";
+    case ErrorCode::kInvalid:
+      return "invalid";
+    case ErrorCode::kMismatch:
+      return "mismatch";
+    case ErrorCode::kIo:
+      return "io";
+  }
+  return "unknown";
+}
+
 struct Error {
   ErrorCode code = ErrorCode::kInvalid;
   std::string what;   ///< what is wrong and what would help, one sentence

@@ -81,7 +81,7 @@ perception::Detection DepthMask(const DepthImage& depth_m, perception::Detection
     const auto [u, v] = open.back();
     open.pop_back();
     const float from = depth_m.At(u, v);
-    for (const auto [du, dv] : kNeighbours) {
+    for (const auto& [du, dv] : kNeighbours) {
       const int nu = u + du, nv = v + dv;
       if (nu < box.u0 || nv < box.v0 || nu >= box.u1 || nv >= box.v1) continue;
       const float d = depth_m.At(nu, nv);

@@ -110,4 +110,19 @@ class JsonReader {
   std::string path_;
 };
 
+/// One value of JSON text; `read(reader, element, value)` fills it. `name` stands in for the file.
+template <class T, class ReadRoot>
+Result<T> ParseJson(std::string_view json, const char* name, ReadRoot read) {
+  simdjson::dom::parser parser;
+  JsonReader::Element root;
+  if (const auto code = parser.parse(json.data(), json.size()).get(root))
+    return Fail(ErrorCode::kMalformed, simdjson::error_message(code), name);
+  std::optional<Error> error;
+  JsonReader reader(error);
+  T value;
+  read(reader, root, value);
+  if (error) return tl::unexpected(*error);
+  return value;
+}
+
 }  // namespace crossnav::trace

@@ -15,7 +15,7 @@ void ReadInstance(JsonReader& in, const Element& e, GoalInstance& instance) {
   in.Field(e, "box_max", instance.box.max);
 }
 
-void Read(JsonReader& in, const Element& e, ReplayInfo& info) {
+void ReadInfo(JsonReader& in, const Element& e, ReplayInfo& info) {
   int format = 0;
   in.Field(e, "format", format);
   if (in.ok() && format != kReplayFormat) {
@@ -35,7 +35,7 @@ void Read(JsonReader& in, const Element& e, ReplayInfo& info) {
   in.ListField(e, "goal_instances", info.goal_instances, ReadInstance);
 }
 
-void Read(JsonReader& in, const Element& e, StageResult& stage) {
+void ReadStage(JsonReader& in, const Element& e, StageResult& stage) {
   in.Field(e, "goal_index", stage.goal_index);
   in.Field(e, "goal", stage.goal);
   in.Field(e, "outcome", stage.outcome);
@@ -43,21 +43,6 @@ void Read(JsonReader& in, const Element& e, StageResult& stage) {
   in.Field(e, "last_step", stage.last_step);
   in.Field(e, "length_m", stage.length_m);
   in.Field(e, "shortest_m", stage.shortest_m);
-}
-
-template <class T>
-Result<T> Parse(std::string_view json, const char* name) {
-  simdjson::dom::parser parser;
-  Element root;
-  if (const auto code = parser.parse(json.data(), json.size()).get(root)) {
-    return Fail(ErrorCode::kMalformed, simdjson::error_message(code), name);
-  }
-  std::optional<Error> error;
-  JsonReader reader(error);
-  T value;
-  Read(reader, root, value);
-  if (error) return tl::unexpected(*error);
-  return value;
 }
 
 }  // namespace
@@ -106,11 +91,11 @@ std::string ToJson(const StageResult& stage) {
 }
 
 Result<ReplayInfo> ReplayInfoFromJson(std::string_view json) {
-  return Parse<ReplayInfo>(json, "replay head");
+  return ParseJson<ReplayInfo>(json, "replay head", ReadInfo);
 }
 
 Result<StageResult> StageResultFromJson(std::string_view json) {
-  return Parse<StageResult>(json, "stage result");
+  return ParseJson<StageResult>(json, "stage result", ReadStage);
 }
 
 }  // namespace crossnav::trace

@@ -37,6 +37,14 @@ double ValueAt(const Image<T>& image, double u_share, double v_share) {
   return static_cast<double>(image.At(std::min(u, image.width - 1), std::min(v, image.height - 1)));
 }
 
+void ReadNote(JsonReader& in, const Element& e, SightNote& note) {
+  in.Field(e, "width_px", note.width_px);
+  in.Field(e, "height_px", note.height_px);
+  in.Field(e, "similarity_min", note.similarity_min);
+  in.Field(e, "similarity_max", note.similarity_max);
+  in.ListField(e, "boxes", note.boxes, ReadBox);
+}
+
 }  // namespace
 
 SightNote NoteOf(const Sight& sight) {
@@ -73,20 +81,7 @@ std::string ToJson(const SightNote& note) {
 }
 
 Result<SightNote> SightNoteFromJson(std::string_view json) {
-  simdjson::dom::parser parser;
-  Element root;
-  if (const auto code = parser.parse(json.data(), json.size()).get(root))
-    return Fail(ErrorCode::kMalformed, simdjson::error_message(code), "sight");
-  std::optional<Error> error;
-  JsonReader in(error);
-  SightNote note;
-  in.Field(root, "width_px", note.width_px);
-  in.Field(root, "height_px", note.height_px);
-  in.Field(root, "similarity_min", note.similarity_min);
-  in.Field(root, "similarity_max", note.similarity_max);
-  in.ListField(root, "boxes", note.boxes, ReadBox);
-  if (error) return tl::unexpected(*error);
-  return note;
+  return ParseJson<SightNote>(json, "sight", ReadNote);
 }
 
 RgbImage MapsOf(const Sight& sight, int max_px) {

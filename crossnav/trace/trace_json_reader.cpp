@@ -115,17 +115,7 @@ void ReadStep(JsonReader& in, const Element& e, StepTrace& step) {
 }  // namespace
 
 Result<StepTrace> StepTraceFromJson(std::string_view json) {
-  simdjson::dom::parser parser;
-  Element root;
-  if (const auto code = parser.parse(json.data(), json.size()).get(root)) {
-    return Fail(ErrorCode::kMalformed, simdjson::error_message(code), "step record");
-  }
-  std::optional<Error> error;
-  JsonReader reader(error);
-  StepTrace step;
-  ReadStep(reader, root, step);
-  if (error) return tl::unexpected(*error);
-  return step;
+  return ParseJson<StepTrace>(json, "step record", ReadStep);
 }
 
 }  // namespace crossnav::trace

@@ -5,24 +5,6 @@
 namespace crossnav::python {
 namespace {
 
-const char* NameOf(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::kNotFound:
-      return "not_found";
-    case ErrorCode::kMalformed:
-      return "malformed";
-    case ErrorCode::kUnsupported:
-      return "unsupported";
-    case ErrorCode::kInvalid:
-      return "invalid";
-    case ErrorCode::kMismatch:
-      return "mismatch";
-    case ErrorCode::kIo:
-      return "io";
-  }
-  return "invalid";
-}
-
 /// Failure -> crossnav.Error, whose text is what the program would print.
 void Translate(const std::exception_ptr& thrown, void*) {
   try {

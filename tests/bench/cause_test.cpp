@@ -9,7 +9,7 @@
 namespace crossnav::bench {
 namespace {
 
-const std::vector<sim::Floor> kFloors = {{0, 0.0, 50}, {1, 2.8, 50}, {2, 5.6, 50}};
+const std::vector<sim::Floor> kFloors = {{0, 0.0, 50, {}}, {1, 2.8, 50, {}}, {2, 5.6, 50, {}}};
 
 trace::StepTrace Doing(std::string activity, std::vector<std::string> events = {}) {
   trace::StepTrace step;
