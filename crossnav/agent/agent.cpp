@@ -110,18 +110,21 @@ trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_
 struct Agent::Impl {
   Config config;
   perception::PerceptionSuite perception;
+  Hooks* hooks;
   World world;
   GoalState goal;
 
-  Impl(const Config& c, perception::PerceptionSuite p)
-      : config(c), perception(std::move(p)), world(c) {}
+  Impl(const Config& c, perception::PerceptionSuite p, Hooks* h)
+      : config(c), perception(std::move(p)), hooks(h), world(c) {}
 
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
   void Record(StepResult& result, const Decision& decision);
 };
 
-Agent::Agent(const Config& config, perception::PerceptionSuite perception)
-    : impl_(std::make_unique<Impl>(config, std::move(perception))) {}
+Agent::Agent(const Config& config, perception::PerceptionSuite perception, Hooks* hooks)
+    : impl_(std::make_unique<Impl>(config, std::move(perception), hooks)) {
+  CROSSNAV_CHECK(!hooks || config.policy.profile == "full", "hooks are for policy.profile = full");
+}
 Agent::~Agent() = default;
 Agent::Agent(Agent&&) noexcept = default;
 
@@ -249,7 +252,7 @@ Result<StepResult> Agent::Step(const Observation& obs) {
   if (!seen) return tl::unexpected(seen.error());
 
   // Candidates, mode and target, plan, action.
-  Situation now{self.config, self.world, self.goal, agent, obs, seen->sightings};
+  Situation now{self.config, self.world, self.goal, agent, obs, seen->sightings, self.hooks};
   const bool is_literal = self.config.policy.profile == "paper";
   const Decision decision = is_literal ? paper::Decide(now) : Navigate(now);
   clock.Stop("decide");

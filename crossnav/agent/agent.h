@@ -22,6 +22,8 @@
 
 namespace crossnav::agent {
 
+class Hooks;
+
 struct StepResult {
   Action action = Action::kStop;
   trace::StepTrace trace;
@@ -36,7 +38,9 @@ class Agent {
   struct Impl;
 
  public:
-  Agent(const Config& config, perception::PerceptionSuite perception);
+  /// `hooks` decide what the user wants to decide (agent/hooks.h, policy.profile = full); they must
+  /// outlive the agent.
+  Agent(const Config& config, perception::PerceptionSuite perception, Hooks* hooks = nullptr);
   ~Agent();
   Agent(Agent&&) noexcept;
 

@@ -12,6 +12,8 @@
 
 namespace crossnav::agent {
 
+class Hooks;
+
 /// What a policy looks at.
 struct Situation {
   const Config& config;
@@ -20,6 +22,7 @@ struct Situation {
   AgentPose agent;
   const Observation& obs;
   const std::vector<policy::Sighting>& sightings;  ///< of this frame
+  Hooks* hooks = nullptr;                          ///< what the user decides; may be null
 };
 
 struct Decision {

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
+#include "crossnav/agent/hooks.h"
+#include "crossnav/core/check.h"
 #include "crossnav/policy/flights.h"
 #include "crossnav/policy/ground_frontiers.h"
 #include "crossnav/policy/stair_geometry.h"
@@ -34,13 +37,26 @@ class Sweep {
   std::optional<GroundTarget> Run() {
     while (const auto key = search_.Next()) {
       const double cost_m = search_.cost() * voxel_m_;
-      if (best_ && cost_m - config_.commit_m >= best_->score_m) break;
+      // A hook may prefer what is far.
+      if (!now_.hooks && best_ && cost_m - config_.commit_m >= best_->score_m) break;
       Visit(*key);
     }
-    return std::move(best_);
+    return now_.hooks ? AskHooks() : std::move(best_);
   }
 
  private:
+  std::optional<GroundTarget> AskHooks() {
+    std::vector<ExplorationOption> options;
+    for (const GroundTarget& target : all_)
+      options.push_back({target.candidate, target.cost_m, target.score_m});
+    if (options.empty()) return std::nullopt;
+    const std::vector<double> scores = now_.hooks->ScoreExploration(now_, options);
+    CROSSNAV_CHECK(scores.size() == all_.size(), "a hook answers with one score for each option");
+    const auto least = std::min_element(scores.begin(), scores.end());
+    if (!(*least < std::numeric_limits<double>::infinity())) return std::nullopt;
+    return std::move(all_[static_cast<std::size_t>(least - scores.begin())]);
+  }
+
   void Visit(const VoxelKey& key) {
     VoxelKey beyond;
     if (policy::IsGroundFrontier(now_.world.ground, key, &beyond)) {
@@ -170,7 +186,11 @@ class Sweep {
     candidate.score = -target.score_m;
     shown_->push_back(candidate);
     target.candidate = std::move(candidate);
-    if (!best_ || target.score_m < best_->score_m) best_ = std::move(target);
+    if (now_.hooks) {
+      all_.push_back(std::move(target));
+    } else if (!best_ || target.score_m < best_->score_m) {
+      best_ = std::move(target);
+    }
   }
 
   const Situation& now_;
@@ -182,6 +202,7 @@ class Sweep {
   std::set<int> offered_;           // sightings
   std::set<VoxelKey> uninspected_;  // coarse cells that were offered
   std::optional<GroundTarget> best_;
+  std::vector<GroundTarget> all_;  // with hooks
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/explore.h"
+#include "crossnav/agent/hooks.h"
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
@@ -18,6 +19,7 @@ namespace crossnav::agent {
 
 using geometry::VoxelKey;
 using policy::CandidateKind;
+using policy::ClaimVerdict;
 using policy::Mode;
 using policy::ModeReason;
 
@@ -218,19 +220,29 @@ bool TryLastResort(Situation& now) {
 
 // --- One decision ------------------------------------------------------------------------------
 
+/// The memory's word on what this frame says of `poi`, and the user's on that.
+ClaimVerdict JudgeClaim(Situation& now, const policy::LivePoi& poi,
+                        const policy::Verification& verification) {
+  const auto verdict =
+      verification.passed ? CheckClaim(now, poi, verification) : ClaimVerdict::kWeak;
+  return now.hooks ? now.hooks->JudgeClaim(now, {poi, verification, verdict}) : verdict;
+}
+
 /// Whether this frame proves an object that the agent stands before.
 bool Prove(Situation& now, Decision& decision) {
   const auto& config = now.config;
   for (const policy::LivePoi* poi : now.goal.live.Stable(config.policy.object)) {
     auto verification = policy::Verify(*poi, now.sightings, now.obs, config.policy,
                                        config.sensor.camera_height_m, config.map.voxel_m);
-    if (verification.passed) {
-      const auto verdict = CheckClaim(now, *poi, verification);
-      if (verdict == policy::ClaimVerdict::kWeak) verification.failed_check = "second view";
-      if (verdict == policy::ClaimVerdict::kRefuted) verification.failed_check = "memory";
-      verification.passed = verdict == policy::ClaimVerdict::kAgreed;
-      if (verdict == policy::ClaimVerdict::kRefuted) Reject(now, *poi);
+    const auto verdict = JudgeClaim(now, *poi, verification);
+    if (verification.passed && verdict == ClaimVerdict::kWeak)
+      verification.failed_check = "second view";
+    if (verdict == ClaimVerdict::kRefuted) {
+      verification.failed_check = "memory";
+      Reject(now, *poi);
     }
+    verification.passed = verdict == ClaimVerdict::kAgreed;
+    if (verification.passed) verification.failed_check.clear();
     if (poi->id == now.goal.active_live || verification.passed)
       decision.verification = verification;
     if (!verification.passed) continue;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The two decisions that studies replace: where to look next, and whether to believe a claim. Each
+// is asked with the policy's own answer in hand, so that one may be replaced and the other kept.
+// For policy.profile = full. World frame, metres.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "crossnav/agent/decision.h"
+
+namespace crossnav::agent {
+
+/// A place that could be looked at next.
+struct ExplorationOption {
+  policy::Candidate candidate;
+  double way_m = 0;    ///< to it; the turns before the first step count as metres
+  double score_m = 0;  ///< the policy's own: the way, and what the candidate's class adds
+};
+
+/// A claim that this frame makes about an object of the goal.
+struct Claim {
+  const policy::LivePoi& poi;
+  const policy::Verification& verification;                    ///< by the policy's own checks
+  policy::ClaimVerdict verdict = policy::ClaimVerdict::kWeak;  ///< the policy's own
+};
+
+/// Overrides may throw; the exception leaves Agent::Step, after which the agent is of no use.
+class Hooks {
+ public:
+  virtual ~Hooks() = default;
+
+  /// A score for each option, the least is gone to, infinity is never. Asked when the agent chooses
+  /// (policy.explore.reconsider_steps), with every option that can be reached.
+  virtual std::vector<double> ScoreExploration(const Situation& now,
+                                               std::span<const ExplorationOption> options);
+
+  /// kAgreed says STOP now, kWeak looks from elsewhere, kRefuted gives the object up. Asked for
+  /// each stable object in view.
+  virtual policy::ClaimVerdict JudgeClaim(const Situation& now, const Claim& claim);
+};
+
+}  // namespace crossnav::agent
