@@ -13,11 +13,15 @@ from crossnav._core import (
     Agent,
     AgentPose,
     CameraIntrinsics,
+    Claim,
+    ClaimVerdict,
     Config,
     DenseEncoder,
     Detection,
     Detector,
     Episode,
+    ExplorationOption,
+    Hooks,
     MemoryCluster,
     Observation,
     Perception,
@@ -45,10 +49,11 @@ from crossnav._records import Record, metrics, play
 __version__: str = VERSION
 
 __all__ = [
-    "CATEGORIES", "Action", "Agent", "AgentPose", "CameraIntrinsics", "Config", "DenseEncoder",
-    "Detection", "Detector", "Episode", "Error", "MemoryCluster", "Observation", "Perception",
-    "Record", "Scene", "Segmenter", "SemanticMemory", "Settings", "Simulator", "StairSegmenter",
-    "StepResult", "VoxelMap", "VoxelState", "__version__", "generate_house", "list_scenes",
-    "load_map", "make_episode", "map_header", "metrics", "play", "read_episodes", "run_episode",
-    "save_map", "write_embedded_house",
+    "CATEGORIES", "Action", "Agent", "AgentPose", "CameraIntrinsics", "Claim", "ClaimVerdict",
+    "Config", "DenseEncoder", "Detection", "Detector", "Episode", "Error", "ExplorationOption",
+    "Hooks", "MemoryCluster", "Observation", "Perception", "Record", "Scene", "Segmenter",
+    "SemanticMemory", "Settings", "Simulator", "StairSegmenter", "StepResult", "VoxelMap",
+    "VoxelState", "__version__", "generate_house", "list_scenes", "load_map", "make_episode",
+    "map_header", "metrics", "play", "read_episodes", "run_episode", "save_map",
+    "write_embedded_house",
 ]

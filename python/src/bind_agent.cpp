@@ -3,6 +3,7 @@
 #include "crossnav/agent/agent.h"
 
 #include "crossnav/trace/trace_json.h"
+#include "hooks_handle.h"
 #include "map_handle.h"
 #include "perception_handle.h"
 
@@ -14,10 +15,14 @@ using StatesOut = Array<std::uint8_t, nb::ndim<1>>;
 
 /// The agent with Python's objects that it asks; they go after it.
 struct AgentHandle {
-  AgentHandle(const bench::RunConfig& c, const PerceptionHandle& p)
-      : perception(p), config(c), agent(c.agent, perception.Suite()) {}
+  AgentHandle(const bench::RunConfig& c, const PerceptionHandle& p, const nb::object& h)
+      : perception(p),
+        hooks(h),
+        config(c),
+        agent(c.agent, perception.Suite(), HooksOf(hooks, c.agent)) {}
 
   PerceptionHandle perception;
+  nb::object hooks;
   bench::RunConfig config;
   agent::Agent agent;
   bool has_goal = false, has_stepped = false;
@@ -47,7 +52,8 @@ void Restore(AgentHandle& self, const MapHandle& map, const MemoryHandle& memory
   if (map.map->config().voxel_m != memory.memory->VoxelSize())
     Raise(ErrorCode::kMismatch, "map and memory have different voxel sizes", "memory");
   const InUse guard(self.in_use);
-  Unwrap(self.agent.Restore(CopyOf(*map.map), CopyOf(*memory.memory)));
+  Unwrap(self.agent.Restore(CopyOf(*map.map), CopyOf(*memory.memory), map.Flights(),
+                            map.SeenStairs()));
 }
 
 std::vector<memory::MemoryCluster> Query(AgentHandle& self, const std::string& text) {
@@ -120,19 +126,22 @@ void BindAgent(nb::module_& m) {
   nb::class_<AgentHandle>(m, "Agent", "One observation in, one action out. One thread at a time.")
       .def(
           "__init__",
-          [](AgentHandle* self, const PerceptionHandle& perception, const Settings& config) {
-            new (self) AgentHandle(ConfigOf(config), perception);
+          [](AgentHandle* self, const PerceptionHandle& perception, const Settings& config,
+             const nb::object& hooks) {
+            new (self) AgentHandle(ConfigOf(config), perception, hooks);
           },
-          "perception"_a, "config"_a = nb::none())
+          "perception"_a, "config"_a = nb::none(), "hooks"_a = nb::none(),
+          nb::sig("def __init__(self, perception: Perception, config: crossnav._config.Settings = "
+                  "None, hooks: Hooks | None = None) -> None"))
       .def("set_goal", &SetGoal, "goal"_a,
            "Activates a goal; map, stairs and features stay as they are.")
       .def("step", &Step, "observation"_a, "One step. Other threads run meanwhile.")
       .def("restore", &Restore, "map"_a, "memory"_a,
-           "Starts from a copy of a saved map and memory; before the first goal.")
+           "Starts from a copy of a saved map, its stairs and a memory; before the first goal.")
       .def("query", &Query, "text"_a,
            "Places in the memory that answer a text, best first, by the agent's own encoder.")
       .def_prop_ro(
-          "map", [](AgentHandle& self) { return std::make_unique<MapHandle>(self.agent.map()); },
+          "map", [](AgentHandle& self) { return std::make_unique<MapHandle>(self.agent); },
           nb::keep_alive<0, 1>(), nb::sig("def map(self) -> VoxelMap"), "The agent's own, to read.")
       .def_prop_ro(
           "memory",

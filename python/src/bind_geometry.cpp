@@ -90,6 +90,25 @@ nb::dict Stats(const MapHandle& self) {
   return out;
 }
 
+/// Each flight as a dict of its ends, its steps and how often it was walked.
+nb::list Flights(const MapHandle& self) {
+  nb::list out;
+  for (const geometry::StairFlight& flight : self.Flights()) {
+    std::vector<double> steps;
+    for (const Vector3d& p : flight.steps_world) steps.insert(steps.end(), p.data(), p.data() + 3);
+    nb::dict one;
+    one["p_foot_world"] = nb::cast(ToArray(flight.p_foot_world));
+    one["p_top_world"] = nb::cast(ToArray(flight.p_top_world));
+    one["steps_world"] = nb::cast(
+        ToArray<Array<double, nb::ndim<2>>>(std::move(steps), {flight.steps_world.size(), 3}));
+    one["confidence"] = flight.confidence;
+    one["walked_up"] = flight.walked_up;
+    one["walked_down"] = flight.walked_down;
+    out.append(one);
+  }
+  return out;
+}
+
 void BindMap(nb::module_& m) {
   nb::class_<MapHandle>(m, "VoxelMap",
                         "The support-aware sparse voxel map. World frame, z up, metres.")
@@ -118,6 +137,10 @@ void BindMap(nb::module_& m) {
           "a_world"_a, "b_world"_a, "No surface voxel lies strictly between the two points.")
       .def("nearest_free", &NearestFree, "p_world"_a, "radius_m"_a,
            "Centre of the nearest voxel that one can stand in, or None.")
+      .def_prop_ro(
+          "flights", &Flights, nb::sig("def flights(self) -> list[dict[str, typing.Any]]"),
+          "Stairs that were walked: p_foot_world and p_top_world (3,), steps_world (N, 3), "
+          "confidence, walked_up, walked_down.")
       .def("stats", &Stats, nb::sig("def stats(self) -> dict[str, int]"),
            "Numbers of voxels and blocks, and bytes held.")
       .def_prop_ro("voxel_m", [](const MapHandle& self) { return self.map->config().voxel_m; })

@@ -30,12 +30,6 @@ using VectorOut = Array<float, nb::ndim<1>>;
   Raise(ErrorCode::kInvalid, what, where);
 }
 
-/// The Python object that this observation is; a copy where there is none.
-nb::object ToPython(const Observation& obs) {
-  nb::object known = nb::find(obs);
-  return known.is_valid() ? known : nb::cast(Observation(obs));
-}
-
 /// As `Array` of any dtype that NumPy converts.
 template <class In>
 In ArrayFrom(const nb::object& value, const char* dtype, const char* where) {

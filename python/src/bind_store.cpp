@@ -31,6 +31,8 @@ std::int64_t Save(const PathIn& path, const MapHandle& map, const MemoryHandle& 
   store::SaveInfo info;
   info.encoder_name = encoder_name;
   info.frame = frame;
+  info.flights = map.Flights();
+  info.seen_stairs = map.SeenStairs();
   const nb::gil_scoped_release others_run;
   return Unwrap(store::SaveMemory(path.path, *map.map, *memory.memory, info)).revision;
 }
@@ -49,6 +51,8 @@ nb::tuple Load(const PathIn& path, const Settings& settings, const std::string& 
   }();
   auto map =
       std::make_unique<MapHandle>(std::make_unique<geometry::VoxelMap>(std::move(loaded.map)));
+  map->flights = std::move(loaded.flights);
+  map->seen_stairs = std::move(loaded.seen_stairs);
   auto memory = std::make_unique<MemoryHandle>(
       std::make_unique<memory::SemanticMemory>(std::move(loaded.memory)), config.query);
   return nb::make_tuple(std::move(map), std::move(memory), ToDict(loaded.header), loaded.damaged);

@@ -70,6 +70,11 @@ void CheckCamera(const CameraIntrinsics& camera, std::size_t rows, std::size_t c
           "observation.depth_m");
 }
 
+nb::object ToPython(const Observation& obs) {
+  nb::object known = nb::find(obs);
+  return known.is_valid() ? known : nb::cast(Observation(obs));
+}
+
 nb::object FromJson(const std::string& text) {
   return nb::module_::import_("json").attr("loads")(text);
 }

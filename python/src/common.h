@@ -119,6 +119,9 @@ DepthImage ToImage(const DepthIn& depth_m);
 /// Raises where the intrinsics are not finite or of another size.
 void CheckCamera(const CameraIntrinsics& camera, std::size_t rows, std::size_t cols);
 
+/// The Python object that this observation is; a copy where there is none.
+nb::object ToPython(const Observation& obs);
+
 /// json.loads(text)
 nb::object FromJson(const std::string& text);
 
@@ -128,6 +131,7 @@ void BindCore(nb::module_& m);
 void BindGeometry(nb::module_& m);
 void BindMemory(nb::module_& m);
 void BindPerception(nb::module_& m);
+void BindHooks(nb::module_& m);
 void BindAgent(nb::module_& m);
 void BindSimulator(nb::module_& m);
 void BindStore(nb::module_& m);

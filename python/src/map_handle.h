@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "common.h"
+#include "crossnav/agent/agent.h"
+#include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/semantic_memory.h"
@@ -17,13 +19,22 @@ struct MapHandle {
   explicit MapHandle(std::unique_ptr<geometry::VoxelMap> own) : owned(std::move(own)) {
     map = owned.get();
   }
-  explicit MapHandle(const geometry::VoxelMap& of_agent) : map(&of_agent) {}
+  explicit MapHandle(const agent::Agent& a) : map(&a.map()), agent(&a) {}
 
   /// Raises where the map is an agent's.
   geometry::VoxelMap& Writable();
 
+  std::vector<geometry::StairFlight> Flights() const { return agent ? agent->flights() : flights; }
+  std::vector<geometry::SeenStair> SeenStairs() const {
+    return agent ? agent->seen_stairs() : seen_stairs;
+  }
+
   const geometry::VoxelMap* map;
+  const agent::Agent* agent = nullptr;  ///< whose map it is, if it is an agent's
   std::unique_ptr<geometry::VoxelMap> owned;
+  // Of the file that it was loaded from.
+  std::vector<geometry::StairFlight> flights;
+  std::vector<geometry::SeenStair> seen_stairs;
   // The last frame, so that features can be lifted to where it ended.
   const geometry::EndVoxels* ends = nullptr;
   DepthImage depth_m;

@@ -46,6 +46,23 @@ def test_an_agent_starts_from_a_saved_map(agent: crossnav.Agent, tmp_path: Path,
         other.restore(voxel_map, memory)
 
 
+def test_stairs_are_saved_with_the_map(scene: crossnav.Scene, tmp_path: Path,
+                                       episode: crossnav.Episode) -> None:
+    simulator = crossnav.Simulator(scene, SMALL)
+    agent = crossnav.Agent(simulator.ground_truth(), SMALL)
+    crossnav.play(agent, simulator, episode)
+    flights = agent.map.flights
+    assert flights, "the episode was chosen for its stairs"
+    assert flights[0]["p_top_world"][2] - flights[0]["p_foot_world"][2] > 2
+    crossnav.save_map(tmp_path / "home.map", agent.map, agent.memory)
+    voxel_map, memory, _, _ = crossnav.load_map(tmp_path / "home.map", SMALL)
+    other = crossnav.Agent(simulator.ground_truth(), SMALL)
+    other.restore(voxel_map, memory)
+    for known in (voxel_map.flights, other.map.flights):
+        assert len(known) == len(flights)
+        assert np.array_equal(known[0]["steps_world"], flights[0]["steps_world"])
+
+
 def test_a_map_of_another_kind_is_refused(agent: crossnav.Agent, tmp_path: Path,
                                           simulator: crossnav.Simulator) -> None:
     walked(agent, simulator, 1)

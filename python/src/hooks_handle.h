@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Hooks as Python writes them.
+#pragma once
+
+#include "common.h"
+#include "crossnav/agent/hooks.h"
+
+namespace crossnav::python {
+
+/// The hooks behind `hooks`, which must be of crossnav.Hooks and outlive them; null for None.
+/// Raises unless the profile asks hooks.
+agent::Hooks* HooksOf(const nb::object& hooks, const agent::Config& config);
+
+}  // namespace crossnav::python
