@@ -39,6 +39,7 @@ from crossnav._core import (
     make_episode,
     map_header,
     read_episodes,
+    read_recording,
     run_episode,
     save_map,
     write_embedded_house,
@@ -54,6 +55,6 @@ __all__ = [
     "Hooks", "MemoryCluster", "Observation", "Perception", "Record", "Scene", "Segmenter",
     "SemanticMemory", "Settings", "Simulator", "StairSegmenter", "StepResult", "VoxelMap",
     "VoxelState", "__version__", "generate_house", "list_scenes", "load_map", "make_episode",
-    "map_header", "metrics", "play", "read_episodes", "run_episode", "save_map",
-    "write_embedded_house",
+    "map_header", "metrics", "play", "read_episodes", "read_recording", "run_episode",
+    "save_map", "write_embedded_house",
 ]

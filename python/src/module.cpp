@@ -32,6 +32,7 @@ NB_MODULE(_core, m) {
   BindPerception(m);
   BindSimulator(m);
   BindStore(m);
+  BindRecordings(m);
   BindHooks(m);
   BindAgent(m);
   BindBench(m);
