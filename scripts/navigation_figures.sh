@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # The figures of docs/navigation.md: makes the houses and episodes of a set and evaluates them.
 #   scripts/navigation_figures.sh development|held-out OUT [JOBS] [EVAL OPTION...]
-# e.g. scripts/navigation_figures.sh held-out out/navigation 2 --set policy.profile=paper
+# e.g. scripts/navigation_figures.sh held-out out/navigation 2 --variant paper
 # Needs the furniture pack (crossnav assets import). An evaluation that was cut off goes on.
 set -euo pipefail
 

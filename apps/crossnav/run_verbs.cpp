@@ -13,7 +13,7 @@ void AddPerception(CLI::App* verb, std::string& perception) {
 /// --variant, --success, --budget-scope and --perception.
 template <class T>
 void AddProtocol(CLI::App* verb, T& options) {
-  verb->add_option("--variant", options.variant, "full, no-history-poi or planar");
+  verb->add_option("--variant", options.variant, "full, no-history-poi, planar or paper");
   verb->add_option("--success", options.success, "What a STOP must be near: box or viewpoint");
   verb->add_option("--budget-scope", options.budget_scope, "Action budget per episode or goal");
   AddPerception(verb, options.perception);
@@ -119,7 +119,7 @@ void AddSuites(CLI::App& app, Options& o) {
     verb->add_option("--jobs", o.suite.jobs, "Processes")->check(CLI::Range(1, 1024));
   }
   for (CLI::App* verb : {run, report}) {
-    verb->add_option("--variant", o.suite.variant, "full, no-history-poi or planar");
+    verb->add_option("--variant", o.suite.variant, "full, no-history-poi, planar or paper");
     verb->add_option("--keep-replays", o.suite.keep_replays, "none or failures")
         ->check(CLI::IsMember({"none", "failures"}));
   }

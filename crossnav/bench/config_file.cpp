@@ -272,9 +272,13 @@ Result<void> ApplyVariant(std::string_view variant, RunConfig& config) {
     config.agent.policy.planar = true;
     return {};
   }
+  if (variant == "paper") {
+    config.agent.policy.profile = "paper";
+    return {};
+  }
   return Fail(
       ErrorCode::kInvalid,
-      "unknown variant \"" + std::string(variant) + "\"; there are full, no-history-poi and planar",
+      "unknown variant \"" + std::string(variant) + "\"; there are full, no-history-poi, planar and paper",
       "--variant");
 }
 

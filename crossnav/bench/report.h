@@ -18,7 +18,7 @@ namespace crossnav::bench {
 /// One run as a report shows it.
 struct ReportRun {
   std::string name;     ///< of its folder
-  std::string variant;  ///< full, no-history-poi, planar; empty where unknown
+  std::string variant;  ///< full, no-history-poi, planar, paper; empty where unknown
   std::string perception, config_hash, episodes_hash;
   std::vector<EpisodeRecord> episodes;
   std::optional<RunHeader> header;  ///< absent in files of other programs

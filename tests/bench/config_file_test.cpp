@@ -117,6 +117,8 @@ TEST(ConfigFile, UnknownVariantIsRefused) {
   RunConfig config;
   EXPECT_TRUE(ApplyVariant("no-history-poi", config));
   EXPECT_FALSE(config.agent.policy.poi.use_history);
+  EXPECT_TRUE(ApplyVariant("paper", config));
+  EXPECT_EQ(config.agent.policy.profile, "paper");
   EXPECT_FALSE(ApplyVariant("fast", config));
 }
 
