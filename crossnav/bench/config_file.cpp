@@ -276,10 +276,10 @@ Result<void> ApplyVariant(std::string_view variant, RunConfig& config) {
     config.agent.policy.profile = "paper";
     return {};
   }
-  return Fail(
-      ErrorCode::kInvalid,
-      "unknown variant \"" + std::string(variant) + "\"; there are full, no-history-poi, planar and paper",
-      "--variant");
+  return Fail(ErrorCode::kInvalid,
+              "unknown variant \"" + std::string(variant) +
+                  "\"; there are full, no-history-poi, planar and paper",
+              "--variant");
 }
 
 RunConfig DefaultsOfProfile(const std::string& profile) {
