@@ -227,7 +227,7 @@ def test_the_example_node_moves_ends_its_moves_and_stands_when_the_server_dies(
     from test_live import PROGRAM, Server
     if not PROGRAM.is_file():
         pytest.skip("the program is not built")
-    server = Server(tmp_path, "--perception", "none")
+    server = Server(tmp_path, "--perception", "none", "--set", "action.max_pitch_deg=0")
     try:
         PARAMETERS.update(socket=server.socket, camera_height_m=0.6, goal="bed")
         node = example_node(monkeypatch).CrossnavNode()
