@@ -49,7 +49,7 @@ serve::Address AddressOf(const ServeOptions& options) {
 Result<bench::RunConfig> ConfigOf(const ServeOptions& options, const CommonOptions& common) {
   CommonOptions all = common;
   if (options.perception == "networks") all.overrides.push_back("eval.perception=networks");
-  const auto config = LoadConfig(all);
+  auto config = LoadConfig(all);
   if (config && config->serve.watchdog_s <= config->serve.period_s)
     return Fail(ErrorCode::kInvalid,
                 "must be longer than serve.period_s, or it fires in the midst of an action",

@@ -29,11 +29,12 @@ HEIGHT_M = 0.88
 class Server:
     """`crossnav serve` in a folder of its own."""
 
-    def __init__(self, folder: Path, *arguments: str) -> None:
+    def __init__(self, folder: Path, *arguments: str, is_elsewhere: bool = False) -> None:
         self.socket = str(folder / "s.sock")
+        where = [] if is_elsewhere else ["--socket", self.socket]
         sets = [word for setting in SMALL_SETS for word in ("--set", setting)]
         self.process = subprocess.Popen(
-            [PROGRAM, "serve", "--json", "--socket", self.socket, *arguments, *sets],
+            [PROGRAM, "serve", "--json", *where, *arguments, *sets],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert self.process.stderr is not None
         self.first_line = self.process.stderr.readline()
@@ -57,8 +58,8 @@ Start = Callable[..., Server]
 def serve(tmp_path: Path) -> Iterator[Start]:
     servers: list[Server] = []
 
-    def start(*arguments: str) -> Server:
-        servers.append(Server(tmp_path, *arguments))
+    def start(*arguments: str, **options: bool) -> Server:
+        servers.append(Server(tmp_path, *arguments, **options))
         return servers[-1]
 
     yield start
@@ -164,6 +165,19 @@ def test_from_pixels_actions_are_those_of_crossnav_run(
             assert answer.action is not None
             assert answer.action.name.lower() == step["action"], answer
             simulator.step(answer.action)
+
+
+def test_server_and_client_look_in_the_same_place(
+        serve: Start, simulator: crossnav.Simulator, tmp_path: Path,
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    serve("--perception", "none", is_elsewhere=True)
+    with live.Client(camera_of(simulator)) as client:
+        assert client.stats()["connections"] == 1
+    over_tcp = serve("--perception", "none", "--port", "0", is_elsewhere=True)
+    port = int(over_tcp.first_line.split(",")[0].rpartition(":")[2])
+    with live.Client(camera_of(simulator), address=port) as client:
+        assert client.stats()["connections"] == 1
 
 
 def test_faults_are_survived_and_counted(serve: Start, simulator: crossnav.Simulator) -> None:

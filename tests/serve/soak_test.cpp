@@ -90,6 +90,10 @@ class Reference {
     ASSERT_EQ(answer.reason(), step->trace.reason);
     ASSERT_EQ(answer.state().steps(), steps_);
   }
+  /// What an agent that saw the same has in its map and memory.
+  double World_MB() const {
+    return static_cast<double>(agent_.map().Stats().bytes + agent_.memory().Bytes()) / 1e6;
+  }
 
  private:
   static agent::Config Settings() {
@@ -162,6 +166,7 @@ class Soak {
   }
 
   live::Stats Stats() const { return client_.Ask(StatsRequest())->stats(); }
+  double World_MB() const { return reference_.World_MB(); }
   int answered() const { return answered_; }
   int dropped() const { return dropped_; }
   int malformed() const { return malformed_; }
@@ -221,7 +226,9 @@ TEST(LiveSoak, FramesAreLostAndDamagedAndClientsDieAndTheServerGoesOn) {
       ASSERT_NO_FATAL_FAILURE(soak.KillAClient());
     }
     if (i == warm) warm_MB = server.Rss_MB();
-    if (i % report == 0) std::printf("frame %5d: %.1f MB resident\n", i, server.Rss_MB());
+    if (i % report == 0)
+      std::printf("frame %5d: %.1f MB resident, map and memory %.1f MB\n", i, server.Rss_MB(),
+                  soak.World_MB());
   }
   const double end_MB = server.Rss_MB();
   const live::Stats stats = soak.Stats();
