@@ -25,9 +25,13 @@ function(crossnav_library room)
   crossnav_warnings(crossnav_${room})
 endfunction()
 
-# crossnav_test(<room> SOURCES ... [DEPS <rooms>] [LIBS <targets>]): one program test_<room>.
+# crossnav_test(<room> SOURCES ... [DEPS <rooms>] [LIBS <targets>] [TIMEOUT <s>]): one program
+# test_<room>.
 function(crossnav_test room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPS;LIBS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
   add_executable(test_${room} ${ARG_SOURCES})
   foreach(dep IN LISTS ARG_DEPS)
     target_link_libraries(test_${room} PRIVATE crossnav::${dep})
@@ -39,5 +43,5 @@ function(crossnav_test room)
     CROSSNAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
     CROSSNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   crossnav_warnings(test_${room})
-  gtest_discover_tests(test_${room} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(test_${room} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
 endfunction()

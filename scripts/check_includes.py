@@ -25,12 +25,13 @@ ROOMS = {
     "policy": _LEFT,
     "trace": {"core", "geometry", "policy"},
     "agent": _AGENT - {"agent"},
+    "serve": {"core", "perception", "agent"},
     "sim": {"core", "geometry", "perception"},
     "recordings": {"core", "sim", "trace"},
     "world": {"core", "sim"},
     "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory"},
-    "bench": _AGENT | {"networks", "sim", "world", "homes", "store"},
+    "bench": _AGENT | {"networks", "serve", "sim", "world", "homes", "store"},
 }
 
 # Third-party headers that any file may include: they are part of our own vocabulary.
@@ -54,6 +55,7 @@ ADAPTERS = {
     "xxHash": (r"^xxhash", ["crossnav/sim/scene.cpp", "crossnav/sim/navmesh*.cpp",
                             "crossnav/store/*.cpp", "crossnav/world/furniture_pack.cpp",
                             "crossnav/networks/crossnav_network.cpp"]),
+    "Protobuf": (r"^google/protobuf/", ["crossnav/serve/messages.cpp"]),
     "OpenVINO": (r"^openvino/", ["crossnav/networks/openvino_backend.cpp"]),
     "zlib": (r"^zlib", ["crossnav/bench/gzip_file.cpp", "crossnav/trace/mcap_writer.cpp",
                         "crossnav/trace/replay_page.cpp", "crossnav/world/furniture_pack.cpp",

@@ -9,10 +9,10 @@
 #include "crossnav/bench/metrics_report.h"
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/runner.h"
-#include "crossnav/store/map_file.h"
 #include "crossnav/trace/replay_page.h"
 #include "crossnav/trace/trace_json.h"
 #include "episode_picture.h"
+#include "memory_files.h"
 #include "progress.h"
 #include "replay_log.h"
 
@@ -41,16 +41,7 @@ class MemoryLoader : public bench::RunObserver {
       : path_(std::move(path)), config_(config), encoder_(std::move(encoder)) {}
 
   Result<void> OnStart(agent::Agent& state) override {
-    const auto header = store::ReadMapHeader(path_);
-    if (!header) return tl::unexpected(header.error());
-    if (auto ok = CheckEncoder(*header, encoder_, path_.string()); !ok) return ok;
-    store::LoadOptions options;
-    options.map = config_.agent.map;
-    options.fusion = config_.agent.fusion;
-    auto loaded = store::LoadMemory(path_, options);
-    if (!loaded) return tl::unexpected(loaded.error());
-    return state.Restore(std::move(loaded->map), std::move(loaded->memory),
-                         std::move(loaded->flights), loaded->seen_stairs);
+    return RestoreMemory(path_, config_, encoder_, state);
   }
 
  private:
@@ -74,12 +65,7 @@ class MapLog : public bench::RunObserver {
     summary_ = {state.memory().Size(), counters.compacted_rows, counters.dropped_rows,
                 state.memory().Bytes()};
     if (path_.empty()) return {};
-    store::SaveInfo info;
-    info.encoder_name = encoder_;
-    info.frame = frame_;
-    info.flights = state.flights();
-    info.seen_stairs = state.seen_stairs();
-    const auto saved = store::SaveMemory(path_, state.map(), state.memory(), info);
+    const auto saved = SaveMemoryOf(state, path_, encoder_, frame_);
     if (!saved) return tl::unexpected(saved.error());
     return {};
   }

@@ -243,6 +243,28 @@ void AddMap(CLI::App& app, Options& o) {
   points->add_flag("--surfaces", o.map.surfaces_only, "Leave out the air");
 }
 
+void AddServe(CLI::App& app, Options& o) {
+  CLI::App* serve = AddVerb(app, o, "serve", "The agent for a live robot, behind a local socket",
+                            "crossnav serve --socket /run/user/1000/crossnav.sock --set "
+                            "sensor.camera_height_m=0.6 --save-map home.map",
+                            [&o](Console& c) { return ServeLive(o.serve, o.common, c); });
+  CLI::Option* socket =
+      serve
+          ->add_option("--socket", o.serve.socket,
+                       "Unix domain socket; default: $XDG_RUNTIME_DIR/crossnav.sock, or "
+                       "/tmp/crossnav-UID.sock")
+          ->type_name("PATH");
+  serve->add_option("--port", o.serve.port, "TCP on 127.0.0.1 instead; 0 = any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->excludes(socket);
+  serve
+      ->add_option("--perception", o.serve.perception,
+                   "networks, or none: maps and explores, and finds nothing")
+      ->check(CLI::IsMember({"networks", "none"}));
+  serve->add_option("--memory", o.serve.memory, "Map file to start from, as --save-map wrote it");
+  serve->add_option("--save-map", o.serve.save_map, "Map file to save the memory to at the end");
+}
+
 void AddNetworks(CLI::App& app, Options& o) {
   CLI::App* networks = app.add_subcommand("networks", "Networks for perception from pixels");
   networks->require_subcommand(1);
@@ -315,6 +337,7 @@ void AddRunVerbs(CLI::App& app, Options& options) {
   AddSuites(app, options);
   AddResults(app, options);
   AddMap(app, options);
+  AddServe(app, options);
   AddNetworks(app, options);
   AddTools(app, options);
 }

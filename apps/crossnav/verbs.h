@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "map_build.h"
 #include "noise_command.h"
+#include "serve_command.h"
 
 namespace crossnav::app {
 
@@ -38,6 +39,7 @@ struct Options {
   NetworksOptions networks;
   StairsOptions stairs;
   NoiseSweepOptions noise;
+  ServeOptions serve;
   Command command;
 };
 

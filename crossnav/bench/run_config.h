@@ -8,6 +8,7 @@
 
 #include "crossnav/agent/config.h"
 #include "crossnav/networks/networks_config.h"
+#include "crossnav/serve/serve_config.h"
 #include "crossnav/sim/ground_truth.h"
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/sim/noise_config.h"
@@ -46,6 +47,7 @@ struct RunConfig {
   networks::NetworksConfig networks;
   EvalConfig eval;
   DatasetConfig dataset;
+  serve::ServeConfig serve;  ///< no run depends on it
 };
 
 template <class V>
@@ -81,6 +83,7 @@ void Visit(V& visit, RunConfig& c) {
   visit.Section("networks", c.networks);
   visit.Section("eval", c.eval);
   visit.Section("dataset", c.dataset);
+  visit.Section("serve", c.serve);
 }
 
 }  // namespace crossnav::bench

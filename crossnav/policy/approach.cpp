@@ -165,6 +165,7 @@ std::optional<Action> CenteringAction(const AgentPose& agent, const Vector3d& p_
     if (std::abs(yaw_error) > half_turn + 1e-6)
       return yaw_error > 0 ? Action::kTurnLeft : Action::kTurnRight;
   }
+  if (action.max_pitch_deg == 0) return std::nullopt;  // the camera is fixed
   const double pitch_error = std::atan2(d.z(), horizontal) - agent.pitch_rad;
   const double limit = DegToRad(action.max_pitch_deg) - 1e-6;
   if (pitch_error > half_pitch + 1e-6 && agent.pitch_rad < limit) return Action::kLookUp;

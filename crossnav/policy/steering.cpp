@@ -132,6 +132,7 @@ Action SteerTowards(const VoxelMap& map, const AgentPose& agent, const Vector3d&
 
 std::optional<Action> PitchTowards(const AgentPose& agent, double wanted_rad,
                                    const ActionConfig& action) {
+  if (action.max_pitch_deg == 0) return std::nullopt;  // the camera is fixed
   const double error = wanted_rad - agent.pitch_rad;
   if (std::abs(error) <= DegToRad(action.pitch_deg) / 2 + 1e-6) return std::nullopt;
   return error > 0 ? Action::kLookUp : Action::kLookDown;

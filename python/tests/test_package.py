@@ -81,7 +81,7 @@ def test_the_wheel_is_small_and_whole() -> None:
     with zipfile.ZipFile(WHEEL) as wheel:
         names = wheel.namelist()
     for name in ("crossnav/__init__.py", "crossnav/_core.pyi", "crossnav/py.typed",
-                 "crossnav/gym.py", "crossnav/habitat.py"):
+                 "crossnav/gym.py", "crossnav/habitat.py", "crossnav/data/live.desc"):
         assert name in names
     assert sum(name.endswith(".so") for name in names) == 1
     assert not [name for name in names if name.startswith(("build/", "python/"))]

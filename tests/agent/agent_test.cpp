@@ -40,6 +40,26 @@ TEST(Agent, FindsTheObjectInTheNextRoomAndStopsWithinRange) {
   EXPECT_TRUE(last->verification.passed);
 }
 
+TEST(Agent, AFixedCameraIsNeverAskedToTilt) {
+  Config config = SmallConfig();
+  config.action.max_pitch_deg = 0;
+  Agent agent(config, FakeSuite(CouchSight()));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  BoxWalker walker = TwoRooms();
+  walker.pose.pitch_rad = DegToRad(-20);  // as it is mounted
+  Action action = Action::kTurnLeft;
+  for (int i = 0; i < 400 && action != Action::kStop; ++i) {
+    const auto result = agent.Step(walker.Look());
+    ASSERT_TRUE(result.has_value());
+    action = result->action;
+    ASSERT_NE(action, Action::kLookUp) << i;
+    ASSERT_NE(action, Action::kLookDown) << i;
+    walker.Do(action);
+  }
+  EXPECT_EQ(action, Action::kStop);
+  EXPECT_LE(kCouch.HorizontalDistance(walker.pose.p_world), 1.30);
+}
+
 TEST(Agent, TellsWhenAClosedRoomWithoutTheGoalIsExplored) {
   Agent agent(SmallConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());

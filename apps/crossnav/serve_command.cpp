@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "serve_command.h"
+
+#include <fmt/format.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/output_path.h"
+#include "crossnav/core/categories.h"
+#include "crossnav/serve/blind.h"
+#include "crossnav/serve/server.h"
+#include "memory_files.h"
+#include "perception_source.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Readable from the first SIGINT or SIGTERM on, which then end nothing by themselves. To be called
+/// before there are threads.
+Result<serve::Descriptor> EndSignals() {
+  sigset_t ends;
+  ::sigemptyset(&ends);
+  ::sigaddset(&ends, SIGINT);
+  ::sigaddset(&ends, SIGTERM);
+  ::sigprocmask(SIG_BLOCK, &ends, nullptr);
+  serve::Descriptor descriptor(::signalfd(-1, &ends, SFD_CLOEXEC));
+  if (!descriptor.is_open()) return Fail(ErrorCode::kIo, "no signals can be received");
+  return descriptor;
+}
+
+/// python/crossnav/live.py looks in the same place.
+std::string DefaultSocket() {
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  if (runtime != nullptr && *runtime != '\0') return std::string(runtime) + "/crossnav.sock";
+  return fmt::format("/tmp/crossnav-{}.sock", ::getuid());
+}
+
+serve::Address AddressOf(const ServeOptions& options) {
+  if (options.port >= 0) return {"", options.port};
+  return {options.socket.empty() ? DefaultSocket() : options.socket, 0};
+}
+
+Result<bench::RunConfig> ConfigOf(const ServeOptions& options, const CommonOptions& common) {
+  CommonOptions all = common;
+  if (options.perception == "networks") all.overrides.push_back("eval.perception=networks");
+  auto config = LoadConfig(all);
+  if (config && config->serve.watchdog_s <= config->serve.period_s)
+    return Fail(ErrorCode::kInvalid,
+                "must be longer than serve.period_s, or it fires in the midst of an action",
+                "serve.watchdog_s");
+  return config;
+}
+
+/// Makes agents as the settings say.
+class AgentMaker {
+ public:
+  AgentMaker(bench::RunConfig& config, const PerceptionSource& source, const ServeOptions& options)
+      : config_(config), source_(source), options_(options) {}
+
+  Result<agent::Agent> Make(double camera_height_m, bool restore) {
+    config_.agent.sensor.camera_height_m = camera_height_m;  // of the networks, too
+    Result<perception::PerceptionSuite> suite =
+        IsBlind() ? serve::BlindPerception() : source_.MakeSuite().value();
+    if (!suite) return tl::unexpected(suite.error());
+    agent::Agent agent(config_.agent, std::move(*suite));
+    if (restore) {
+      if (auto ok = RestoreMemory(options_.memory, config_, EncoderName(), agent); !ok)
+        return tl::unexpected(ok.error());
+    }
+    return agent;
+  }
+  bool IsBlind() const { return options_.perception == "none"; }
+  std::string EncoderName() const { return IsBlind() ? "none" : source_.EncoderName(); }
+
+ private:
+  bench::RunConfig& config_;
+  const PerceptionSource& source_;
+  const ServeOptions& options_;
+};
+
+serve::PilotOptions PilotOf(const bench::RunConfig& config, const ServeOptions& options,
+                            AgentMaker& maker) {
+  serve::PilotOptions pilot;
+  pilot.version = CROSSNAV_VERSION;
+  pilot.perception = options.perception;
+  if (!maker.IsBlind()) pilot.goals.assign(kCategories.begin(), kCategories.end());
+  pilot.serve = config.serve;
+  pilot.action = config.agent.action;
+  pilot.camera_height_m = config.agent.sensor.camera_height_m;
+  pilot.has_saved_memory = !options.memory.empty();
+  pilot.make_agent = [&maker](double camera_height_m, bool restore) {
+    return maker.Make(camera_height_m, restore);
+  };
+  return pilot;
+}
+
+void Report(const serve::Counters& counters, const std::string& saved, Console& console) {
+  Json document = Json::object();
+  std::string text;
+  Visit(
+      [&](const char* name, std::uint64_t count) {
+        document["counts"][name] = count;
+        text += fmt::format("{:<13}{}\n", name, count);
+      },
+      counters);
+  if (!saved.empty()) {
+    document["map"] = saved;
+    text += fmt::format("{:<13}{}\n", "map", saved);
+  }
+  console.Print(text);
+  console.Document(document.dump(1));
+}
+
+}  // namespace
+
+Result<void> ServeLive(const ServeOptions& options, const CommonOptions& common, Console& console) {
+  auto config = ConfigOf(options, common);
+  if (!config) return tl::unexpected(config.error());
+  if (auto ok = bench::CheckOutputFile(options.save_map, "--save-map"); !ok) return ok;
+  if (!options.memory.empty()) {
+    if (const auto header = store::ReadMapHeader(options.memory); !header)
+      return tl::unexpected(header.error());
+  }
+  const auto ends = EndSignals();
+  if (!ends) return tl::unexpected(ends.error());
+  const auto source = PerceptionSource::Read(*config);
+  if (!source) return tl::unexpected(source.error());
+  AgentMaker maker(*config, *source, options);
+  serve::Pilot pilot(PilotOf(*config, options, maker));
+  const auto listener = serve::Listener::Open(AddressOf(options));
+  if (!listener) return tl::unexpected(listener.error());
+  console.Log(fmt::format("listening on {}, perception: {}", listener->name(), options.perception));
+  const auto log = [&console](const std::string& line) { console.Log(line); };
+  if (auto ok = serve::Serve(*listener, pilot, {ends->value(), log}); !ok) return ok;
+  const bool is_saved = !options.save_map.empty() && pilot.agent() != nullptr;
+  if (is_saved) {
+    const auto saved = SaveMemoryOf(*pilot.agent(), options.save_map, maker.EncoderName(), "live");
+    if (!saved) return tl::unexpected(saved.error());
+  }
+  Report(pilot.counters(), is_saved ? options.save_map : "", console);
+  return {};
+}
+
+}  // namespace crossnav::app

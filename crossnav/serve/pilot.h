@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The agent behind a connection: one request in, one reply out. It outlives connections, so that a
+// client that dies leaves everything to the next. Knows no socket. Not thread-safe.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/agent/agent.h"
+#include "crossnav/serve/messages.h"
+#include "crossnav/serve/serve_config.h"
+
+namespace crossnav::serve {
+
+/// What the program says of itself, and how it makes agents.
+struct PilotOptions {
+  std::string version, perception;
+  std::vector<std::string> goals;  ///< names that perception is made for
+  ServeConfig serve;
+  ActionConfig action;
+  double camera_height_m = 0;  ///< where Hello has none
+  bool has_saved_memory = false;
+  /// A new agent for a camera so high above the ground, with the saved memory or without. The
+  /// one before is gone by then.
+  std::function<Result<agent::Agent>(double camera_height_m, bool restore)> make_agent;
+};
+
+class Pilot {
+ public:
+  explicit Pilot(PilotOptions options);
+
+  /// A client has come; it has to say Hello before anything else.
+  void StartConnection();
+
+  /// Whatever the bytes are, there is a reply.
+  Reply Handle(std::string_view payload);
+
+  /// A frame that cannot even be cut out of the stream.
+  Refusal Malformed(const Error& error, std::uint64_t sequence = 0);
+
+  Counters& counters() { return counters_; }
+  const ServeConfig& config() const { return options_.serve; }
+  /// Null until the first Hello.
+  const agent::Agent* agent() const { return agent_ ? &*agent_ : nullptr; }
+
+ private:
+  Reply Do(const Hello& hello);
+  Reply Do(const SetGoal& request);
+  Reply Do(const RawObservation& raw);
+  Reply Do(const Reset& reset);
+  Reply Do(const GetStats&) { return counters_; }
+
+  Result<void> StartAgent(double camera_height_m);
+  /// Late, or without a number.
+  std::optional<Refusal> OutOfOrder(const RawObservation& raw);
+  Result<void> Step(const Observation& obs, Answer* answer);
+
+  PilotOptions options_;
+  Counters counters_;
+  std::optional<agent::Agent> agent_;
+  double camera_height_m_ = 0;  // of agent_
+  bool restore_ = false;        // what the next agent starts with
+  State state_;
+  std::optional<Answer> last_;              // to the observation state_.last_sequence
+  std::optional<CameraIntrinsics> camera_;  // of this connection; nothing before Hello
+  std::int64_t last_time_ns_ = 0;           // likewise; clocks may start anew
+};
+
+}  // namespace crossnav::serve

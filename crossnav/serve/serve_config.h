@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Settings of a live run (docs/live.md).
+#pragma once
+
+namespace crossnav::serve {
+
+struct ServeConfig {
+  double period_s = 1.0;    // chosen: 0.25 m/s and 30 deg/s, which small robots reach
+  double watchdog_s = 3.0;  // chosen: an action, its picture and a slow step
+};
+
+template <class V>
+void Visit(V& visit, ServeConfig& c) {
+  visit("period_s", c.period_s, 0.01, 60.0);
+  visit("watchdog_s", c.watchdog_s, 0.02, 600.0);
+}
+
+}  // namespace crossnav::serve
