@@ -60,7 +60,7 @@ void LosePatches(double share, Rng rng, DepthImage& depth_m) {
 }
 
 float Reading(const NoiseConfig& noise, double z_m, Rng& rng) {
-  const double sigma_m = DepthSigma_m(noise, z_m);
+  const double sigma_m = DepthSigma(noise, z_m);
   double read_m = sigma_m > 0 ? z_m + sigma_m * rng.Normal() : z_m;
   if (read_m <= 0) return 0;
   const double step_m = noise.depth_step_per_m2 * z_m * z_m;

@@ -16,7 +16,7 @@
 namespace crossnav::sim {
 
 /// Standard deviation of a depth reading at planar depth `z_m` [m].
-inline double DepthSigma_m(const NoiseConfig& noise, double z_m) {
+inline double DepthSigma(const NoiseConfig& noise, double z_m) {
   return noise.depth_sigma_m + noise.depth_sigma_per_m2 * z_m * z_m;
 }
 

@@ -84,7 +84,7 @@ TEST(SensorNoise, DepthHasTheSigmaOfItsDistance) {
 
 TEST(SensorNoise, KinectHas14MillimetresAt3MetresBesidesItsSteps) {
   NoiseConfig noise = NoiseOfProfile("kinect");
-  EXPECT_NEAR(DepthSigma_m(noise, 3), 0.014, 0.0002);  // Nguyen et al. 2012
+  EXPECT_NEAR(DepthSigma(noise, 3), 0.014, 0.0002);  // Nguyen et al. 2012
   noise = With([&](NoiseConfig& c) { c.depth_step_per_m2 = noise.depth_step_per_m2; });
   const double step_m = 0.00287 * 9;
   const DepthImage stepped = NoisyDepth(noise, Wall(3), 1);
