@@ -22,6 +22,9 @@ Result<void> Merge(const MergeOptions& options, const CommonOptions& /*common*/,
   if (auto ok = bench::CheckNoneTwice(files); !ok) return ok;
   const auto merged = bench::MergeResults(files, /*require_all=*/!options.partial);
   if (!merged) return tl::unexpected(merged.error());
+  if (merged->episodes.empty() && !merged->header) {
+    return Fail(ErrorCode::kInvalid, "holds no result record", files.front().string());
+  }
   if (auto ok = bench::WriteResults(options.out, *merged); !ok) return ok;
   console.Print(fmt::format("{}: {} episodes of {} files\n", options.out, merged->episodes.size(),
                             files.size()));
