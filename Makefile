@@ -9,13 +9,15 @@ PRESET ?= release
 BUILD := build/$(PRESET)
 DEMO ?= 1
 PERCEPTION ?= oracle
+SECONDS ?= 60
+TARGET ?=
 # One compiler per core, as far as 1.5 GB of free memory each goes.
 JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
   END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
 SOURCES := $(shell find crossnav apps tests benchmarks python -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-.PHONY: help setup demo test test-long bench networks wheel format lint asan tsan docs clean \
+.PHONY: help setup demo test test-long bench networks wheel format lint asan tsan fuzz docs clean \
   program everything
 
 help:  ## this list
@@ -76,6 +78,10 @@ asan:  ## every test under AddressSanitizer and UndefinedBehaviorSanitizer
 tsan: export TSAN_OPTIONS := suppressions=$(CURDIR)/scripts/tsan.supp
 tsan:  ## every test under ThreadSanitizer
 	@$(MAKE) test PRESET=tsan
+
+fuzz:  ## hostile input for SECONDS a target (docs/robustness.md); TARGET=name: only that one
+	@scripts/setup.sh build fuzz
+	@JOBS=$(JOBS) scripts/fuzz.sh $(SECONDS) $(TARGET)
 
 docs:  ## the API as pages under build/docs
 	@scripts/setup.sh docs

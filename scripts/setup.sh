@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Installs what the build and the tests need, from the distribution's own packages.
-#   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, docs, slurm
+#   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
+#                                    slurm
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
 # it cannot be had, the build goes on without networks.
@@ -18,6 +19,7 @@ declare -A PACKAGES=(
   [homes]="libassimp-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
   [lint]="clang clang-format clang-tidy"
+  [fuzz]="clang libclang-rt-dev"
   [docs]="doxygen"
   [slurm]="slurm-wlm munge"
 )

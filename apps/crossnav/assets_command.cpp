@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/world/furniture_import.h"
 #include "crossnav/world/furniture_pack.h"
 
@@ -79,6 +80,7 @@ Result<void> AssetsImport(const AssetsOptions& options, const CommonOptions& /*c
   const auto libraries = FindLibraries(options.libraries);
   if (!libraries) return tl::unexpected(libraries.error());
   const std::string place = options.out.empty() ? DefaultFurniture() : options.out;
+  if (auto ok = bench::CheckOutputFolder(place, "--out"); !ok) return ok;
   console.Log("reading " + libraries->string());
   const auto report = world::ImportFurniture(*libraries, place);
   if (!report) return tl::unexpected(report.error());
@@ -91,8 +93,7 @@ Result<void> AssetsImport(const AssetsOptions& options, const CommonOptions& /*c
                          {"per_kind", report->per_kind},
                          {"triangles", report->triangles},
                          {"original_triangles", report->original_triangles},
-                         {"left_out", report->skipped}})
-                       .dump(1));
+                         {"left_out", report->skipped}}));
   return {};
 }
 

@@ -169,7 +169,7 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
   }
   const Json json = costs.ToJson();
   console.Print(Text(json));
-  console.Document(json.dump(1));
+  console.Document(json);
   return {};
 }
 

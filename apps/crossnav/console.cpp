@@ -21,9 +21,9 @@ std::size_t TerminalWidth() {
   return size.ws_col;
 }
 
-void Write(std::FILE* stream, const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stream);
-  std::fflush(stream);
+bool Write(std::FILE* stream, const std::string& text) {
+  const std::size_t written = std::fwrite(text.data(), 1, text.size(), stream);
+  return std::fflush(stream) == 0 && written == text.size();
 }
 
 }  // namespace
@@ -35,11 +35,11 @@ Console::Console(bool json, bool quiet, bool is_silent)
       is_terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 void Console::Print(const std::string& text) const {
-  if (!json_ && !is_silent_) Write(stdout, text);
+  if (!json_ && !is_silent_ && !Write(stdout, text)) has_failed_ = true;
 }
 
 void Console::Document(const std::string& json) const {
-  if (json_ && !is_silent_) Write(stdout, json + "\n");
+  if (json_ && !is_silent_ && !Write(stdout, json + "\n")) has_failed_ = true;
 }
 
 void Console::Log(const std::string& text) {
@@ -66,12 +66,17 @@ void Console::EndProgress() {
   has_line_ = false;
 }
 
+Result<void> Console::CheckPrinted() const {
+  if (!has_failed_) return {};
+  return crossnav::Fail(ErrorCode::kIo, "cannot be written; is the disk full?", "stdout");
+}
+
 void Console::Fail(const Error& error) {
   EndProgress();
   Write(stderr, "crossnav: " + error.Message() + "\n");
   const nlohmann::ordered_json json = {
       {"error", {{"code", NameOf(error.code)}, {"what", error.what}, {"where", error.where}}}};
-  Document(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  Document(json);
 }
 
 }  // namespace crossnav::app

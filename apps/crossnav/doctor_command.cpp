@@ -93,7 +93,7 @@ Result<void> Doctor(const CommonOptions& common, Console& console) {
     if (!get.empty()) text += "  " + get + "\n";
   }
   console.Print(text);
-  console.Document(json.dump(1));
+  console.Document(json);
   return {};
 }
 

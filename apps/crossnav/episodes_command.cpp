@@ -56,8 +56,7 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
                          {"episodes", tally.episodes},
                          {"scenes", scenes->size()},
                          {"cross_floor_required", tally.cross_floor},
-                         {"first_transition_stage", tally.first_stage}})
-                       .dump());
+                         {"first_transition_stage", tally.first_stage}}));
   return {};
 }
 
@@ -88,15 +87,15 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
   if (!failures.empty()) {
     // One document only: the list, not the error.
     if (console.json()) {
-      return Fail(ErrorCode::kInvalid, failures.dump(), options.file);
+      return Fail(ErrorCode::kInvalid,
+                  failures.dump(-1, ' ', false, Json::error_handler_t::replace), options.file);
     }
     return Fail(ErrorCode::kInvalid, fmt::format("{} claims do not hold", failures.size()),
                 options.file);
   }
   console.Print(fmt::format("{}: all {} episodes hold\n", options.file, file->episodes.size()));
   console.Document(
-      Json({{"file", options.file}, {"episodes", file->episodes.size()}, {"failures", failures}})
-          .dump());
+      Json({{"file", options.file}, {"episodes", file->episodes.size()}, {"failures", failures}}));
   return {};
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "crossnav/bench/cause.h"
 #include "crossnav/bench/metrics_report.h"
@@ -16,21 +15,7 @@
 namespace crossnav::app {
 namespace {
 
-struct Shard {
-  int index = 0, count = 1;
-};
-
-Result<Shard> ParseShard(const std::string& text) {
-  Shard shard;
-  char rest = 0;
-  const int parts = std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.count, &rest);
-  if (parts != 2 || shard.count < 1 || shard.index < 0 || shard.index >= shard.count) {
-    return Fail(ErrorCode::kInvalid, "\"" + text + "\" is not I/N with 0 <= I < N", "--shard");
-  }
-  return shard;
-}
-
-std::filesystem::path ResultPath(const std::string& out, const Shard& shard) {
+std::filesystem::path ResultPath(const std::string& out, const bench::Shard& shard) {
   const std::string name = shard.count == 1
                                ? std::string("results.jsonl")
                                : fmt::format("results.{}-of-{}.jsonl", shard.index, shard.count);
@@ -113,7 +98,7 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
   if (!config) return tl::unexpected(config.error());
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
-  const auto shard = ParseShard(options.shard);
+  const auto shard = bench::ParseShard(options.shard, "--shard");
   if (!shard) return tl::unexpected(shard.error());
   const auto path = ResultPath(options.out, *shard);
   if (auto ok = bench::CheckOutputFile(path, "--out"); !ok) return ok;

@@ -9,7 +9,7 @@
 
 #include "commands.h"
 #include "crossnav/bench/result_records.h"
-#include "crossnav/sim/atomic_file.h"
+#include "crossnav/core/write_file.h"
 #include "crossnav/sim/frame_places.h"
 #include "open_scene.h"
 
@@ -137,9 +137,8 @@ Result<void> SceneFrames(const FramesOptions& options, const CommonOptions& comm
     return Fail(ErrorCode::kIo, "cannot write the arrays", options.out);
   }
   document["frames"] = std::move(frames);
-  const std::string text = document.dump(1) + "\n";
-  if (auto ok = sim::WriteFileAtomically(out / "frames.json", {text.begin(), text.end()}); !ok)
-    return ok;
+  const std::string text = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (auto ok = WriteFileAtomically(out / "frames.json", text); !ok) return ok;
   console.EndProgress();
   console.Print(fmt::format("{}: {} frames\n", options.out, places.size()));
   console.Document(text);

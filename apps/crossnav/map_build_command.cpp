@@ -200,7 +200,7 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
     console.Print(answer->text);
     document["answer"] = Json::parse(answer->json);
   }
-  console.Document(document.dump(1));
+  console.Document(document);
   return {};
 }
 

@@ -174,8 +174,7 @@ Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Con
                          {"encoder_name", header.encoder_name},
                          {"encoder_hash", bench::HexHash(header.encoder_hash)},
                          {"frame", header.frame},
-                         {"damaged", loaded->damaged}})
-                       .dump(1));
+                         {"damaged", loaded->damaged}}));
   return {};
 }
 
@@ -220,6 +219,7 @@ Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Co
 
 Result<void> MapExport(const MapOptions& options, const CommonOptions& common, Console& console) {
   if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = bench::CheckNotInput(options.out, "--out", options.file); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto loaded = Load(options, *config, console);
@@ -236,7 +236,7 @@ Result<void> MapExport(const MapOptions& options, const CommonOptions& common, C
   }
   if (auto ok = store::WritePly(options.out, points); !ok) return ok;
   console.Print(fmt::format("{}: {} points\n", options.out, points.size()));
-  console.Document(Json({{"file", options.out}, {"points", points.size()}}).dump());
+  console.Document(Json({{"file", options.out}, {"points", points.size()}}));
   return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.h"
 #include "crossnav/bench/metrics_report.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
 
 namespace crossnav::app {
@@ -8,6 +9,7 @@ namespace crossnav::app {
 Result<void> ShowMetrics(const MetricsOptions& options, const CommonOptions& /*common*/,
                          Console& console) {
   const std::vector<std::filesystem::path> paths(options.files.begin(), options.files.end());
+  if (auto ok = bench::CheckNoneTwice(paths); !ok) return ok;
   const auto results = bench::MergeResults(paths, /*require_all=*/false);
   if (!results) return tl::unexpected(results.error());
   if (results->has_torn_line)

@@ -210,8 +210,7 @@ Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& c
   console.Print(text);
   console.Document(Json({{"dir", NetworksDir(*config).string()},
                          {"networks", std::move(list)},
-                         {"backends", BackendsJson()}})
-                       .dump(1));
+                         {"backends", BackendsJson()}}));
   return {};
 }
 
@@ -241,7 +240,7 @@ Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& 
     list.push_back({{"name", entry.name}, {"ms", ms}, {"error", entry.error}});
   }
   console.Print(text);
-  console.Document(Json({{"networks", std::move(list)}}).dump(1));
+  console.Document(Json({{"networks", std::move(list)}}));
   if (first_error.empty()) return {};
   return Fail(ErrorCode::kInvalid, first_error);
 }
@@ -251,6 +250,7 @@ Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& c
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = bench::CheckNotInput(options.out, "--out", options.image); !ok) return ok;
   const auto obs = ReadFrame(options.image, options.depth, config->agent.sensor);
   if (!obs) return tl::unexpected(obs.error());
   networks::NetworksConfig settings = config->networks;
@@ -276,7 +276,7 @@ Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& c
                         box.u0, box.u1, box.v0, box.v1, detection.mask_quality);
   }
   console.Print(text + options.out + "\n");
-  console.Document(LookJson(*look, options.out).dump(1));
+  console.Document(LookJson(*look, options.out));
   return {};
 }
 

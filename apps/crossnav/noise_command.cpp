@@ -221,7 +221,7 @@ Result<void> BenchNoise(const NoiseSweepOptions& options, const CommonOptions& c
   const Json document = {{"episodes_hash", bench::HexHash(file->content_hash)},
                          {"episodes", episodes.size()},
                          {"rows", rows}};
-  console.Document(document.dump(1));
+  console.Document(document);
   if (options.out.empty()) return {};
   return bench::WriteTextFile(options.out, document.dump(1) + "\n");
 }

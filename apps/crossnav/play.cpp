@@ -131,8 +131,7 @@ void Announce(const bench::EpisodeRecord& record, const MemorySummary& memory,
                            {"compacted_rows", memory.compacted_rows},
                            {"dropped_rows", memory.dropped_rows},
                            {"bytes", memory.bytes}}},
-                         {"files", std::move(paths)}})
-                       .dump(1));
+                         {"files", std::move(paths)}}));
 }
 
 /// Before the first step: every file that the episode will leave.

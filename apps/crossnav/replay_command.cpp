@@ -10,9 +10,10 @@ namespace crossnav::app {
 Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& /*common*/,
                           Console& console) {
   if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = bench::CheckNotInput(options.out, "--out", options.file); !ok) return ok;
   if (auto ok = trace::ExportReplayPage(options.file, options.out); !ok) return ok;
   console.Print(options.out + "\n");
-  console.Document(nlohmann::ordered_json({{"file", options.out}}).dump());
+  console.Document(nlohmann::ordered_json({{"file", options.out}}));
   return {};
 }
 

@@ -56,6 +56,7 @@ Result<std::vector<bench::Comparison>> CompareAll(const std::vector<bench::Repor
 Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*/,
                     Console& console) {
   if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
+  if (auto ok = bench::CheckNoneTwice({options.runs.begin(), options.runs.end()}); !ok) return ok;
   const auto runs = bench::ReadRuns({options.runs.begin(), options.runs.end()}, !options.partial);
   if (!runs) return tl::unexpected(runs.error());
   const auto comparisons = CompareAll(*runs, options.force);
@@ -68,11 +69,9 @@ Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*
     console.Print(path.string() + "\n");
     files.push_back(path.string());
   }
-  console.Document(
-      nlohmann::ordered_json(
-          {{"files", files},
-           {"comparisons", nlohmann::ordered_json::parse(bench::ComparisonsJson(*comparisons))}})
-          .dump());
+  console.Document(nlohmann::ordered_json(
+      {{"files", files},
+       {"comparisons", nlohmann::ordered_json::parse(bench::ComparisonsJson(*comparisons))}}));
   return {};
 }
 

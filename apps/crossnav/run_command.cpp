@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "crossnav/bench/episode_generator.h"
+#include "crossnav/bench/output_path.h"
 #include "crossnav/world/embedded_house.h"
 #include "play.h"
 
@@ -54,6 +55,7 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
 }
 
 Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console) {
+  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
   Protocol protocol;
   protocol.perception = options.perception;
   const auto config = LoadRunConfig(common, protocol);

@@ -164,7 +164,7 @@ Result<void> SceneInfo(const SceneOptions& options, const CommonOptions& common,
   const auto info =
       sim::DescribeScene(*open->scene, *open->navmesh, *open->caster, config->agent.sensor);
   console.Print(InfoText(info));
-  if (console.json()) console.Document(InfoJson(info).dump(1));
+  if (console.json()) console.Document(InfoJson(info));
   return {};
 }
 
@@ -181,8 +181,7 @@ Result<void> SceneRender(const SceneOptions& options, const CommonOptions& commo
   if (auto ok = sim::WritePng(*image, options.out); !ok) return ok;
   console.Print(options.out + "\n");
   console.Document(
-      Json({{"file", options.out}, {"width_px", image->width}, {"height_px", image->height}})
-          .dump());
+      Json({{"file", options.out}, {"width_px", image->width}, {"height_px", image->height}}));
   return {};
 }
 

@@ -84,7 +84,7 @@ Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions&
         report->scene_id, storey.name, storey.floor_m));
   }
   console.Print(ReportText(*report));
-  console.Document(ReportJson(*report).dump(1));
+  console.Document(ReportJson(*report));
   return {};
 }
 

@@ -177,7 +177,7 @@ Result<void> Slurm(const SlurmOptions& options, const CommonOptions& common, Con
     console.Print(fmt::format("submitted: array {} of {} tasks, then merge {}\n",
                               IdOf(*answer, "array"), job->tasks, IdOf(*answer, "merge")));
   }
-  console.Document(document.dump());
+  console.Document(document);
   return {};
 }
 

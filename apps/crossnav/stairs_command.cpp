@@ -240,7 +240,7 @@ Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& comm
     if (auto ok = bench::WriteEpisodes(file, kept); !ok) return ok;
   }
   console.Print(Text(tables));
-  console.Document(Document(tables, options).dump(1));
+  console.Document(Document(tables, options));
   return {};
 }
 

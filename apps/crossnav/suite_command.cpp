@@ -211,8 +211,7 @@ Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& /*commo
                          {"furniture", manifest->furniture},
                          {"episodes", manifest->episodes},
                          {"first_transition_stage", manifest->first_transitions},
-                         {"hash", bench::SuiteHash(*manifest)}})
-                       .dump());
+                         {"hash", bench::SuiteHash(*manifest)}}));
   return {};
 }
 

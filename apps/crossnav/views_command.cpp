@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "crossnav/bench/result_records.h"
-#include "crossnav/sim/atomic_file.h"
+#include "crossnav/core/write_file.h"
 #include "crossnav/sim/object_views.h"
 #include "crossnav/sim/picture.h"
 #include "open_scene.h"
@@ -119,9 +119,9 @@ Result<void> SceneViews(const ViewsOptions& options, const CommonOptions& common
   }
   document["views"] = std::move(views);
   document["unseen"] = std::move(unseen);
-  const std::string text = document.dump(1) + "\n";
+  const std::string text = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
   const auto file = std::filesystem::path(options.out) / "views.json";
-  if (auto ok = sim::WriteFileAtomically(file, {text.begin(), text.end()}); !ok) return ok;
+  if (auto ok = WriteFileAtomically(file, text); !ok) return ok;
   console.EndProgress();
   console.Print(Summary(document, options.out));
   console.Document(text);

@@ -68,7 +68,7 @@ Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*c
   Json document = {{"furniture_pack", pack ? Json(pack->hash()) : Json(nullptr)},
                    {"scenes", std::move(houses)}};
   if (!options.contact_sheet.empty()) document["contact_sheet"] = options.contact_sheet;
-  console.Document(document.dump(1));
+  console.Document(document);
   return {};
 }
 

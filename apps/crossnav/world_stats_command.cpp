@@ -144,7 +144,7 @@ Result<void> WorldStats(const WorldOptions& options, const CommonOptions& /*comm
   }
   console.EndProgress();
   console.Print(Table(totals));
-  console.Document(Document(totals, source).dump(1));
+  console.Document(Document(totals, source));
   return {};
 }
 

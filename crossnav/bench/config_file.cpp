@@ -9,44 +9,22 @@
 
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/config_visitor.h"
+#include "crossnav/core/nearest.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/rng.h"
+#include "crossnav/core/text_shape.h"
 
 namespace crossnav::bench {
 namespace {
-
-int EditDistance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i) + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const int change = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 std::string_view LastPart(std::string_view key) {
   return key.substr(key.rfind('.') + 1);
 }
 
-/// The known key that was probably meant: same last part, or few edits away.
-std::string Suggestion(const std::vector<ConfigField>& fields, std::string_view key) {
-  const ConfigField* best = nullptr;
-  int best_distance = static_cast<int>(key.size()) / 3 + 2;
-  for (const ConfigField& field : fields) {
-    int distance = EditDistance(field.key, key);
-    distance = std::min(distance, 1 + EditDistance(LastPart(field.key), LastPart(key)));
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = &field;
-    }
-  }
-  return best ? "; did you mean \"" + best->key + "\"?" : "";
+std::vector<std::string> KeysOf(const std::vector<ConfigField>& fields) {
+  std::vector<std::string> keys;
+  for (const ConfigField& field : fields) keys.push_back(field.key);
+  return keys;
 }
 
 /// Shortest text that reads back as the same number.
@@ -115,7 +93,8 @@ struct ScalarSetter {
   std::string operator()(std::string* target, const std::string& value) const {
     const auto& choices = field.choices;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
-      return "must be one of " + Join(choices, ", ") + ", not \"" + value + "\"";
+      return "must be one of " + Join(choices, ", ") + ", not \"" + value + "\"" +
+             DidYouMean(value, choices);
     }
     *target = value;
     return {};
@@ -148,7 +127,7 @@ std::string SetKey(const std::vector<ConfigField>& fields, const std::string& ke
                    const Scalar& value) {
   const auto field = std::find_if(fields.begin(), fields.end(),
                                   [&](const ConfigField& f) { return f.key == key; });
-  if (field == fields.end()) return "unknown key \"" + key + "\"" + Suggestion(fields, key);
+  if (field == fields.end()) return "unknown key \"" + key + "\"" + DidYouMean(key, KeysOf(fields));
   const std::string problem = std::visit(ScalarSetter{*field}, field->value, value);
   return problem.empty() ? "" : "key \"" + key + "\" " + problem;
 }
@@ -223,6 +202,7 @@ std::vector<std::string> Split(const std::string& key) {
 }  // namespace
 
 Result<void> ApplyConfigText(std::string_view text, const std::string& name, RunConfig& config) {
+  if (auto ok = CheckTomlShape(text, name); !ok) return ok;
   toml::table table;
   try {
     table = toml::parse(text, name);
@@ -276,9 +256,11 @@ Result<void> ApplyVariant(std::string_view variant, RunConfig& config) {
     config.agent.policy.profile = "paper";
     return {};
   }
+  const std::vector<std::string> variants = {"full", "no-history-poi", "planar", "paper"};
   return Fail(ErrorCode::kInvalid,
               "unknown variant \"" + std::string(variant) +
-                  "\"; there are full, no-history-poi, planar and paper",
+                  "\"; there are full, no-history-poi, planar and paper" +
+                  DidYouMean(variant, variants),
               "--variant");
 }
 

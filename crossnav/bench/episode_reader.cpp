@@ -132,6 +132,12 @@ Result<void> ReadCertificate(dom::object object, Episode& episode) {
   if (episode.certificate.size() != episode.goals.size()) {
     return Malformed("key \"certificate\" must hold one list of floors per goal", episode.where);
   }
+  if (first < 0 || first > static_cast<std::int64_t>(episode.goals.size()) ||
+      is_cross_floor != (first > 0)) {
+    return Malformed(
+        "key \"first_transition_stage\" is no stage, or contradicts \"cross_floor_required\"",
+        episode.where);
+  }
   episode.start_floor = static_cast<int>(start_floor);
   episode.cross_floor_required = is_cross_floor;
   episode.first_transition_stage = static_cast<int>(first);

@@ -1,51 +1,46 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/bench/gzip_file.h"
 
-#include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <memory>
+
+#include "crossnav/core/check.h"
+#include "crossnav/core/read_file.h"
+#include "crossnav/core/write_file.h"
 
 namespace crossnav::bench {
 namespace {
+
+constexpr std::size_t kMostText = std::size_t{512} << 20;  // chosen: ten times the largest known
 
 struct GzClose {
   void operator()(gzFile file) const { gzclose(file); }
 };
 using GzPtr = std::unique_ptr<std::remove_pointer_t<gzFile>, GzClose>;
 
-Result<void> WriteGzip(const std::filesystem::path& path, std::string_view text) {
-  gzFile file = gzopen(path.c_str(), "wb9");
-  if (file == nullptr) return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
-  bool is_ok = true;
-  for (std::size_t at = 0; at < text.size() && is_ok;) {
-    const unsigned size = static_cast<unsigned>(std::min<std::size_t>(text.size() - at, 1u << 20));
-    is_ok = gzwrite(file, text.data() + at, size) == static_cast<int>(size);
-    at += size;
-  }
-  is_ok = gzclose(file) == Z_OK && is_ok;
-  if (!is_ok) return Fail(ErrorCode::kIo, "cannot be written", path.string());
-  return {};
-}
-
-Result<void> WritePlain(const std::filesystem::path& path, std::string_view text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (!stream) return Fail(ErrorCode::kIo, "cannot be written", path.string());
-  return {};
+/// `text` as a gzip file without a name or a time in it, so that equal texts give equal bytes.
+std::string Gzip(std::string_view text) {
+  z_stream z{};
+  CROSSNAV_CHECK(deflateInit2(&z, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK,
+                 "zlib has no memory");
+  std::string out(deflateBound(&z, text.size()), '\0');
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  z.avail_in = static_cast<uInt>(text.size());
+  z.next_out = reinterpret_cast<Bytef*>(out.data());
+  z.avail_out = static_cast<uInt>(out.size());
+  CROSSNAV_CHECK(deflate(&z, Z_FINISH) == Z_STREAM_END, "zlib's bound was too small");
+  out.resize(z.total_out);
+  deflateEnd(&z);
+  return out;
 }
 
 }  // namespace
 
 Result<std::string> ReadTextFile(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    return Fail(ErrorCode::kNotFound, "no such file", path.string());
-  }
+  if (const auto size = SizeOfFile(path); !size) return tl::unexpected(size.error());
   const GzPtr file(gzopen(path.c_str(), "rb"));
   if (!file) return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
   std::string text;
@@ -53,6 +48,10 @@ Result<std::string> ReadTextFile(const std::filesystem::path& path) {
   int size = 0;
   while ((size = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0) {
     text.append(chunk, 0, static_cast<std::size_t>(size));
+    if (text.size() > kMostText) {
+      return Fail(ErrorCode::kUnsupported, "holds more than 512 MiB of text; split it",
+                  path.string());
+    }
   }
   int code = Z_OK;
   gzerror(file.get(), &code);
@@ -65,17 +64,8 @@ Result<std::string> ReadTextFile(const std::filesystem::path& path) {
 Result<void> WriteTextFile(const std::filesystem::path& path, std::string_view text) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  std::filesystem::path temporary = path;
-  temporary += ".part" + std::to_string(::getpid());
-  auto ok = path.extension() == ".gz" ? WriteGzip(temporary, text) : WritePlain(temporary, text);
-  if (ok) std::filesystem::rename(temporary, path, error);
-  if (!ok || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    if (!ok) return ok;
-    return Fail(ErrorCode::kIo, error.message(), path.string());
-  }
-  return {};
+  if (path.extension() == ".gz") return WriteFileAtomically(path, Gzip(text));
+  return WriteFileAtomically(path, text);
 }
 
 }  // namespace crossnav::bench

@@ -6,7 +6,8 @@
 
 #include <cerrno>
 #include <cstring>
-#include <vector>
+
+#include "crossnav/core/write_file.h"
 
 namespace crossnav::bench {
 namespace {
@@ -61,13 +62,17 @@ std::string TryIn(const fs::path& folder, const std::string& name) {
 
 Result<void> CheckOutputFile(const fs::path& path, const std::string& option) {
   if (path.empty()) return {};
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored) || !path.has_filename()) {
-    return Refuse(path, option, "it is a folder");
+  if (!path.has_filename()) return Refuse(path, option, "it is a folder");
+  const auto place = OutputPlace(path);
+  if (!place) {
+    return Fail(place.error().code, option + ": " + place.error().what + "; choose another path",
+                place.error().where);
   }
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::string reason = TryIn(folder, path.filename().string());
-  if (reason.empty() && fs::is_regular_file(path, ignored) && ::access(path.c_str(), W_OK) != 0) {
+  std::error_code ignored;
+  const fs::path folder = place->has_parent_path() ? place->parent_path() : fs::path(".");
+  std::string reason = TryIn(folder, place->filename().string());
+  if (reason.empty() && fs::is_regular_file(*place, ignored) &&
+      ::access(place->c_str(), W_OK) != 0) {
     reason = std::strerror(errno);
   }
   if (!reason.empty()) return Refuse(path, option, reason);
@@ -78,6 +83,26 @@ Result<void> CheckOutputFolder(const fs::path& folder, const std::string& option
   if (folder.empty()) return {};
   const std::string reason = TryIn(folder, "crossnav");
   if (!reason.empty()) return Refuse(folder, option, reason);
+  return {};
+}
+
+Result<void> CheckNotInput(const fs::path& path, const std::string& option, const fs::path& input) {
+  std::error_code ignored;
+  if (path.empty() || !fs::equivalent(path, input, ignored)) return {};
+  return Fail(ErrorCode::kInvalid, option + ": is the input itself; choose another path",
+              path.string());
+}
+
+Result<void> CheckNoneTwice(const std::vector<fs::path>& inputs) {
+  std::error_code ignored;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!fs::equivalent(inputs[i], inputs[k], ignored)) continue;
+      return Fail(ErrorCode::kInvalid,
+                  "is given twice (also as " + inputs[k].string() + "); name it once",
+                  inputs[i].string());
+    }
+  }
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "crossnav/core/result.h"
 
@@ -15,5 +16,12 @@ Result<void> CheckOutputFile(const std::filesystem::path& path, const std::strin
 
 /// The same for files in a folder.
 Result<void> CheckOutputFolder(const std::filesystem::path& folder, const std::string& option);
+
+/// Fails where `path` is the same file as `input`, which the output would destroy.
+Result<void> CheckNotInput(const std::filesystem::path& path, const std::string& option,
+                           const std::filesystem::path& input);
+
+/// Fails where one of `inputs` is given twice, by whatever name.
+Result<void> CheckNoneTwice(const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace crossnav::bench

@@ -6,6 +6,7 @@
 
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/read_file.h"
+#include "crossnav/core/text_shape.h"
 
 namespace crossnav::bench {
 namespace {
@@ -167,6 +168,11 @@ Result<StageRecord> ReadStage(const Line& line) {
 /// What ComputeMetrics relies on.
 Result<void> CheckStages(const EpisodeRecord& episode, const std::string& where) {
   if (episode.goals.empty()) return Fail(ErrorCode::kInvalid, "key \"goals\" is empty", where);
+  if (episode.actions < 0) return Fail(ErrorCode::kInvalid, "key \"actions\" is below 0", where);
+  if (episode.first_transition_stage < 0 ||
+      episode.first_transition_stage > static_cast<int>(episode.goals.size())) {
+    return Fail(ErrorCode::kInvalid, "key \"first_transition_stage\" is no stage", where);
+  }
   if (episode.failed && !episode.stages.empty()) {
     return Fail(ErrorCode::kInvalid, "a failed episode has no stages", where);
   }
@@ -188,6 +194,8 @@ Result<void> CheckStages(const EpisodeRecord& episode, const std::string& where)
       return Fail(ErrorCode::kInvalid, "shortest_m and length_m must be finite and >= 0",
                   stage_where);
     }
+    if (stage.actions < 0 || stage.transitions < 0)
+      return Fail(ErrorCode::kInvalid, "actions and transitions must be >= 0", stage_where);
     if (!stage.success && k + 1 < episode.stages.size()) {
       return Fail(ErrorCode::kInvalid, "stages follow a failed one", stage_where);
     }
@@ -258,6 +266,10 @@ Result<RunHeader> ReadHeader(const Line& line) {
     return Fail(ErrorCode::kUnsupported, "format " + std::to_string(format) + ", this reads 1",
                 line.where());
   }
+  if (header.episodes < 0)
+    return Fail(ErrorCode::kInvalid, "key \"episodes\" is below 0", line.where());
+  if (auto shard = ParseShard(header.shard, line.where() + ": shard"); !shard)
+    return tl::unexpected(shard.error());
   header.config_json = line.json().value("config", Json::object()).dump();
   const Json scenes = line.json().value("scenes", Json::object());
   for (const auto& [id, hashes] : scenes.items()) {
@@ -269,6 +281,7 @@ Result<RunHeader> ReadHeader(const Line& line) {
 /// Adds one whole line to `file`.
 Result<void> ReadLine(const std::string& text, int number, const std::string& where,
                       ResultFile& file) {
+  if (auto ok = CheckJsonShape(text, where); !ok) return ok;
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) return Fail(ErrorCode::kMalformed, "is no JSON object", where);
   const Line line(json, where);
@@ -318,7 +331,7 @@ std::string ToJsonLine(const RunHeader& header) {
                {"perception", header.perception},
                {"shard", header.shard}};
   if (!header.networks.empty()) json["networks"] = header.networks;
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string ToJsonLine(const EpisodeRecord& record, bool with_timings) {

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <set>
 
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/core/check.h"
+#include "crossnav/core/write_file.h"
 
 namespace crossnav::bench {
 namespace {
@@ -29,6 +31,7 @@ Result<void> WriteSynced(int descriptor, std::string_view text, const std::strin
 }
 
 Result<int> OpenForAppend(const std::filesystem::path& path) {
+  if (const auto place = OutputPlace(path); !place) return tl::unexpected(place.error());
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor < 0) return Fail(ErrorCode::kIo, std::strerror(errno), path.string());
   return descriptor;
@@ -63,6 +66,16 @@ Result<void> CheckResumable(const ResultFile& file, const RunHeader& header,
 }
 
 }  // namespace
+
+Result<Shard> ParseShard(const std::string& text, const std::string& where) {
+  Shard shard;
+  char rest = 0;
+  const int parts = std::sscanf(text.c_str(), "%9d/%9d%c", &shard.index, &shard.count, &rest);
+  if (parts != 2 || shard.count < 1 || shard.index < 0 || shard.index >= shard.count) {
+    return Fail(ErrorCode::kInvalid, "\"" + text + "\" is not I/N with 0 <= I < N", where);
+  }
+  return shard;
+}
 
 std::string HexHash(std::uint64_t hash) {
   constexpr std::string_view kDigits = "0123456789abcdef";

@@ -36,6 +36,14 @@ struct RunHeader {
   std::string shard = "0/1";  ///< index/count; the one field that may differ between merged files
 };
 
+/// Part `index` of `count`.
+struct Shard {
+  int index = 0, count = 1;
+};
+
+/// "I/N" with 0 <= I < N; `where` is for the error.
+Result<Shard> ParseShard(const std::string& text, const std::string& where);
+
 /// 16 lower-case hex digits.
 std::string HexHash(std::uint64_t hash);
 

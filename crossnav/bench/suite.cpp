@@ -6,7 +6,9 @@
 
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/result_records.h"
+#include "crossnav/core/nearest.h"
 #include "crossnav/core/rng.h"
+#include "crossnav/core/text_shape.h"
 
 namespace crossnav::bench {
 namespace {
@@ -59,11 +61,14 @@ std::vector<SuiteDefinition> AllSuites() {
 
 Result<SuiteDefinition> FindSuite(const std::string& name) {
   std::string names;
+  std::vector<std::string> all;
   for (const SuiteDefinition& suite : AllSuites()) {
     if (suite.name == name) return suite;
+    all.push_back(suite.name);
     names += (names.empty() ? "" : ", ") + suite.name;
   }
-  return Fail(ErrorCode::kNotFound, "no suite of this name; there are " + names, name);
+  return Fail(ErrorCode::kNotFound,
+              "no suite of this name; there are " + names + DidYouMean(name, all), name);
 }
 
 std::string SuiteHash(const SuiteManifest& manifest) {
@@ -81,6 +86,7 @@ Result<SuiteManifest> ReadManifest(const std::filesystem::path& path) {
   if (!text) return tl::unexpected(text.error());
   SuiteManifest manifest;
   std::string hash;
+  if (auto ok = CheckJsonShape(*text, path.string()); !ok) return tl::unexpected(ok.error());
   try {
     const Json json = Json::parse(*text);
     if (json.at("format").get<int>() != kFormat) {
@@ -96,7 +102,7 @@ Result<SuiteManifest> ReadManifest(const std::filesystem::path& path) {
     manifest.meshes = json.at("meshes").get<std::map<std::string, std::string>>();
     hash = json.at("hash");
   } catch (const Json::exception& error) {
-    return Fail(ErrorCode::kMalformed, std::string("is no manifest of a suite: ") + error.what(),
+    return Fail(ErrorCode::kMalformed, "is no manifest of a suite: " + PlainReason(error.what()),
                 path.string());
   }
   if (hash != SuiteHash(manifest)) {

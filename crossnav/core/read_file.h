@@ -10,8 +10,10 @@
 
 namespace crossnav {
 
-/// Errors: kNotFound (cannot be opened), kIo (a folder, or reading fails), kUnsupported (more than
-/// `max_bytes`).
+/// Size of a regular file [bytes]. Errors: kNotFound, kIo (a folder, a device, a pipe).
+Result<std::uintmax_t> SizeOfFile(const std::filesystem::path& path);
+
+/// Errors: those of SizeOfFile, kIo (reading fails), kUnsupported (more than `max_bytes`).
 Result<std::string> ReadFile(const std::filesystem::path& path,
                              std::uintmax_t max_bytes = UINTMAX_MAX);
 

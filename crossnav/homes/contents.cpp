@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "crossnav/core/read_file.h"
+
 namespace crossnav::homes {
 namespace fs = std::filesystem;
 namespace {
@@ -11,7 +13,7 @@ namespace {
 constexpr std::uintmax_t kMaxArchive = 1U << 30;    // chosen: real homes have up to 200 MB
 constexpr std::uint32_t kMaxXml = 64U << 20;        // chosen: real ones have up to 5 MB
 constexpr std::uint32_t kMaxEntry = 256U << 20;     // chosen: one model or picture
-constexpr std::uint64_t kMaxUnpacked = 4ULL << 30;  // chosen: all that is read of one home
+constexpr std::uint64_t kMaxUnpacked = 1ULL << 30;  // chosen: all that is read of one home
 constexpr const char* kSaveAgain = "; open it in Sweet Home 3D 5.3 or newer and save it again";
 
 bool IsNamed(const std::string& entry, const std::string& home) {
@@ -22,10 +24,9 @@ bool IsNamed(const std::string& entry, const std::string& home) {
 }  // namespace
 
 Result<Contents> Contents::Open(const fs::path& file) {
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  if (error) return Fail(ErrorCode::kNotFound, "cannot be opened", file.string());
-  if (size > kMaxArchive) {
+  const auto size = SizeOfFile(file);
+  if (!size) return tl::unexpected(size.error());
+  if (*size > kMaxArchive) {
     return Fail(ErrorCode::kUnsupported, "homes above 1 GiB are not read", file.string());
   }
   auto zip = world::ZipReader::Open(file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/homes/home_xml.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -16,8 +17,16 @@ namespace {
 
 constexpr double kMaxNumber = 1e6;          // chosen: 10 km in the file's centimetres
 constexpr std::size_t kMaxParts = 200'000;  // chosen: elements of one home
-constexpr std::size_t kMaxCorners = 2000;   // chosen: of one room
-constexpr int kMaxDepth = 32;               // chosen: groups in groups
+// What is built goes through walls, rooms and openings against each other.
+constexpr std::size_t kMaxLevels = 64;        // chosen: a tower
+constexpr std::size_t kMaxWalls = 5000;       // chosen: real homes have up to 500
+constexpr std::size_t kMaxRooms = 500;        // chosen: real homes have up to 100
+constexpr std::size_t kMaxCorners = 500;      // chosen: of one room
+constexpr std::size_t kMaxAllCorners = 5000;  // chosen: of all rooms
+constexpr std::size_t kMaxOpenings = 1000;    // chosen: real homes have up to 200
+constexpr std::size_t kMaxStairs = 100;       // chosen: real homes have up to 10
+constexpr std::size_t kMaxCutCorners = 200;   // chosen: of the hole that a staircase makes
+constexpr int kMaxDepth = 32;                 // chosen: groups in groups
 
 using Node = pugi::xml_node;
 
@@ -114,9 +123,15 @@ class HomeReader {
     return error_.has_value();
   }
 
+  /// Whether there is one more than `most` of something; it is an error then.
+  bool IsAbove(const Node& node, std::size_t count, std::size_t most, const char* what) {
+    if (count >= most) Bad(node, fmt::format("the home has more than {} {}", most, what));
+    return error_.has_value();
+  }
+
   void ReadLevels(const Node& home) {
     for (const Node& node : home.children("level")) {
-      if (IsFull(node)) return;
+      if (IsAbove(node, plan_.levels.size(), kMaxLevels, "levels")) return;
       HomeLevel level;
       level.id = node.attribute("id").value();
       level.name = node.attribute("name").value();
@@ -188,7 +203,7 @@ class HomeReader {
   }
 
   void ReadWall(const Node& node) {
-    if (IsFull(node)) return;
+    if (IsAbove(node, plan_.walls.size(), kMaxWalls, "walls")) return;
     HomeWall wall;
     wall.id = node.attribute("id").value();
     wall.level = LevelOf(node, "");
@@ -221,12 +236,14 @@ class HomeReader {
   }
 
   void ReadRoom(const Node& node) {
-    if (IsFull(node)) return;
+    if (IsAbove(node, plan_.rooms.size(), kMaxRooms, "rooms")) return;
     HomeRoom room;
     room.name = node.attribute("name").value();
     room.level = LevelOf(node, "");
     for (const Node& point : node.children("point")) {
-      if (room.outline.size() >= kMaxCorners) return Bad(node, "has more than 2000 corners");
+      if (room.outline.size() >= kMaxCorners)
+        return Bad(node, fmt::format("has more than {} corners", kMaxCorners));
+      if (IsAbove(node, corners_++, kMaxAllCorners, "corners of rooms")) return;
       room.outline.push_back(Point(point, "x", "y"));
     }
     room.floor = FinishOf(node, "floorColor", "floorTexture");
@@ -299,6 +316,7 @@ class HomeReader {
   }
 
   void ReadOpening(const Node& node, HomePiece& piece) {
+    if (IsAbove(node, openings_++, kMaxOpenings, "doors and windows")) return;
     piece.kind = PieceKind::kOpening;
     piece.wall_from = Number(node, "wallDistance", 0.0);
     piece.wall_to = piece.wall_from + Number(node, "wallThickness", 1.0);
@@ -313,6 +331,11 @@ class HomeReader {
     if (!attribute || *attribute.value() == '\0') return;
     const auto outlines = ParseSvgPath(attribute.value());
     if (!outlines) return Bad(node, "staircaseCutOutShape is not a path");
+    std::size_t corners = 0;
+    for (const Polygon& outline : *outlines) corners += outline.size();
+    if (corners > kMaxCutCorners)
+      return Bad(node, fmt::format("its cut-out has more than {} corners", kMaxCutCorners));
+    if (IsAbove(node, stairs_++, kMaxStairs, "staircases")) return;
     piece.kind = PieceKind::kStairs;
     for (const Polygon& outline : *outlines) {
       for (Polygon& part : Triangulate(outline)) piece.floor_cut.push_back(std::move(part));
@@ -324,7 +347,7 @@ class HomeReader {
   double wall_height_m_ = 2.5;
   std::map<std::string, int> level_of_id_;
   std::map<std::string, int, std::less<>> wall_of_id_;
-  std::size_t parts_ = 0;
+  std::size_t parts_ = 0, corners_ = 0, openings_ = 0, stairs_ = 0;
   std::optional<Error> error_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "crossnav/core/text_shape.h"
 #include "crossnav/homes/piece_names.h"
 
 namespace crossnav::homes {
@@ -140,10 +141,11 @@ class Reader {
 }  // namespace
 
 Result<ObjectsFile> ParseObjectsFile(const std::string& text, const std::string& where) {
+  if (auto ok = CheckJsonShape(text, where); !ok) return tl::unexpected(ok.error());
   try {
     return Reader(where).Read(Json::parse(text));
   } catch (const std::exception& e) {
-    return Fail(ErrorCode::kMalformed, std::string("is not readable JSON: ") + e.what(), where);
+    return Fail(ErrorCode::kMalformed, "is not readable JSON: " + PlainReason(e.what()), where);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "crossnav/core/read_file.h"
+#include "crossnav/core/text_shape.h"
 #include "crossnav/networks/sha256.h"
 
 namespace crossnav::networks {
@@ -288,9 +289,9 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
 }  // namespace
 
 Result<ModelCard> ReadModelCard(const std::filesystem::path& path) {
-  constexpr std::uintmax_t kMostCard = 1 << 20;
-  const auto text = ReadFile(path, kMostCard);
+  const auto text = ReadFile(path, kMostToml);
   if (!text) return tl::unexpected(text.error());
+  if (auto ok = CheckTomlShape(*text, path.string()); !ok) return tl::unexpected(ok.error());
   try {
     return ReadCard(toml::parse(*text), path);
   } catch (const toml::parse_error& error) {

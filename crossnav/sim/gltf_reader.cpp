@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <fstream>
 #include <limits>
 
 #include <Eigen/Geometry>
 
+#include "crossnav/core/read_file.h"
 #include "crossnav/sim/gltf_accessor.h"
 #include "crossnav/sim/image_codec.h"
 
@@ -16,7 +16,12 @@ namespace crossnav::sim {
 namespace {
 
 constexpr int kMaxNodeDepth = 64;  // chosen: deeper is a cycle or an attack
-constexpr std::size_t kMaxVertices = 400'000'000;
+constexpr int kMaxNodes = 1'000'000;
+// A mesh may stand at many places: the file may be small and what it draws large, but not without
+// limit. Above kFreeElements a file draws at most as many vertices and as many triangles as it has
+// bytes.
+constexpr std::size_t kMaxElements = 400'000'000;
+constexpr std::size_t kFreeElements = 2'000'000;  // chosen: a furnished house
 
 std::uint8_t ToByte(double unit) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0, 1.0) * 255));
@@ -31,7 +36,11 @@ std::uint8_t LinearToSrgb(double linear) {
 class Reader {
  public:
   Reader(const tinygltf::Model& gltf, std::string where, const GltfOptions& options)
-      : gltf_(gltf), where_(std::move(where)), options_(options) {}
+      : gltf_(gltf), where_(std::move(where)), options_(options) {
+    std::size_t bytes = 0;
+    for (const auto& buffer : gltf.buffers) bytes += buffer.data.size();
+    most_elements_ = std::clamp(bytes, kFreeElements, kMaxElements);
+  }
 
   Result<GltfModel> Read() {
     if (auto ok = ReadMaterials(); !ok) return tl::unexpected(ok.error());
@@ -56,6 +65,13 @@ class Reader {
  private:
   tl::unexpected<Error> Bad(const std::string& what, const std::string& at = {}) const {
     return Fail(ErrorCode::kMalformed, what, at.empty() ? where_ : where_ + ": " + at);
+  }
+
+  tl::unexpected<Error> TooMany(const char* what, const std::string& at) const {
+    return Fail(ErrorCode::kUnsupported,
+                "draws more than " + std::to_string(most_elements_) + " " + what +
+                    ", more than the file's size explains",
+                where_ + ": " + at);
   }
 
   void Note(std::string note) {
@@ -162,7 +178,8 @@ class Reader {
     if (index < 0 || index >= static_cast<int>(gltf_.nodes.size()))
       return Bad("does not exist", at);
     if (place.depth > kMaxNodeDepth) return Bad("is nested deeper than 64 levels (a cycle?)", at);
-    if (++nodes_visited_ > 1'000'000) return Bad("more than a million nodes (a cycle?)", at);
+    if (++nodes_visited_ > kMaxNodes)
+      return Bad("more than a million nodes (one that shares its children?)", at);
     const tinygltf::Node& node = gltf_.nodes[static_cast<std::size_t>(index)];
     const Eigen::Matrix4d T_file_node = T_file_parent * LocalTransform(node);
     if (!T_file_node.allFinite()) return Bad("has a transform that is not finite", at);
@@ -202,7 +219,7 @@ class Reader {
     if (points->components != 3) return Bad("POSITION is not VEC3", at);
     TriangleMesh& mesh = model_.mesh;
     const std::size_t base = mesh.vertices.size();
-    if (base + points->count > kMaxVertices) return Bad("has more than 400 million vertices", at);
+    if (base + points->count > most_elements_) return TooMany("vertices", at);
     for (std::size_t i = 0; i < points->count; ++i) {
       const Eigen::Vector4d v(points->Float(i, 0), points->Float(i, 1), points->Float(i, 2), 1);
       const Eigen::Vector3d q = (T_file_node * v).head<3>();
@@ -279,6 +296,7 @@ class Reader {
     const std::size_t corners = p.indices >= 0 ? indices.count : vertex_count;
     const bool separate = mode == TINYGLTF_MODE_TRIANGLES;
     const std::size_t count = separate ? corners / 3 : (corners < 3 ? 0 : corners - 2);
+    if (model_.mesh.triangles.size() + count > most_elements_) return TooMany("triangles", at);
     const bool has_material =
         p.material >= 0 && p.material + 1 < static_cast<int>(model_.materials.size());
     const auto material = static_cast<std::uint16_t>(
@@ -316,6 +334,7 @@ class Reader {
   GltfModel model_;
   std::vector<int> image_texture_;
   int nodes_visited_ = 0;
+  std::size_t most_elements_ = 0;
 };
 
 bool KeepRawImage(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
@@ -357,16 +376,10 @@ Result<GltfModel> ParseGlb(std::span<const std::uint8_t> bytes, const std::strin
 }
 
 Result<GltfModel> ReadGlb(const std::filesystem::path& file, const GltfOptions& options) {
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream) return Fail(ErrorCode::kNotFound, "cannot be opened", file.string());
-  const std::streamoff size = stream.tellg();
-  if (size < 0) return Fail(ErrorCode::kIo, "cannot be read", file.string());
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-  stream.seekg(0);
-  if (!stream.read(reinterpret_cast<char*>(bytes.data()), size)) {
-    return Fail(ErrorCode::kIo, "cannot be read", file.string());
-  }
-  return ParseGlb(bytes, file.string(), file.parent_path(), options);
+  const auto bytes = ReadFile(file, std::numeric_limits<std::uint32_t>::max());
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes->data());
+  return ParseGlb({data, bytes->size()}, file.string(), file.parent_path(), options);
 }
 
 }  // namespace crossnav::sim

@@ -12,7 +12,9 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr std::int64_t kMaxPixels = 1LL << 28;  // chosen: 16384 x 16384, more is a broken header
+constexpr std::int64_t kMaxPixels = 1LL << 26;  // chosen: 8192 x 8192, four times HM3D's largest
+constexpr std::uint64_t kMaxDeflate = 1032;     // what a byte of a PNG can unpack to at most
+constexpr int kMaxScans = 100;                  // chosen: progressive JPEGs have about ten
 
 Texture FromRgba(const std::vector<std::uint8_t>& rgba, int width, int height) {
   Texture texture;
@@ -38,7 +40,14 @@ Result<Texture> DecodePng(std::span<const std::uint8_t> bytes, const std::string
   }
   if (static_cast<std::int64_t>(image.width) * image.height > kMaxPixels) {
     png_image_free(&image);
-    return Fail(ErrorCode::kMalformed, "PNG image is larger than 2^28 pixels", where);
+    return Fail(ErrorCode::kUnsupported, "PNG image is larger than 2^26 pixels", where);
+  }
+  // At least a bit a pixel, and a byte a row that says how it is filtered.
+  const std::uint64_t row_bytes = 1 + image.width / 8;
+  if (row_bytes * image.height > kMaxDeflate * bytes.size()) {
+    png_image_free(&image);
+    return Fail(ErrorCode::kMalformed,
+                "PNG image is cut short: more pixels than its bytes can hold", where);
   }
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(image));
@@ -50,14 +59,22 @@ Result<Texture> DecodePng(std::span<const std::uint8_t> bytes, const std::string
 
 struct JpegErrors {
   jpeg_error_mgr manager;
+  jpeg_progress_mgr progress;
   std::jmp_buf jump;
 };
+
+/// Each scan goes through the whole picture.
+void StopManyScans(j_common_ptr info) {
+  const auto* jpeg = reinterpret_cast<jpeg_decompress_struct*>(info);
+  if (jpeg->input_scan_number > kMaxScans) info->err->error_exit(info);
+}
 
 // Reads into `rgb`; nothing with a destructor may live in this frame because of longjmp.
 bool ReadJpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, std::span<const std::uint8_t> bytes,
               RgbImage& rgb) {
   if (setjmp(errors.jump) != 0) return false;
   jpeg_create_decompress(&jpeg);
+  jpeg.progress = &errors.progress;
   jpeg_mem_src(&jpeg, const_cast<unsigned char*>(bytes.data()),
                static_cast<unsigned long>(bytes.size()));
   jpeg_read_header(&jpeg, TRUE);
@@ -81,6 +98,7 @@ Result<Texture> DecodeJpeg(std::span<const std::uint8_t> bytes, const std::strin
   errors.manager.error_exit = [](j_common_ptr info) {
     std::longjmp(reinterpret_cast<JpegErrors*>(info->err)->jump, 1);
   };
+  errors.progress.progress_monitor = StopManyScans;
   errors.manager.output_message = [](j_common_ptr) {};  // libraries do not print
   Texture texture;
   const bool ok = ReadJpeg(jpeg, errors, bytes, texture.rgb);

@@ -12,7 +12,7 @@
 #include <xxhash.h>
 
 #include "crossnav/core/check.h"
-#include "crossnav/sim/atomic_file.h"
+#include "crossnav/core/write_file.h"
 #include "crossnav/sim/navmesh_detail.h"
 #include "crossnav/sim/surface_path.h"
 #include "crossnav/sim/walk_graph.h"
@@ -161,7 +161,8 @@ Result<NavMesh> NavMesh::BuildCached(const Scene& scene, const NavMeshSettings& 
   auto built = Build(scene, settings);
   // A folder that cannot be written to only costs the next program the build time.
   if (built && !scene.folder.empty()) {
-    (void)WriteFileAtomically(file, SaveTiles(*built->impl_->mesh, key));
+    const auto tiles = SaveTiles(*built->impl_->mesh, key);
+    (void)WriteFileAtomically(file, {reinterpret_cast<const char*>(tiles.data()), tiles.size()});
   }
   return built;
 }

@@ -10,7 +10,7 @@
 
 #include "crossnav/core/check.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/atomic_file.h"
+#include "crossnav/core/write_file.h"
 
 namespace crossnav::sim {
 namespace {
@@ -47,7 +47,7 @@ Result<std::vector<std::uint8_t>> EncodePng(const RgbImage& image) {
 Result<void> WritePng(const RgbImage& image, const std::filesystem::path& file) {
   auto bytes = EncodePng(image);
   if (!bytes) return tl::unexpected(bytes.error());
-  return WriteFileAtomically(file, *bytes);
+  return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
 RgbImage ColourDepth(const DepthImage& depth_m, double max_m) {

@@ -9,6 +9,7 @@
 
 #include "crossnav/core/check.h"
 #include "crossnav/core/read_file.h"
+#include "crossnav/core/text_shape.h"
 #include "crossnav/sim/scene_reader.h"
 
 namespace crossnav::sim {
@@ -155,13 +156,17 @@ const SceneInstance* Scene::FindInstance(int wanted) const {
 }
 
 Result<Scene> LoadScene(const fs::path& folder, const CategoryTable& categories) {
+  const std::string id = (folder.has_filename() ? folder : folder.parent_path()).filename();
+  if (!IsUtf8(id))
+    return Fail(ErrorCode::kInvalid,
+                "its name is not UTF-8, which episodes need; rename the folder", folder.string());
   const auto files = FindSceneFiles(folder);
   if (!files) return tl::unexpected(files.error());
   auto model = ReadGlb(files->render);
   if (!model) return tl::unexpected(model.error());
   Scene scene;
   scene.folder = folder;
-  scene.id = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+  scene.id = id;
   scene.mesh = std::move(model->mesh);
   scene.materials = std::move(model->materials);
   scene.textures = std::move(model->textures);

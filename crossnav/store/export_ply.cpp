@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <string>
-#include <system_error>
 
 #include "crossnav/core/check.h"
+#include "crossnav/core/write_file.h"
 
 namespace crossnav::store {
 namespace {
@@ -90,18 +89,7 @@ Result<void> WritePly(const std::filesystem::path& path, std::span<const PlyPoin
     Put(bytes, p.colour.b);
     Put(bytes, p.value);
   }
-  const std::filesystem::path part = path.string() + ".part";
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(part, path, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    return Fail(ErrorCode::kIo, "cannot be written", path.string());
-  }
-  return {};
+  return WriteFileAtomically(path, bytes);
 }
 
 }  // namespace crossnav::store

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "crossnav/core/write_file.h"
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/geometry/sparse_grid.h"
 #include "crossnav/store/block_codec.h"
@@ -162,7 +163,9 @@ Result<SaveReport> SaveMemory(const std::filesystem::path& path, const geometry:
                               const memory::SemanticMemory& memory, const SaveInfo& info) {
   if (memory.VoxelSize() != map.config().voxel_m)
     return Fail(ErrorCode::kMismatch, "map and memory have different voxel sizes", path.string());
-  auto db = Database::Open(path, Database::Access::kWrite);
+  const auto place = OutputPlace(path);
+  if (!place) return tl::unexpected(place.error());
+  auto db = Database::Open(*place, Database::Access::kWrite);
   if (!db) return tl::unexpected(db.error());
   // Large pages suit blobs of 20 to 100 kB. The rollback journal keeps the map one file, and a save
   // that was killed is undone by whoever opens it next.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "crossnav/core/config_visitor.h"
+
 namespace crossnav::store {
 namespace {
 
@@ -45,9 +47,20 @@ std::int64_t HashOf(const MapHeader& h) {
   return HashBytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
+/// Of a block: its row has seven columns.
+constexpr std::int64_t kLeastBlockBytes = 16;
+
+/// Of a size that the setting may have.
+bool IsVoxelSize(double voxel_m) {
+  geometry::MapConfig config;
+  for (const ConfigField& field : FieldsOf(config))
+    if (field.key == "voxel_m") return voxel_m >= field.lo && voxel_m <= field.hi;
+  return false;
+}
+
 bool IsSound(const MapHeader& h) {
-  return h.format >= 1 && h.format <= kMapFormat && h.revision > 0 && std::isfinite(h.voxel_m) &&
-         h.voxel_m > 0 && h.feature_dim >= 0 && h.feature_dim <= (1 << 20) && h.map_blocks >= 0 &&
+  return h.format >= 1 && h.format <= kMapFormat && h.revision > 0 && IsVoxelSize(h.voxel_m) &&
+         h.feature_dim >= 0 && h.feature_dim <= (1 << 20) && h.map_blocks >= 0 &&
          h.feature_blocks >= 0 && h.feature_rows >= 0 && h.compacted_rows >= 0 &&
          h.dropped_rows >= 0;
 }
@@ -130,6 +143,9 @@ Result<HeaderRead> ReadHeader(Database& db) {
   std::string damage;
   for (const char* table : kHeaderTables) {
     if (auto header = ReadCopy(db, table)) {
+      const std::int64_t most = db.Size() / kLeastBlockBytes;
+      if (header->map_blocks > most || header->feature_blocks > most)
+        return Fail(ErrorCode::kMalformed, "names more blocks than the file can hold", db.file());
       if (*id != kApplicationId || *version != header->format)
         damage = "file header: identification";
       return HeaderRead{*header, damage};

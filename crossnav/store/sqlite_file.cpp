@@ -5,6 +5,8 @@
 
 #include <system_error>
 
+#include "crossnav/core/read_file.h"
+
 namespace crossnav::store {
 namespace {
 
@@ -94,10 +96,9 @@ void Database::Close::operator()(sqlite3* db) const {
 }
 
 Result<Database> Database::Open(const std::filesystem::path& path, Access access) {
-  std::error_code ignored;
   const std::string file = path.string();
-  if (access == Access::kRead && !std::filesystem::is_regular_file(path, ignored))
-    return Fail(ErrorCode::kNotFound, "no such map file", file);
+  if (access == Access::kRead)
+    if (const auto size = SizeOfFile(path); !size) return tl::unexpected(size.error());
   const int write = SQLITE_OPEN_READWRITE | (access == Access::kWrite ? SQLITE_OPEN_CREATE : 0);
   sqlite3* raw = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &raw, write, nullptr);
@@ -112,6 +113,12 @@ Result<Database> Database::Open(const std::filesystem::path& path, Access access
   sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   if (auto done = db.Exec("PRAGMA cell_size_check=ON"); !done) return tl::unexpected(done.error());
   return db;
+}
+
+std::int64_t Database::Size() const {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file_, error);
+  return error ? 0 : static_cast<std::int64_t>(size);
 }
 
 Result<void> Database::Exec(const std::string& sql) {

@@ -59,6 +59,7 @@ class Database {
   /// The first column of the first row, e.g. of a PRAGMA.
   Result<std::int64_t> IntOf(const std::string& sql);
   const std::string& file() const { return file_; }
+  std::int64_t Size() const;  ///< of the file [bytes]
 
  private:
   struct Close {

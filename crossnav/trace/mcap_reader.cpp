@@ -7,17 +7,18 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <system_error>
 
+#include "crossnav/core/read_file.h"
 #include "crossnav/trace/proto_wire.h"
 
 namespace crossnav::trace {
 namespace {
 
-constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{1}
-                                         << 30;  // chosen: 1000 times what we write
+constexpr std::uint64_t kMaxChunkBytes = 256 << 20;  // chosen: 250 times what we write
 constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 31;  // chosen: an incompressible one
-constexpr std::uint64_t kHeadBytes = 9;                            // kind and length of a record
+constexpr std::uint64_t kFooterBytes = 20;
+constexpr std::uint64_t kPieceBytes = 1 << 20;  // chosen: of the summary at a time
+constexpr std::uint64_t kHeadBytes = 9;         // kind and length of a record
 
 /// Where the bytes come from. Reading is sequential but for the last few bytes.
 class Input {
@@ -126,7 +127,6 @@ class Scanner {
     }
     crc_ = Crc32(kMcapMagic);
     std::uint64_t next = kMcapMagic.size();
-    // What follows the data section only repeats it.
     for (bool is_data = true; is_data;) {
       offset_ = next;
       contents_.good_bytes = offset_;
@@ -141,9 +141,7 @@ class Scanner {
       is_data = head->op != McapOp::kDataEnd;
       if (const auto good = Read({head->op, content}); !good) return tl::unexpected(good.error());
     }
-    contents_.is_complete = size_ - next >= kMcapMagic.size() && EndsWithMagic();
-    contents_.good_bytes = contents_.is_complete ? size_ : offset_;
-    return std::move(contents_);
+    return CheckSummary(next);
   }
 
  private:
@@ -167,6 +165,37 @@ class Scanner {
     if (!in.is_good || head.length > size_ - offset_ - kHeadBytes) return std::nullopt;
     if (op != McapOp::kDataEnd) crc_ = Crc32(bytes, crc_);
     return head;
+  }
+
+  /// The part behind the data section only repeats it; what is looked at is that it is whole.
+  Result<McapContents> CheckSummary(std::uint64_t next) {
+    const std::uint64_t data_end = offset_;
+    crc_ = 0;
+    for (bool is_footer = false; !is_footer;) {
+      offset_ = next;
+      const auto head = ReadHead();
+      contents_.good_bytes = data_end;
+      if (!head) return Torn();
+      is_footer = head->op == McapOp::kFooter;
+      next = offset_ + kHeadBytes + head->length;
+      if (is_footer && head->length != kFooterBytes) return Bad("a footer of another length");
+      const std::uint64_t covered = next - (is_footer ? sizeof(std::uint32_t) : 0);
+      for (std::uint64_t at = offset_ + kHeadBytes; at < covered;) {
+        const std::string_view piece = input_.Read(at, std::min(kPieceBytes, covered - at));
+        if (piece.empty()) return Fail(ErrorCode::kIo, "cannot be read", name_);
+        crc_ = Crc32(piece, crc_);
+        at += piece.size();
+      }
+    }
+    Content checksum{input_.Read(next - sizeof(std::uint32_t), sizeof(std::uint32_t))};
+    const auto crc = checksum.Number<std::uint32_t>();
+    if (crc != 0 && crc != crc_) return Bad("the checksum of the summary does not match");
+    if (size_ - next < kMcapMagic.size()) return std::move(contents_);
+    if (size_ - next != kMcapMagic.size() || !EndsWithMagic())
+      return Bad("the last bytes are not those of an MCAP file");
+    contents_.is_complete = true;
+    contents_.good_bytes = size_;
+    return std::move(contents_);
   }
 
   bool EndsWithMagic() {
@@ -260,6 +289,8 @@ class Scanner {
     if (!in.is_good || size > kMaxChunkBytes) return Bad("the chunk's header is damaged");
     std::string_view records = packed;
     if (compression == "zstd") {
+      if (ZSTD_getFrameContentSize(packed.data(), packed.size()) < size)
+        return Bad("the chunk is shorter than its header says");
       chunk_.resize(size);
       if (ZSTD_decompress(chunk_.data(), size, packed.data(), packed.size()) != size) {
         return Bad("the chunk cannot be decompressed");
@@ -300,14 +331,11 @@ Result<McapContents> ScanMcap(const std::string& name, std::string_view bytes,
 }
 
 Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisitor& visit) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    return Fail(ErrorCode::kIo, "is a folder where a file is needed", path.string());
+  const auto size = SizeOfFile(path);
+  if (!size) return tl::unexpected(size.error());
   std::ifstream file(path, std::ios::binary);
   if (!file) return Fail(ErrorCode::kNotFound, "cannot be opened", path.string());
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return Fail(ErrorCode::kIo, "has no size: " + error.message(), path.string());
-  FileInput input(std::move(file), size);
+  FileInput input(std::move(file), *size);
   return Scanner(path.string(), input, visit).Run();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crossnav/core/check.h"
+#include "crossnav/core/write_file.h"
 #include "crossnav/trace/proto_wire.h"
 
 namespace crossnav::trace {
@@ -248,9 +249,10 @@ McapWriter::McapWriter(McapWriter&&) noexcept = default;
 McapWriter& McapWriter::operator=(McapWriter&&) noexcept = default;
 
 Result<McapWriter> McapWriter::Open(const std::filesystem::path& path, const McapOptions& options) {
+  const auto place = OutputPlace(path);
+  if (!place) return tl::unexpected(place.error());
   auto impl = std::make_unique<Impl>();
-  impl->path = path;
-  impl->part = path;
+  impl->path = impl->part = *place;
   impl->part += ".part";
   impl->options = options;
   impl->file.open(impl->part, std::ios::binary | std::ios::trunc);
@@ -318,13 +320,7 @@ Result<void> McapWriter::Close() {
   impl_->file.flush();
   if (auto good = impl_->CheckFile(); !good) return good;
   impl_->file.close();
-  std::error_code code;
-  std::filesystem::rename(impl_->part, impl_->path, code);
-  if (code) {
-    return Fail(ErrorCode::kIo, "cannot rename the finished file: " + code.message(),
-                impl_->path.string());
-  }
-  return {};
+  return PutInPlace(impl_->part, impl_->path);
 }
 
 }  // namespace crossnav::trace

@@ -3,9 +3,8 @@
 
 #include <zlib.h>
 
-#include <fstream>
-
 #include "crossnav/core/check.h"
+#include "crossnav/core/write_file.h"
 #include "crossnav/trace/foxglove.h"
 #include "crossnav/trace/json_text.h"
 #include "crossnav/trace/preview.h"
@@ -121,21 +120,6 @@ std::string EscapeForScript(const std::string& json) {
   return out;
 }
 
-Result<void> WriteWhole(const std::filesystem::path& path, const std::string& bytes) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code code;
-  if (out) std::filesystem::rename(part, path, code);
-  if (!out || code) {
-    std::filesystem::remove(part, code);
-    return Fail(ErrorCode::kIo, "cannot write the page; does its folder exist?", path.string());
-  }
-  return {};
-}
-
 }  // namespace
 
 std::string ReplayPage(const Replay& replay) {
@@ -152,7 +136,7 @@ Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
                               const std::filesystem::path& html_path) {
   const auto replay = ReadReplay(mcap_path);
   if (!replay) return tl::unexpected(replay.error());
-  return WriteWhole(html_path, ReplayPage(*replay));
+  return WriteFileAtomically(html_path, ReplayPage(*replay));
 }
 
 }  // namespace crossnav::trace

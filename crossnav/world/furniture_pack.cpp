@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "crossnav/core/read_file.h"
+#include "crossnav/core/text_shape.h"
+#include "crossnav/core/write_file.h"
 #include "crossnav/sim/image_codec.h"
 #include "crossnav/world/glb_writer.h"
-#include "crossnav/world/scene_writer.h"
 
 namespace crossnav::world {
 namespace {
@@ -62,24 +63,13 @@ struct Reader {
   }
 };
 
-std::string Encode(const ObjectModel& model) {
-  Writer w;
-  w.Array(model.mesh.vertices);
-  w.Array(model.mesh.uvs);
-  w.Array(model.mesh.triangles);
-  w.Array(model.mesh.triangle_material);
-  w.Array(model.materials);
-  w.Number(model.textures.size());
-  for (const auto& t : model.textures) {
-    const std::string png = EncodePng(t);
-    w.Array(std::vector<char>(png.begin(), png.end()));
-  }
-  uLongf size = compressBound(w.out.size());
+std::string Packed(const std::string& model) {
+  uLongf size = compressBound(model.size());
   std::string packed(8 + size, '\0');
-  const std::uint64_t raw = w.out.size();
+  const std::uint64_t raw = model.size();
   std::memcpy(packed.data(), &raw, 8);
   compress2(reinterpret_cast<Bytef*>(packed.data() + 8), &size,
-            reinterpret_cast<const Bytef*>(w.out.data()), w.out.size(), 9);
+            reinterpret_cast<const Bytef*>(model.data()), model.size(), 9);
   packed.resize(8 + size);
   return packed;
 }
@@ -151,6 +141,21 @@ std::string HashOf(const std::string& bytes) {
 
 }  // namespace
 
+std::string EncodeModel(const ObjectModel& model) {
+  Writer w;
+  w.Array(model.mesh.vertices);
+  w.Array(model.mesh.uvs);
+  w.Array(model.mesh.triangles);
+  w.Array(model.mesh.triangle_material);
+  w.Array(model.materials);
+  w.Number(model.textures.size());
+  for (const auto& t : model.textures) {
+    const std::string png = EncodePng(t);
+    w.Array(std::vector<char>(png.begin(), png.end()));
+  }
+  return std::move(w.out);
+}
+
 Result<void> WritePack(std::vector<PackModel> models, const fs::path& dir) {
   std::error_code error;
   fs::create_directories(dir, error);
@@ -158,7 +163,7 @@ Result<void> WritePack(std::vector<PackModel> models, const fs::path& dir) {
   std::string bytes;
   Json list = Json::array();
   for (auto& m : models) {
-    const std::string packed = Encode(m.model);
+    const std::string packed = Packed(EncodeModel(m.model));
     m.entry.offset = bytes.size();
     m.entry.bytes = packed.size();
     m.entry.triangles = static_cast<int>(m.model.mesh.triangles.size());
@@ -171,7 +176,7 @@ Result<void> WritePack(std::vector<PackModel> models, const fs::path& dir) {
         {"ATTRIBUTION.md", Attribution(models)},
         {"manifest.json",
          manifest.dump(1, ' ', false, nlohmann::detail::error_handler_t::replace) + "\n"}}) {
-    if (auto ok = WriteWhole(dir / name, text); !ok) return ok;
+    if (auto ok = WriteFileAtomically(dir / name, text); !ok) return ok;
   }
   return {};
 }
@@ -187,6 +192,7 @@ Result<FurniturePack> FurniturePack::Load(const fs::path& dir) {
   std::string pack_hash;
   const auto text = ReadFile(dir / "manifest.json");
   if (!text) return tl::unexpected(text.error());
+  if (auto ok = CheckJsonShape(*text, where); !ok) return tl::unexpected(ok.error());
   pack.hash_ = HashOf(*text);
   try {
     const Json manifest = Json::parse(*text);
@@ -196,7 +202,8 @@ Result<FurniturePack> FurniturePack::Load(const fs::path& dir) {
     pack_hash = manifest.at("pack_xxh3");
     for (const Json& j : manifest.at("models")) pack.entries_.push_back(FromJson(j));
   } catch (const Json::exception& e) {
-    return Fail(ErrorCode::kMalformed, e.what(), where);
+    return Fail(ErrorCode::kMalformed,
+                PlainReason(e.what()) + "; `crossnav assets import` makes the pack again", where);
   }
   pack.bytes_ = ReadFile(dir / "furniture.pack").value_or("");  // a missing one is not whole
   bool is_whole = HashOf(pack.bytes_) == pack_hash;
@@ -218,19 +225,9 @@ const PackEntry* FurniturePack::Find(std::string_view id) const {
   return it == entries_.end() ? nullptr : &*it;
 }
 
-Result<ObjectModel> FurniturePack::Read(const PackEntry& entry) const {
-  const std::string where = (dir_ / "furniture.pack").string() + ": " + entry.id;
-  std::uint64_t size = 0;
-  std::memcpy(&size, bytes_.data() + entry.offset, 8);
-  if (size > kMaxModel) return Fail(ErrorCode::kMalformed, "a model is too large", where);
-  std::string raw(size, '\0');
-  uLongf got = raw.size();
-  const int status =
-      uncompress(reinterpret_cast<Bytef*>(raw.data()), &got,
-                 reinterpret_cast<const Bytef*>(bytes_.data() + entry.offset + 8), entry.bytes - 8);
-  if (status != Z_OK || got != size)
-    return Fail(ErrorCode::kMalformed, "a model is damaged", where);
-  Reader r{raw};
+Result<ObjectModel> DecodeModel(const std::string& bytes, const PackEntry& entry,
+                                const std::string& where) {
+  Reader r{bytes};
   ObjectModel m;
   m.name = entry.kind;
   m.asset_id = entry.id;
@@ -250,6 +247,21 @@ Result<ObjectModel> FurniturePack::Read(const PackEntry& entry) const {
   if (!r.is_good || !IsSound(m)) return Fail(ErrorCode::kMalformed, "a model is damaged", where);
   m.mesh.triangle_instance.assign(m.mesh.triangles.size(), 0);
   return m;
+}
+
+Result<ObjectModel> FurniturePack::Read(const PackEntry& entry) const {
+  const std::string where = (dir_ / "furniture.pack").string() + ": " + entry.id;
+  std::uint64_t size = 0;
+  std::memcpy(&size, bytes_.data() + entry.offset, 8);
+  if (size > kMaxModel) return Fail(ErrorCode::kMalformed, "a model is too large", where);
+  std::string raw(size, '\0');
+  uLongf got = raw.size();
+  const int status =
+      uncompress(reinterpret_cast<Bytef*>(raw.data()), &got,
+                 reinterpret_cast<const Bytef*>(bytes_.data() + entry.offset + 8), entry.bytes - 8);
+  if (status != Z_OK || got != size)
+    return Fail(ErrorCode::kMalformed, "a model is damaged", where);
+  return DecodeModel(raw, entry, where);
 }
 
 std::optional<ObjectModel> FurniturePack::Draw(std::string_view kind, Rng& rng) const {

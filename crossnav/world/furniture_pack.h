@@ -49,6 +49,12 @@ struct PackModel {
   ObjectModel model;
 };
 
+/// A model as it lies in the pack, unpacked, and back. Any bytes are safe to pass; `where` is for
+/// errors.
+std::string EncodeModel(const ObjectModel& model);
+Result<ObjectModel> DecodeModel(const std::string& bytes, const PackEntry& entry,
+                                const std::string& where);
+
 /// Writes the three files; models in the order given.
 Result<void> WritePack(std::vector<PackModel> models, const std::filesystem::path& dir);
 

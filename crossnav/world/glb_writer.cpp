@@ -100,7 +100,7 @@ std::string Finish(Json root, Buffers buffers) {
   root["accessors"] = std::move(buffers.accessors);
   root["bufferViews"] = std::move(buffers.views);
   root["buffers"] = {{{"byteLength", buffers.bytes.size()}}};
-  std::string json = root.dump();
+  std::string json = root.dump(-1, ' ', false, Json::error_handler_t::replace);
   while (json.size() % 4 != 0) json.push_back(' ');
 
   std::string out;

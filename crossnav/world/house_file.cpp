@@ -5,6 +5,7 @@
 #include <set>
 
 #include "crossnav/core/read_file.h"
+#include "crossnav/core/text_shape.h"
 
 namespace crossnav::world {
 namespace {
@@ -82,11 +83,12 @@ Result<std::vector<HouseRoom>> ReadHouseRooms(const fs::path& folder) {
   const auto text = ReadFile(file);
   if (!text && text.error().code == ErrorCode::kNotFound) return rooms;
   if (!text) return tl::unexpected(text.error());
+  if (auto ok = CheckJsonShape(*text, file.string()); !ok) return tl::unexpected(ok.error());
   try {
     const Json house = Json::parse(*text);
     for (const Json& j : house.at("rooms")) rooms.push_back(FromJson(j));
   } catch (const Json::exception& e) {
-    return Fail(ErrorCode::kMalformed, e.what(), file.string());
+    return Fail(ErrorCode::kMalformed, PlainReason(e.what()), file.string());
   }
   return rooms;
 }

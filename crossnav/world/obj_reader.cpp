@@ -15,6 +15,9 @@ namespace {
 
 constexpr int kMaxTexture_px = 256;  // chosen: furniture fills a part of a 640 px picture
 
+constexpr std::size_t kMaxCorners = 1000;  // chosen: of a face; modellers write up to 200
+constexpr double kMaxEarWork = 5e9;        // chosen: a second; a face of n corners costs n^3
+
 struct ObjMaterial {
   Rgb8 colour{200, 200, 200};
   double opacity = 1;
@@ -73,6 +76,7 @@ struct ObjParser {
   std::map<std::pair<int, int>, std::uint32_t> vertex_of;
   std::map<std::string, int> group_of_name;
   int material = -1, group = -1;
+  double ear_work = 0;
 
   /// Index of the material in the model, -1 where it is as good as invisible.
   int UseMaterial(const std::string& name) {
@@ -111,13 +115,15 @@ struct ObjParser {
     return static_cast<int>(k);
   }
 
-  bool AddFace(std::istringstream& in) {
+  /// What is wrong with the face, or nullptr.
+  const char* AddFace(std::istringstream& in) {
     std::vector<std::uint32_t> corners;
     std::string corner;
     while (in >> corner) {
+      if (corners.size() == kMaxCorners) return "a face has more than 1000 corners";
       char* rest = nullptr;
       const auto v = Index(std::strtol(corner.c_str(), &rest, 10), points);
-      if (!v) return false;
+      if (!v) return "a face names a vertex that is not there";
       std::optional<int> t;
       if (*rest == '/' && rest[1] != '/') t = Index(std::strtol(rest + 1, nullptr, 10), uvs);
       const auto key = std::make_pair(*v, t.value_or(-1));
@@ -129,7 +135,9 @@ struct ObjParser {
       }
       corners.push_back(it->second);
     }
-    if (material < 0) return true;
+    if (material < 0) return nullptr;
+    if (corners.size() > 4) ear_work += std::pow(static_cast<double>(corners.size()), 3);
+    if (ear_work > kMaxEarWork) return "too many faces of many corners; triangulate the model";
     const auto& p = model.mesh.vertices;
     std::vector<Vector3f> at;
     for (const auto v : corners) at.push_back(p[v]);
@@ -140,7 +148,7 @@ struct ObjParser {
       model.mesh.triangle_material.push_back(static_cast<std::uint16_t>(material));
       names.triangle_group.push_back(group);
     }
-    return true;
+    return nullptr;
   }
 
   void UseGroup(const std::string& name) {
@@ -168,7 +176,7 @@ struct ObjParser {
         uvs.push_back({uv[0], 1 - uv[1]});  // OBJ counts from the bottom row
       } else if (key == "f") {
         if (material < 0 && material_of_name.empty()) material = UseMaterial("");
-        if (!AddFace(in)) return Bad(number, "a face names a vertex that is not there");
+        if (const char* problem = AddFace(in)) return Bad(number, problem);
       } else if (key == "usemtl") {
         material = UseMaterial(Rest(in));
         if (model.materials.size() > 65535) return Bad(number, "more than 65535 materials");

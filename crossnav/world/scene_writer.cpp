@@ -4,28 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <vector>
 
+#include "crossnav/core/write_file.h"
 #include "crossnav/world/glb_writer.h"
 
 namespace crossnav::world {
 namespace fs = std::filesystem;
-
-Result<void> WriteWhole(const fs::path& path, const std::string& bytes) {
-  fs::path beside = path;
-  beside += ".part";
-  {
-    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.flush();
-    if (!out) return Fail(ErrorCode::kIo, "cannot be written", beside.string());
-  }
-  std::error_code error;
-  fs::rename(beside, path, error);
-  if (error) return Fail(ErrorCode::kIo, error.message(), path.string());
-  return {};
-}
 
 std::string SemanticText(const sim::Scene& scene) {
   std::string text = "HM3D Semantic Annotations\n";
@@ -80,7 +65,7 @@ Result<void> WriteDatasetConfig(const fs::path& dir) {
   }
 }
 )";
-  return WriteWhole(dir / "crossnav.scene_dataset_config.json", text);
+  return WriteFileAtomically(dir / "crossnav.scene_dataset_config.json", text);
 }
 
 Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir,
@@ -102,7 +87,7 @@ Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir,
       {stem + ".glb", EncodeRenderGlb(scene)}};
   for (const auto& [name, bytes] : files) {
     if (bytes.empty()) continue;
-    if (auto ok = WriteWhole(folder / name, bytes); !ok) return tl::unexpected(ok.error());
+    if (auto ok = WriteFileAtomically(folder / name, bytes); !ok) return tl::unexpected(ok.error());
   }
   if (auto ok = WriteDatasetConfig(dir); !ok) return tl::unexpected(ok.error());
   return folder;

@@ -24,7 +24,4 @@ Result<void> WriteDatasetConfig(const std::filesystem::path& dir);
 /// The semantic text of a scene.
 std::string SemanticText(const sim::Scene& scene);
 
-/// Writes `bytes` beside `path` and renames.
-Result<void> WriteWhole(const std::filesystem::path& path, const std::string& bytes);
-
 }  // namespace crossnav::world

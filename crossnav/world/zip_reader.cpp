@@ -10,6 +10,7 @@
 namespace crossnav::world {
 namespace {
 
+constexpr std::uint64_t kMaxDeflate = 1032;    // what a packed byte can unpack to at most
 constexpr std::size_t kMaxEntry = 512U << 20;  // chosen: no model is larger; guards against bombs
 
 std::uint32_t U(const std::string& b, std::size_t at, int bytes) {
@@ -85,8 +86,18 @@ Result<std::string> ZipReader::Read(const std::string& name) const {
   if (data > bytes_.size() || e.packed > bytes_.size() - data) {
     return Fail(ErrorCode::kMalformed, "entry ends after the file", where);
   }
-  if (e.method == 0) return bytes_.substr(data, e.packed);
+  const auto is_intact = [&](const std::string& out) {
+    return crc32(0, reinterpret_cast<const Bytef*>(out.data()), static_cast<uInt>(out.size())) ==
+           e.crc;
+  };
+  const auto damaged = [&] { return Fail(ErrorCode::kMalformed, "entry is damaged", where); };
+  if (e.method == 0) {
+    std::string out = bytes_.substr(data, e.packed);
+    if (e.packed > kMaxEntry || !is_intact(out)) return damaged();
+    return out;
+  }
   if (e.method != 8) return Fail(ErrorCode::kUnsupported, "unknown compression", where);
+  if (e.size > kMaxDeflate * e.packed) return damaged();
   std::string out(e.size, '\0');
   z_stream z{};
   if (inflateInit2(&z, -MAX_WBITS) != Z_OK) return Fail(ErrorCode::kIo, "out of memory", where);
@@ -97,8 +108,7 @@ Result<std::string> ZipReader::Read(const std::string& name) const {
   const int status = inflate(&z, Z_FINISH);
   const bool is_whole = status == Z_STREAM_END && z.avail_out == 0;
   inflateEnd(&z);
-  const auto crc = crc32(0, reinterpret_cast<const Bytef*>(out.data()), e.size);
-  if (!is_whole || crc != e.crc) return Fail(ErrorCode::kMalformed, "entry is damaged", where);
+  if (!is_whole || !is_intact(out)) return damaged();
   return out;
 }
 

@@ -51,10 +51,13 @@ class Cli : public ::testing::Test {
     }
   }
 
-  static Outcome RunIn(const TempFolder& folder, const std::string& arguments) {
+  /// `before` is what the shell does first.
+  static Outcome RunIn(const TempFolder& folder, const std::string& arguments,
+                       const std::string& before = {}) {
     const fs::path out = folder.path() / "stdout", err = folder.path() / "stderr";
-    const std::string command = "cd '" + folder.path().string() + "' && '" CROSSNAV_PROGRAM "' " +
-                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const std::string command = "cd '" + folder.path().string() + "' && " + before +
+                                " '" CROSSNAV_PROGRAM "' " + arguments + " >'" + out.string() +
+                                "' 2>'" + err.string() + "'";
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadText(out), ReadText(err)};
     fs::remove(out);

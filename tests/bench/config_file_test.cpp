@@ -113,6 +113,32 @@ TEST(ConfigFile, EveryKeyIsUniqueAndEveryDefaultIsInItsRange) {
   EXPECT_TRUE(ok) << ok.error().Message();
 }
 
+TEST(ConfigFile, ADottedKey50000DeepIsAnErrorAndNoCrash) {
+  std::string key;
+  for (int i = 0; i < 50'000; ++i) key += "a.";
+  RunConfig config;
+  const auto ok = ApplyConfigText(key + "b = 1\n", "deep.toml", config);
+  ASSERT_FALSE(ok);
+  EXPECT_EQ(ok.error().where, "deep.toml: line 1");
+}
+
+TEST(ConfigFile, AMistypedVariantOrChoiceNamesItsNeighbour) {
+  RunConfig config;
+  const auto variant = ApplyVariant("planr", config);
+  ASSERT_FALSE(variant);
+  EXPECT_NE(variant.error().what.find("did you mean \"planar\"?"), std::string::npos);
+  const auto choice = ApplyOverrides({"map.clearing=nevr"}, config);
+  ASSERT_FALSE(choice);
+  EXPECT_NE(choice.error().what.find("did you mean \"never\"?"), std::string::npos);
+}
+
+TEST(ConfigFile, VoxelSizesThatNoMapHasAreRefused) {
+  RunConfig config;
+  for (const char* value : {"0", "-1", "1e300", "nan", "inf", "1e999"})
+    EXPECT_FALSE(ApplyOverrides({std::string("map.voxel_m=") + value}, config)) << value;
+  EXPECT_FALSE(ApplyConfigText("map.voxel_m = nan", "a.toml", config));
+}
+
 TEST(ConfigFile, UnknownVariantIsRefused) {
   RunConfig config;
   EXPECT_TRUE(ApplyVariant("no-history-poi", config));

@@ -6,6 +6,7 @@
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/habitat_frame.h"
 #include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::bench {
 namespace {
@@ -204,6 +205,21 @@ TEST(Episodes, TruncatedGzipIsAnErrorAtEveryLength) {
     EXPECT_FALSE(ReadEpisodes(path)) << cut;
     if (cut < 57) break;
   }
+}
+
+TEST(Episodes, AGzipBombIsRefusedBeforeItFillsTheMemory) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "bomb.json.gz";
+  const std::string blanks(std::size_t{16} << 20, ' ');
+  ASSERT_TRUE(WriteTextFile(path, blanks));
+  // Members of a gzip file follow one another.
+  const std::string one = crossnav::test::ReadText(path);
+  std::string bomb;
+  for (int i = 0; i < 40; ++i) bomb += one;
+  crossnav::test::WriteText(path, bomb);
+  const auto file = ReadEpisodes(path);
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().what.find("more than 512 MiB"), std::string::npos) << file.error().what;
 }
 
 TEST(Episodes, DuplicateIdsAreRefused) {

@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+
 #include "bench/record_builder.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
@@ -239,6 +241,33 @@ TEST(ResultRecords, ContradictionsAreRefused) {
   for (const EpisodeRecord& bad : {after_failure, wrong_flag, wrong_goal}) {
     WriteText(path, ToJsonLine(bad) + "\n");
     EXPECT_FALSE(ReadResults(path)) << ToJsonLine(bad);
+  }
+}
+
+TEST(ResultRecords, NonsenseInsideWellFormedLinesIsRefused) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "results.jsonl";
+  const std::string good =
+      ToJsonLine(MakeHeader()) + "\n" + ToJsonLine(MakeEpisode("e1", 1, {{true, 1, 2}})) + "\n";
+  WriteText(path, good);
+  ASSERT_TRUE(ReadResults(path));
+  const std::string deep(100'000, '[');
+  for (const auto& [from, to, key] : std::vector<std::array<std::string, 3>>{
+           {"\"shard\":\"0/1\"", "\"shard\":\"7/2\"", "7/2"},
+           {"\"shard\":\"0/1\"", "\"shard\":\"0/0\"", "0/0"},
+           {"\"episodes\":3", "\"episodes\":-3", "episodes"},
+           {"\"actions\":0,\"wall_s\"", "\"actions\":-5,\"wall_s\"", "actions"},
+           {"\"first_transition_stage\":0", "\"first_transition_stage\":9", "stage"},
+           {"\"transitions\":0", "\"transitions\":-1", "transitions"},
+           {"\"config\":{", "\"deep\":" + deep + ",\"config\":{", "nested deeper than 64"}}) {
+    std::string text = good;
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    WriteText(path, text.replace(at, from.size(), to));
+    const auto results = ReadResults(path);
+    ASSERT_FALSE(results) << to.substr(0, 40);
+    EXPECT_NE(results.error().Message().find(key), std::string::npos) << results.error().Message();
+    EXPECT_NE(results.error().where.find("line "), std::string::npos);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "crossnav/core/read_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "support/temp_folder.h"
 #include "support/text_file.h"
@@ -28,6 +29,17 @@ TEST(ReadFile, NamesWhatCannotBeRead) {
   EXPECT_EQ(ReadFile(folder.path()).error().code, ErrorCode::kIo);
   EXPECT_EQ(ReadFile(folder.path() / "a", 4).error().code, ErrorCode::kUnsupported);
   EXPECT_TRUE(ReadFile(folder.path() / "a", 5));
+}
+
+TEST(ReadFile, RefusesDevicesAndPipesInsteadOfWaitingForThem) {
+  const test::TempFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& path : {pipe, std::filesystem::path("/dev/zero")}) {
+    const auto read = ReadFile(path);
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().what.find("a device or a pipe"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -69,6 +69,25 @@ TEST_F(HostileHome, ErrorsNameTheFileTheElementAndWhatWouldHelp) {
   EXPECT_EQ(report.error().code, ErrorCode::kNotFound);
 }
 
+TEST_F(HostileHome, APlanWith20000WallsOrOtherwiseBeyondAnyHomeIsRefused) {
+  const auto home = [](const std::string& element, int count) {
+    std::string xml = "<home>";
+    for (int i = 0; i < count; ++i) xml += element;
+    return Entries{{"Home.xml", xml + "</home>"}};
+  };
+  ExpectError(home("<wall xStart='0' yStart='0' xEnd='9' yEnd='9' thickness='1'/>", 20'000),
+              {"more than 5000 walls"});
+  ExpectError(home("<level elevation='0'/>", 1000), {"more than 64 levels"});
+  ExpectError(
+      home("<room><point x='0' y='0'/><point x='9' y='0'/><point x='9' y='9'/></room>", 1000),
+      {"more than 500 rooms"});
+  ExpectError(home("<doorOrWindow x='0' y='0' width='1' depth='1' height='1'/>", 2000),
+              {"more than 1000 doors and windows"});
+  std::string room = "<room>";
+  for (int i = 0; i < 600; ++i) room += "<point x='" + std::to_string(i) + "' y='0'/>";
+  ExpectError(home(room + "</room>", 1), {"more than 500 corners"});
+}
+
 TEST_F(HostileHome, NamesCannotLeaveTheOutputFolder) {
   for (const char* name : {"../evil", "a/b", "..", "00001-..", "00001-../x", "-", "a\"b"}) {
     ImportOptions options;

@@ -4,6 +4,7 @@
 
 #include "crossnav/core/rng.h"
 #include "crossnav/sim/gltf_reader.h"
+#include "crossnav/sim/image_codec.h"
 #include "crossnav/sim/picture.h"
 #include "glb_maker.h"
 
@@ -65,6 +66,56 @@ TEST(HostileGltf, EveryTruncationIsRefusedOrConsistent) {
     const std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<long>(size));
     ExpectConsistent(ParseGlb(cut, "hostile.glb", {}));
   }
+}
+
+TEST(HostileGltf, NodesThatShareTheirChildrenFortyLevelsAreRefused) {
+  GlbMaker maker;
+  maker.AddMesh({{"attributes", {{"POSITION", maker.Positions(SquareCorners())}}}});
+  for (int i = 0; i < 40; ++i) maker.json["nodes"].push_back({{"children", {i, i}}});
+  maker.json["scenes"][0]["nodes"] = {40};
+  const auto bytes = maker.Bytes();
+  const auto model = ParseGlb(bytes, "hostile.glb", {});
+  ASSERT_FALSE(model.has_value());
+  EXPECT_NE(model.error().what.find("shares its children"), std::string::npos)
+      << model.error().what;
+}
+
+TEST(HostileGltf, ASmallFileThatDrawsItsMeshEverywhereIsRefused) {
+  GlbMaker maker;
+  const int position = maker.Positions(std::vector<float>(std::size_t{3} * 10'000, 0.5F));
+  maker.AddMesh({{"attributes", {{"POSITION", position}}}});
+  nlohmann::json children = nlohmann::json::array();
+  for (int i = 0; i < 1000; ++i) {
+    maker.json["nodes"].push_back({{"mesh", 0}});
+    children.push_back(i + 1);
+  }
+  maker.json["nodes"].push_back({{"children", children}});
+  maker.json["scenes"][0]["nodes"] = {1001};
+  const auto bytes = maker.Bytes();
+  const auto model = ParseGlb(bytes, "hostile.glb", {});
+  ASSERT_FALSE(model.has_value());
+  EXPECT_NE(model.error().what.find("draws more than 2000000"), std::string::npos)
+      << model.error().what;
+}
+
+TEST(HostileGltf, APngThatClaimsMorePixelsThanItsBytesCanHoldIsRefused) {
+  std::vector<std::uint8_t> png = *EncodePng(RgbImage(4, 4));
+  for (const std::size_t side : {16U, 20U}) {  // width and height, big-endian
+    png[side] = 0;
+    png[side + 1] = 0;
+    png[side + 2] = 0x1F;
+  }
+  // The checksum of the header, so that only the size is wrong.
+  std::uint32_t crc = ~0U;
+  for (std::size_t i = 12; i < 29; ++i) {
+    crc ^= png[i];
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+  }
+  for (std::size_t i = 0; i < 4; ++i) png[29 + i] = static_cast<std::uint8_t>(~crc >> (24 - 8 * i));
+  const auto image = DecodeImage(png, "a.png");
+  ASSERT_FALSE(image.has_value());
+  EXPECT_NE(image.error().what.find("more pixels than its bytes"), std::string::npos)
+      << image.error().what;
 }
 
 TEST(HostileGltf, FlippedBytesAreRefusedOrConsistent) {

@@ -8,9 +8,11 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <thread>
 
 #include "crossnav/store/map_file.h"
+#include "crossnav/store/map_schema.h"
 #include "store/small_world.h"
 
 namespace crossnav::store {
@@ -204,6 +206,29 @@ TEST(MapFileDamageTest, HeaderHasASecondCopy) {
   EXPECT_EQ(rest->damaged.size(), 1u);
   damage("UPDATE header_copy SET frame='x'");
   EXPECT_FALSE(LoadMemory(file.path(), testing::SkipDamaged()));
+}
+
+TEST(MapFileDamageTest, CountsAndVoxelSizesThatNoFileHasAreRefused) {
+  const TempFile file("counts.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, {}));
+  const auto write = [&](const std::function<void(MapHeader&)>& change) {
+    auto db = Database::Open(file.path(), Database::Access::kWrite);
+    MapHeader header = ReadHeader(*db)->header;
+    change(header);
+    ASSERT_TRUE(WriteHeader(*db, header));
+  };
+  for (const double voxel_m : {0.0, -1.0, 1e300}) {
+    const std::string whole = file.Read();
+    write([&](MapHeader& header) { header.voxel_m = voxel_m; });
+    EXPECT_FALSE(LoadMemory(file.path(), testing::SkipDamaged())) << voxel_m;
+    file.Write(whole);
+  }
+  write([](MapHeader& header) { header.map_blocks = std::int64_t{1} << 60; });
+  const auto loaded = LoadMemory(file.path(), testing::SkipDamaged());
+  ASSERT_FALSE(loaded);
+  EXPECT_NE(loaded.error().what.find("more blocks than the file can hold"), std::string::npos);
 }
 
 TEST(MapFileDamageTest, TruncationIsFoundAndWhatIsLeftLoads) {

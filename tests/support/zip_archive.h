@@ -24,7 +24,8 @@ inline std::uint32_t Crc32(const std::string& bytes) {
 /// A zip archive with stored entries, written by hand.
 inline std::string Zip(const std::map<std::string, std::string>& files) {
   std::string out, directory;
-  for (const auto& [name, text] : files) {
+  for (const auto& entry : files) {
+    const std::string &name = entry.first, &text = entry.second;
     const std::uint32_t crc = Crc32(text);
     const auto size = static_cast<std::uint32_t>(text.size());
     const auto offset = static_cast<std::uint32_t>(out.size());

@@ -116,29 +116,25 @@ TEST(Mcap, IsReadUpToTheTearWhereverItIsTorn) {
   EXPECT_EQ(most, whole.size());
 }
 
-TEST(Mcap, NeverPassesDamageOffAsData) {
+TEST(Mcap, AFlippedBitAnywhereIsFound) {
   const test::TempFolder folder;
   const auto path = folder.path() / "a.mcap";
   WriteSmall(path);
   Taken whole, got;
   ASSERT_TRUE(Read(path, whole));
   const std::string bytes = BytesOf(path);
-  int errors = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     for (const int mask : {0x01, 0x80}) {
       std::string damaged = bytes;
       damaged[i] = static_cast<char>(damaged[i] ^ mask);
       const auto contents = Scan(damaged, got);
       if (!contents) {
-        ++errors;
         EXPECT_NE(contents.error().where.find("bad.mcap"), std::string::npos);
         continue;
       }
-      // Damage behind the data (its index) is not looked at; else all or nothing may be lost.
-      EXPECT_TRUE(contents->is_complete ? got == whole : IsPrefix(got, whole)) << i;
+      ADD_FAILURE() << "byte " << i << " of " << bytes.size();
     }
   }
-  EXPECT_GT(errors, static_cast<int>(bytes.size()) / 2);
 }
 
 TEST(Mcap, NeverSplitsAGroup) {

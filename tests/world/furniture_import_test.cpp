@@ -50,6 +50,45 @@ TEST(ObjReader, ReadsFacesMaterialsAndLeavesGlassOut) {
   EXPECT_EQ(bad.error().where, "bad.obj: line 2");
 }
 
+TEST(ZipReader, AnEntryThatWouldUnpackToMoreThanDeflateCanIsRefused) {
+  std::string bytes = Zip({{"a.txt", "hello"}});
+  const auto directory = bytes.find("PK\1\2");
+  bytes[directory + 10] = 8;     // deflated
+  bytes[directory + 26] = 0x10;  // 1 MiB from five bytes
+  const auto entry = ZipReader::Parse(bytes, "zip")->Read("a.txt");
+  ASSERT_FALSE(entry);
+  EXPECT_NE(entry.error().what.find("damaged"), std::string::npos);
+}
+
+TEST(ZipReader, AFlippedBitInAStoredEntryIsFound) {
+  std::string bytes = Zip({{"a.txt", "hello"}});
+  bytes[bytes.find("hello")] ^= 1;
+  EXPECT_FALSE(ZipReader::Parse(bytes, "zip")->Read("a.txt"));
+}
+
+TEST(ObjReader, FacesOf60000CornersAreRefusedWithTheirLine) {
+  const auto nothing = [](const std::string&) { return std::optional<std::string>(); };
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+  for (int i = 0; i < 60'000; ++i) text += " " + std::to_string(1 + i % 3);
+  const auto large = ParseObj(text + "\n", nothing, "a.obj");
+  ASSERT_FALSE(large);
+  EXPECT_EQ(large.error().where, "a.obj: line 4");
+  EXPECT_NE(large.error().what.find("1000 corners"), std::string::npos);
+}
+
+TEST(ObjReader, ManyFacesOfManyCornersAreRefusedBeforeTheyTakeMinutes) {
+  const auto nothing = [](const std::string&) { return std::optional<std::string>(); };
+  std::string text, face = "f";
+  for (int i = 0; i < 900; ++i) {  // a comb: every other corner is no ear
+    text += "v " + std::to_string(i) + " " + std::to_string(i % 2 == 0 ? 0 : 100 + i) + " 0\n";
+    face += " " + std::to_string(i + 1);
+  }
+  for (int i = 0; i < 100; ++i) text += face + "\n";
+  const auto model = ParseObj(text, nothing, "a.obj");
+  ASSERT_FALSE(model);
+  EXPECT_NE(model.error().what.find("too many faces of many corners"), std::string::npos);
+}
+
 TEST(ObjReader, ConcaveFacesKeepTheirHole) {
   // A door frame: one face with eight corners around an opening.
   const std::string frame =

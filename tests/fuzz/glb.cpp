@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/sim/gltf_reader.h"
+#include "fuzz/harness.h"
+
+// A folder that cannot exist: what the file names beside it is not there.
+FUZZ(glb, input) {
+  (void)crossnav::sim::ParseGlb(input, "input.glb", "/dev/null");
+}
