@@ -12,27 +12,11 @@ import common
 import numpy as np
 import onnx
 import torch
+from halve import halve
 from model import OUTPUTS, Network
-from onnx import helper, numpy_helper
 
 FILE = common.REPO / "networks/crossnav_small.onnx"
 OPSET = 17
-MIN_VALUES = 256  # chosen: smaller constants stay in float32
-
-
-def halve(model):
-    """Float constants of some size become float16 with a cast; every use stays what it was."""
-    graph, casts = model.graph, []
-    for constant in graph.initializer:
-        values = numpy_helper.to_array(constant)
-        if values.dtype != np.float32 or values.size < MIN_VALUES:
-            continue
-        half = numpy_helper.from_array(np.clip(values, -65504, 65504).astype(np.float16), constant.name + "_half")
-        casts.append(helper.make_node("Cast", [half.name], [constant.name], to=onnx.TensorProto.FLOAT))
-        constant.CopyFrom(half)
-    for cast in reversed(casts):
-        graph.node.insert(0, cast)
-    return model
 
 
 def fold_norms(network):
