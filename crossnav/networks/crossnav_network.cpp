@@ -45,14 +45,69 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
         texts_(std::move(texts)),
         camera_height_m_(camera_height_m) {}
 
-  std::unique_ptr<perception::Detector> MakeDetector() override;
-  std::unique_ptr<perception::Segmenter> MakeSegmenter() override;
-  std::unique_ptr<perception::StairSegmenter> MakeStairs() override;
-  std::unique_ptr<perception::DenseEncoder> MakeEncoder() override;
+  std::unique_ptr<perception::Detector> MakeDetector() override {
+    return std::make_unique<DetectorOf<CrossnavModel>>(shared_from_this());
+  }
+  std::unique_ptr<perception::Segmenter> MakeSegmenter() override {
+    return std::make_unique<SegmenterOf<CrossnavModel>>(shared_from_this());
+  }
+  std::unique_ptr<perception::StairSegmenter> MakeStairs() override {
+    return std::make_unique<StairsOf<CrossnavModel>>(shared_from_this());
+  }
+  std::unique_ptr<perception::DenseEncoder> MakeEncoder() override {
+    return std::make_unique<EncoderOf<CrossnavModel>>(shared_from_this());
+  }
 
   const ModelCard& card() const { return card_; }
-  const TextTable& texts() const { return texts_; }
+  int Dim() const { return texts_.dim(); }
+  Result<std::vector<float>> EncodeText(std::string_view text) const { return texts_.Of(text); }
 
+  Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) {
+    const std::vector<int> wanted = LabelsOf(goal, card_.labels);
+    if (wanted.empty()) return NoSuchLabel(goal, card_);
+    if (auto ok = See(obs); !ok) return tl::unexpected(ok.error());
+    std::vector<Detection> out;
+    for (const int label : wanted) AddDetections(label, obs.rgb.width, obs.rgb.height, out);
+    return out;
+  }
+
+  Result<void> Segment(const Observation& obs, Detection& detection) {
+    if (auto ok = See(obs); !ok) return ok;
+    const int width = obs.rgb.width, height = obs.rgb.height;
+    detection.mask = MaskImage(width, height);
+    detection.mask_quality = 0;
+    const PixelBox box{
+        std::clamp(detection.box.u0, 0, width), std::clamp(detection.box.v0, 0, height),
+        std::clamp(detection.box.u1, 0, width), std::clamp(detection.box.v1, 0, height)};
+    const Image<float> share = Map(kMask, LabelIn(box), width, height, box);
+    double inside = 0, sum = 0;
+    for (int v = box.v0; v < box.v1; ++v)
+      for (int u = box.u0; u < box.u1; ++u) {
+        const float p = share.At(u, v);
+        if (p < card_.thresholds.mask) continue;
+        detection.mask.At(u, v) = 1;
+        inside += 1;
+        sum += p;
+      }
+    if (inside > 0) detection.mask_quality = static_cast<float>(std::min(1.0, sum / inside));
+    return {};
+  }
+
+  Result<Image<float>> SegmentStairs(const Observation& obs) {
+    if (auto ok = See(obs); !ok) return tl::unexpected(ok.error());
+    const int width = obs.rgb.width, height = obs.rgb.height;
+    return Map(kStairs, 0, width, height, {0, 0, width, height});
+  }
+
+  Result<perception::FeatureGrid> EncodeImage(const Observation& obs) {
+    if (auto ok = See(obs); !ok) return tl::unexpected(ok.error());
+    const Tensor& dense = outputs_[kDense];
+    return perception::FeatureGrid{static_cast<int>(dense.shape[1]),
+                                   static_cast<int>(dense.shape[2]),
+                                   static_cast<int>(dense.shape[3]), dense.data};
+  }
+
+ private:
   /// All outputs for this frame.
   Result<void> See(const Observation& obs) {
     const XXH128_hash_t hash = HashOf(obs);
@@ -71,10 +126,8 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     return {};
   }
 
-  std::vector<Detection> Detections(int label, int width, int height) {
-    std::vector<FoundBox> boxes = Suppress(Peaks(label), card_.thresholds.nms_iou);
-    std::vector<Detection> out;
-    for (const FoundBox& box : boxes) {
+  void AddDetections(int label, int width, int height, std::vector<Detection>& out) {
+    for (const FoundBox& box : Suppress(Peaks(label), card_.thresholds.nms_iou)) {
       const PixelBox pixels =
           placement_.ToFrame(box.left, box.top, box.right, box.bottom, width, height);
       if (pixels.Area() <= 0) continue;
@@ -82,39 +135,8 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
       const double confidence = ConfidenceOf(card_.thresholds, box.label, box.score);
       out.push_back({pixels, static_cast<float>(confidence), {}, 0});
     }
-    return out;
   }
 
-  void Segment(Detection& detection, int width, int height) const {
-    detection.mask = MaskImage(width, height);
-    detection.mask_quality = 0;
-    const PixelBox box{
-        std::clamp(detection.box.u0, 0, width), std::clamp(detection.box.v0, 0, height),
-        std::clamp(detection.box.u1, 0, width), std::clamp(detection.box.v1, 0, height)};
-    const Image<float> share = Map(kMask, LabelIn(box), width, height, box);
-    double inside = 0, sum = 0;
-    for (int v = box.v0; v < box.v1; ++v)
-      for (int u = box.u0; u < box.u1; ++u) {
-        const float p = share.At(u, v);
-        if (p < card_.thresholds.mask) continue;
-        detection.mask.At(u, v) = 1;
-        inside += 1;
-        sum += p;
-      }
-    if (inside > 0) detection.mask_quality = static_cast<float>(std::min(1.0, sum / inside));
-  }
-
-  Image<float> Stairs(int width, int height) const {
-    return Map(kStairs, 0, width, height, {0, 0, width, height});
-  }
-
-  perception::FeatureGrid Features() const {
-    const Tensor& dense = outputs_[kDense];
-    return {static_cast<int>(dense.shape[1]), static_cast<int>(dense.shape[2]),
-            static_cast<int>(dense.shape[3]), dense.data};
-  }
-
- private:
   /// Plane `channel` of an output, enlarged to the frame within `box`.
   Image<float> Map(Output output, int channel, int width, int height, const PixelBox& box) const {
     const Tensor& tensor = outputs_[output];
@@ -196,81 +218,6 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
   Placement placement_;
   std::vector<Found> found_;  // boxes that were given for this frame
 };
-
-using ModelPointer = std::shared_ptr<CrossnavModel>;
-
-class CrossnavDetector : public perception::Detector {
- public:
-  explicit CrossnavDetector(ModelPointer model) : model_(std::move(model)) {}
-  Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) override {
-    const std::vector<int> wanted = LabelsOf(goal, model_->card().labels);
-    if (wanted.empty()) return NoSuchLabel(goal, model_->card());
-    if (auto ok = model_->See(obs); !ok) return tl::unexpected(ok.error());
-    std::vector<Detection> out;
-    for (const int label : wanted)
-      for (Detection& one : model_->Detections(label, obs.rgb.width, obs.rgb.height))
-        out.push_back(std::move(one));
-    return out;
-  }
-
- private:
-  ModelPointer model_;
-};
-
-class CrossnavSegmenter : public perception::Segmenter {
- public:
-  explicit CrossnavSegmenter(ModelPointer model) : model_(std::move(model)) {}
-  Result<void> Segment(const Observation& obs, Detection& detection) override {
-    if (auto ok = model_->See(obs); !ok) return ok;
-    model_->Segment(detection, obs.rgb.width, obs.rgb.height);
-    return {};
-  }
-
- private:
-  ModelPointer model_;
-};
-
-class CrossnavStairs : public perception::StairSegmenter {
- public:
-  explicit CrossnavStairs(ModelPointer model) : model_(std::move(model)) {}
-  Result<Image<float>> SegmentStairs(const Observation& obs) override {
-    if (auto ok = model_->See(obs); !ok) return tl::unexpected(ok.error());
-    return model_->Stairs(obs.rgb.width, obs.rgb.height);
-  }
-
- private:
-  ModelPointer model_;
-};
-
-class CrossnavEncoder : public perception::DenseEncoder {
- public:
-  explicit CrossnavEncoder(ModelPointer model) : model_(std::move(model)) {}
-  int Dim() const override { return model_->texts().dim(); }
-  std::string Name() const override { return EncoderNameOf(model_->card()); }
-  Result<perception::FeatureGrid> EncodeImage(const Observation& obs) override {
-    if (auto ok = model_->See(obs); !ok) return tl::unexpected(ok.error());
-    return model_->Features();
-  }
-  Result<std::vector<float>> EncodeText(std::string_view text) override {
-    return model_->texts().Of(text);
-  }
-
- private:
-  ModelPointer model_;
-};
-
-std::unique_ptr<perception::Detector> CrossnavModel::MakeDetector() {
-  return std::make_unique<CrossnavDetector>(shared_from_this());
-}
-std::unique_ptr<perception::Segmenter> CrossnavModel::MakeSegmenter() {
-  return std::make_unique<CrossnavSegmenter>(shared_from_this());
-}
-std::unique_ptr<perception::StairSegmenter> CrossnavModel::MakeStairs() {
-  return std::make_unique<CrossnavStairs>(shared_from_this());
-}
-std::unique_ptr<perception::DenseEncoder> CrossnavModel::MakeEncoder() {
-  return std::make_unique<CrossnavEncoder>(shared_from_this());
-}
 
 }  // namespace
 
