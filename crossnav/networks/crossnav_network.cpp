@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Our network (networks/): colour, depth and height above the foot in; goal centres, boxes, masks,
-// stairs and dense features out. It runs once a frame, whoever of its four parts asks first.
+// stairs and dense features out. It runs once a frame, whoever of its four parts asks first. A
+// second network, where the card has one, draws the mask in each box that it is asked for.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -39,9 +40,11 @@ XXH128_hash_t HashOf(const Observation& obs) {
 
 class CrossnavModel : public Model, public std::enable_shared_from_this<CrossnavModel> {
  public:
-  CrossnavModel(ModelCard card, Network network, TextTable texts, double camera_height_m)
+  CrossnavModel(ModelCard card, Network network, std::optional<Network> masks, TextTable texts,
+                double camera_height_m)
       : card_(std::move(card)),
         network_(std::move(network)),
+        masks_(std::move(masks)),
         texts_(std::move(texts)),
         camera_height_m_(camera_height_m) {}
 
@@ -79,7 +82,11 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     const PixelBox box{
         std::clamp(detection.box.u0, 0, width), std::clamp(detection.box.v0, 0, height),
         std::clamp(detection.box.u1, 0, width), std::clamp(detection.box.v1, 0, height)};
-    const Image<float> share = Map(kMask, LabelIn(box), width, height, box);
+    if (box.u0 >= box.u1 || box.v0 >= box.v1) return {};
+    const Result<Image<float>> shares =
+        masks_ ? Drawn(box, width, height) : Map(kMask, LabelIn(box), width, height, box);
+    if (!shares) return tl::unexpected(shares.error());
+    const Image<float>& share = *shares;
     double inside = 0, sum = 0;
     for (int v = box.v0; v < box.v1; ++v)
       for (int u = box.u0; u < box.u1; ++u) {
@@ -114,10 +121,10 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     if (seen_ && XXH128_isEqual(*seen_, hash) != 0) return {};
     seen_.reset();
     found_.clear();
-    const Tensor inputs[] = {ColourTensor(obs.rgb, card_.input, "image"),
-                             DepthTensor(obs.depth_m, card_.input, "depth"),
-                             HeightTensor(obs, camera_height_m_, card_.input, "height")};
-    auto outputs = network_.Run(inputs);
+    inputs_ = {ColourTensor(obs.rgb, card_.input, "image"),
+               DepthTensor(obs.depth_m, card_.input, "depth"),
+               HeightTensor(obs, camera_height_m_, card_.input, "height")};
+    auto outputs = network_.Run(inputs_);
     if (!outputs) return tl::unexpected(outputs.error());
     outputs_ = std::move(*outputs);
     ScaleStairs(card_.thresholds, outputs_[kStairs].data);
@@ -143,6 +150,36 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     const int rows = static_cast<int>(tensor.shape[2]), cols = static_cast<int>(tensor.shape[3]);
     const float* plane = &tensor.data[static_cast<std::size_t>(channel) * rows * cols];
     return ToFrameSize(plane, rows, cols, placement_, card_.input, width, height, box);
+  }
+
+  /// What the second network says of `box`: the share of the object, by pixels of the frame within
+  /// the box.
+  Result<Image<float>> Drawn(const PixelBox& box, int width, int height) {
+    const Tensor& mask = outputs_[kMask];
+    const auto plane = static_cast<std::ptrdiff_t>(mask.shape[2] * mask.shape[3]);
+    const auto share = mask.data.begin() + LabelIn(box) * plane;
+    const auto x = [&](int u) { return u * placement_.scale_x + placement_.offset_x; };
+    const auto y = [&](int v) { return v * placement_.scale_y + placement_.offset_y; };
+    std::vector<Tensor> inputs = inputs_;
+    inputs.push_back({"share", {1, 1, mask.shape[2], mask.shape[3]}, {share, share + plane}});
+    inputs.push_back({"box",
+                      {1, 4},
+                      {static_cast<float>(x(box.u0)), static_cast<float>(y(box.v0)),
+                       static_cast<float>(x(box.u1)), static_cast<float>(y(box.v1))}});
+    const auto outputs = masks_->Run(inputs);
+    if (!outputs) return tl::unexpected(outputs.error());
+    const Tensor& drawn = outputs->at(0);
+    const std::vector<float>& window = outputs->at(1).data;  // left, top, right, bottom, input px
+    ModelCard::Input grid;
+    grid.width = static_cast<int>(drawn.shape[3]);
+    grid.height = static_cast<int>(drawn.shape[2]);
+    const double across = grid.width / (window[2] - window[0]);
+    const double down = grid.height / (window[3] - window[1]);
+    const Placement in_window{placement_.scale_x * across, placement_.scale_y * down,
+                              (placement_.offset_x - window[0]) * across,
+                              (placement_.offset_y - window[1]) * down};
+    return ToFrameSize(drawn.data.data(), grid.height, grid.width, in_window, grid, width, height,
+                       box);
   }
 
   /// Cells whose heat is the greatest of the 3 x 3 around them, with their boxes [input px].
@@ -211,10 +248,11 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
   };
   ModelCard card_;
   Network network_;
+  std::optional<Network> masks_;
   TextTable texts_;
   double camera_height_m_;
   std::optional<XXH128_hash_t> seen_;  // of the frame that outputs_ are of
-  std::vector<Tensor> outputs_;
+  std::vector<Tensor> inputs_, outputs_;
   Placement placement_;
   std::vector<Found> found_;  // boxes that were given for this frame
 };
@@ -246,8 +284,17 @@ Result<std::shared_ptr<Model>> OpenCrossnavNetwork(const ModelCard& card,
                              {card.PortName("dense"), {1, -1, -1, texts->dim()}}}};
   auto network = OpenNetwork(card, signature, options);
   if (!network) return tl::unexpected(network.error());
-  return std::make_shared<CrossnavModel>(card, std::move(*network), std::move(*texts),
-                                         options.camera_height_m);
+  std::optional<Network> masks;
+  if (!card.decoder.file.empty()) {
+    Signature second{signature.inputs, {{"mask", {1, 1, -1, -1}}, {"window", {1, 4}}}};
+    second.inputs.push_back({"share", {1, 1, rows, cols}});
+    second.inputs.push_back({"box", {1, 4}});
+    auto opened = OpenDecoder(card, second, options);
+    if (!opened) return tl::unexpected(opened.error());
+    masks = std::move(*opened);
+  }
+  return std::make_shared<CrossnavModel>(card, std::move(*network), std::move(masks),
+                                         std::move(*texts), options.camera_height_m);
 }
 
 }  // namespace crossnav::networks

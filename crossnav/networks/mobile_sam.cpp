@@ -107,10 +107,7 @@ Result<std::shared_ptr<Model>> OpenMobileSam(const ModelCard& card, const ModelO
       {{{"image", {1, 3, card.input.height, card.input.width}}}, {{"embeddings", embeddings}}},
       options);
   if (!encoder) return tl::unexpected(encoder.error());
-  ModelCard second = card;
-  second.file = card.decoder.file;
-  second.sha256 = card.decoder.sha256;
-  auto decoder = OpenNetwork(second,
+  auto decoder = OpenDecoder(card,
                              {{{"embeddings", embeddings}, {"box", {1, 4}}},
                               {{"mask", {1, 1, -1, -1}}, {"quality", {1, 1}}}},
                              options);

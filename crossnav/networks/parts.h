@@ -110,6 +110,10 @@ Result<std::shared_ptr<Model>> Open(const ModelCard& card, const ModelOptions& o
 Result<Network> OpenNetwork(const ModelCard& card, const Signature& signature,
                             const ModelOptions& options);
 
+/// The same for the card's second file.
+Result<Network> OpenDecoder(ModelCard card, const Signature& signature,
+                            const ModelOptions& options);
+
 Result<std::shared_ptr<Model>> OpenCrossnavNetwork(const ModelCard& card,
                                                    const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenDetrDetector(const ModelCard& card, const ModelOptions& options);
