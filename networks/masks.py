@@ -15,19 +15,25 @@ SIDE = 2  # pixels of a window that are computed as one
 MARGIN = 0.06  # chosen: of the box's sides, that the window shows beyond each edge; boxes are about as exact
 NEAREST_M = 0.05  # chosen: nearer readings count as this near
 SPREAD = 0.2  # chosen: of the logarithm of range within one object
+LEAST_SHARE = 0.5  # chosen: of the goal in a cell or one beside it; elsewhere a table before a sofa was drawn as one
 OUTPUTS = ["mask", "window"]
 
 
-def window(image, depth, height, share, box):
-    """What is seen in and around `box` [n, 4] (left, top, right, bottom, input px): [n, 7, 96, 96] of colour, range
-    beside that of the object, whether it was read, height, and the first network's share of the goal."""
-    size, step = image.shape[-1], (torch.arange(SIZE, device=box.device) + 0.5) / SIZE
+def sampler(box, size):
+    """Takes planes that cover the picture [n, c, h, w] to the window of each box [n, c, 96, 96]."""
+    step = (torch.arange(SIZE, device=box.device) + 0.5) / SIZE
     sides = box[:, 2:] - box[:, :2]
     at = box[:, None, :2] + sides[:, None] * (step[:, None] * (1 + 2 * MARGIN) - MARGIN)  # [n, 96, 2]
     at = at * (2 / size) - 1
     across, down = at[:, None, :, 0].expand(-1, SIZE, -1), at[:, :, None, 1].expand(-1, -1, SIZE)
     grid = torch.stack([across, down], -1)
-    take = lambda x, mode: F.grid_sample(x, grid, mode=mode, padding_mode="border", align_corners=False)
+    return lambda x, mode: F.grid_sample(x, grid, mode=mode, padding_mode="border", align_corners=False)
+
+
+def window(image, depth, height, share, box):
+    """What is seen in and around `box` [n, 4] (left, top, right, bottom, input px): [n, 7, 96, 96] of colour, range
+    beside that of the object, whether it was read, height, and the first network's share of the goal."""
+    take = sampler(box, image.shape[-1])
     image, depth, height = torch.split(take(torch.cat([image, depth, height], 1), "nearest"), [3, 1, 1], 1)
     share = take(share, "bilinear")
     seen, far = (depth > 0).to(depth.dtype), torch.log(depth.clamp(min=NEAREST_M))
@@ -68,4 +74,6 @@ class MaskOfBox(nn.Module):
     def forward(self, image, depth, height, share, box):
         beyond = (box[:, 2:] - box[:, :2]) * MARGIN
         edges = torch.cat([box[:, :2] - beyond, box[:, 2:] + beyond], 1)
-        return torch.sigmoid(self.masks(window(image, depth, height, share, box))), edges
+        around = sampler(box, image.shape[-1])(F.max_pool2d(share, 3, 1, 1), "bilinear")
+        drawn = torch.sigmoid(self.masks(window(image, depth, height, share, box)))
+        return drawn * (around >= LEAST_SHARE).to(drawn.dtype), edges
