@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the card beside the exported network: what it is, how it was made, what it can and cannot do.
+"""Writes the card beside the exported networks: what they are, how they were made, what they can and cannot do.
 
 Without --figures the figures of an earlier card of the same file are kept, and so are its thresholds.
 """
@@ -15,6 +15,7 @@ import export
 import numpy as np
 import torch
 from evaluate import read_card
+from runtime import masks_file
 
 LIMITS = [
     "Trained on renders of generated houses alone: in five real frames it finds most chairs, but with low scores, and "
@@ -23,7 +24,8 @@ LIMITS = [
     "metres: other cameras change what sizes and heights mean.",
     "Six goals only. Armchairs and sofas, low tables and beds, balusters and plants are taken for each other; landings "
     "of stairs are missed, see the worst cases.",
-    "Thin parts (legs, leaves, railings) are narrower than a cell of the masks, which are at a quarter of the input.",
+    "Masks end where their box ends, and are drawn at the input's size: what is thinner than a pixel there, such as "
+    "leaves from afar, is lost; where depth is missing, edges are those of colour.",
 ]
 
 
@@ -58,11 +60,25 @@ def data_text(data, state):
         "seed": state.get("seed", 0), "commit": commit()})
 
 
-def write(network_file, data, state, figures):
+def digest_of(file):
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def masks_text(state):
+    return table("data.masks", {"windows": state.get("windows", 0), "steps": state.get("steps", 0),
+                                "batch": state.get("batch", 0), "seed": state.get("seed", 0)})
+
+
+def numbers_of(checkpoint):
+    state = torch.load(checkpoint, map_location="cpu", weights_only=True)
+    return {key: value for key, value in state.items() if isinstance(value, (int, float))}
+
+
+def write(network_file, data, states, figures):
     old = read_card(network_file.with_suffix(".toml"))
-    content = network_file.read_bytes()
-    digest = hashlib.sha256(content).hexdigest()
-    figures = figures or (old.get("figures", {}) if old.get("sha256") == digest else {})
+    digests = {"sha256": digest_of(network_file), "decoder_sha256": digest_of(masks_file(network_file))}
+    is_same = all(old.get(key) == digest for key, digest in digests.items())
+    figures = figures or (old.get("figures", {}) if is_same else {})
     thresholds = old.get("thresholds", {})
     size = common.INPUT_PX
     text = f"""# SPDX-License-Identifier: MIT
@@ -70,7 +86,9 @@ def write(network_file, data, state, figures):
 family = "crossnav"
 name = "crossnav-small"
 file = "{network_file.name}"
-sha256 = "{digest}"
+sha256 = "{digests["sha256"]}"
+decoder = "{masks_file(network_file).name}"  # draws the mask in a box
+decoder_sha256 = "{digests["decoder_sha256"]}"
 licence = "MIT"
 source = "networks/ of this repository (make networks)"
 goals = {listed(common.GOALS)}
@@ -100,7 +118,7 @@ nms_iou = 0.5
 mask = 0.5
 stairs = {thresholds.get("stairs", 0.5)}
 """
-    text += data_text(data, state)
+    text += data_text(data, states[0]) + masks_text(states[1])
     if figures:
         text += "\n# Of networks/evaluate.py --set test: held-out houses with held-out furniture." + table(
             "figures", {key: value for key, value in figures.items() if not isinstance(value, dict)})
@@ -120,14 +138,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
     parser.add_argument("--checkpoint", type=pathlib.Path, default=None)
+    parser.add_argument("--masks", type=pathlib.Path, default=None)
     parser.add_argument("--network", type=pathlib.Path, default=export.FILE)
     parser.add_argument("--figures", type=pathlib.Path, default=None)
     args = parser.parse_args()
-    state = torch.load(args.checkpoint or args.data / "checkpoint.pt", map_location="cpu", weights_only=True)
-    state = {key: value for key, value in state.items() if isinstance(value, (int, float))}
+    states = [numbers_of(args.checkpoint or args.data / "checkpoint.pt"),
+              numbers_of(args.masks or args.data / "masks.pt")]
     figures = rounded(json.loads(args.figures.read_text(encoding="utf-8"))) if args.figures else None
-    write(args.network, args.data, state, figures)
-    print(args.network.with_suffix(".toml").name, state)
+    write(args.network, args.data, states, figures)
+    print(args.network.with_suffix(".toml").name, *states)
 
 
 if __name__ == "__main__":

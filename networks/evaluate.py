@@ -139,8 +139,9 @@ def main():
     summary |= print_stairs(tally) | print_dense(tally)
     sample = frames.Sample(houses[0], 0)
     augment.resize(sample, network.size)
-    summary["ms"] = network.milliseconds(sample.inputs())
-    print(f"\nTime: {summary['ms']:.1f} ms of one thread, all heads at {network.size} px, {network.name}")
+    summary["ms"], summary["ms_box"] = network.milliseconds(sample.inputs())
+    print(f"\nTime: {summary['ms']:.1f} ms of one thread, all heads at {network.size} px, and {summary['ms_box']:.1f} ms "
+          f"for the mask of each box, {network.name}")
     if args.worst:
         panels.draw_worst(tally, houses, network, args.worst)
     if args.json:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the trained network as ONNX with fixed shapes; weights are stored in half precision.
+"""Writes the trained networks as ONNX with fixed shapes; weights are stored in half precision.
 
 Each weight is a float16 constant behind a cast, which inference programs fold: they compute in float32.
 """
@@ -9,30 +9,17 @@ import hashlib
 import pathlib
 
 import common
+import masks
+import model
 import numpy as np
 import onnx
 import torch
-from model import OUTPUTS, Network
-from onnx import helper, numpy_helper
+from halve import halve
+from runtime import masks_file
+from targets import STRIDE
 
 FILE = common.REPO / "networks/crossnav_small.onnx"
 OPSET = 17
-MIN_VALUES = 256  # chosen: smaller constants stay in float32
-
-
-def halve(model):
-    """Float constants of some size become float16 with a cast; every use stays what it was."""
-    graph, casts = model.graph, []
-    for constant in graph.initializer:
-        values = numpy_helper.to_array(constant)
-        if values.dtype != np.float32 or values.size < MIN_VALUES:
-            continue
-        half = numpy_helper.from_array(np.clip(values, -65504, 65504).astype(np.float16), constant.name + "_half")
-        casts.append(helper.make_node("Cast", [half.name], [constant.name], to=onnx.TensorProto.FLOAT))
-        constant.CopyFrom(half)
-    for cast in reversed(casts):
-        graph.node.insert(0, cast)
-    return model
 
 
 def fold_norms(network):
@@ -50,36 +37,59 @@ def fold_norms(network):
 def trained(checkpoint):
     """The mean of the weights, with the text table in the graph, and what the run says of itself."""
     text = torch.from_numpy(np.load(common.REPO / "networks/text_vectors.npy").astype(np.float32))
-    network = Network(text=text / text.norm(dim=1, keepdim=True))
+    return averaged(model.Network(text=text / text.norm(dim=1, keepdim=True)), checkpoint)
+
+
+def averaged(network, checkpoint):
     state = torch.load(checkpoint, map_location="cpu", weights_only=True)
     network.load_state_dict(state["average"])
     about = {key: value for key, value in state.items() if isinstance(value, (int, float))}
     return fold_norms(network.eval()), about
 
 
+def inputs_of(size):
+    return {"image": (1, 3, size, size), "depth": (1, 1, size, size), "height": (1, 1, size, size)}
+
+
 def export(network, out, size=common.INPUT_PX):
-    shapes = {"image": 3, "depth": 1, "height": 1}
-    inputs = tuple(torch.zeros(1, channels, size, size) for channels in shapes.values())
-    torch.onnx.export(network, inputs, out, input_names=list(shapes), output_names=OUTPUTS,
+    write(network, out, inputs_of(size), model.OUTPUTS)
+
+
+def export_masks(trained_masks, out, size=common.INPUT_PX):
+    more = {"share": (1, 1, size // STRIDE, size // STRIDE), "box": (1, 4)}
+    write(masks.MaskOfBox(trained_masks).eval(), out, inputs_of(size) | more, masks.OUTPUTS)
+
+
+def write(network, out, shapes, outputs):
+    inputs = tuple(torch.ones(shape) for shape in shapes.values())
+    torch.onnx.export(network, inputs, out, input_names=list(shapes), output_names=outputs,
                       opset_version=OPSET, dynamo=False)
-    model = halve(onnx.load(out))
-    model.producer_name, model.producer_version = "crossnav", ""
-    onnx.checker.check_model(model, full_check=True)
-    out.write_bytes(model.SerializeToString())
+    made = halve(onnx.load(out))
+    made.producer_name, made.producer_version = "crossnav", ""
+    onnx.checker.check_model(made, full_check=True)
+    out.write_bytes(made.SerializeToString())
+
+
+def tell(network, out, about):
+    content = out.read_bytes()
+    count = sum(p.numel() for p in network.parameters())
+    print(f"{out.name}: {len(content)} bytes, {count} weights, sha256 {hashlib.sha256(content).hexdigest()}")
+    print(f"trained: {about}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
     parser.add_argument("--checkpoint", type=pathlib.Path, default=None)
+    parser.add_argument("--masks", type=pathlib.Path, default=None)
     parser.add_argument("--out", type=pathlib.Path, default=FILE)
     args = parser.parse_args()
     network, about = trained(args.checkpoint or args.data / "checkpoint.pt")
     export(network, args.out)
-    content = args.out.read_bytes()
-    count = sum(p.numel() for p in network.parameters())
-    print(f"{args.out.name}: {len(content)} bytes, {count} weights, sha256 {hashlib.sha256(content).hexdigest()}")
-    print(f"trained: {about}")
+    tell(network, args.out, about)
+    second, about = averaged(masks.Masks(), args.masks or args.data / "masks.pt")
+    export_masks(second, masks_file(args.out))
+    tell(second, masks_file(args.out), about)
 
 
 if __name__ == "__main__":

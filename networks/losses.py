@@ -47,6 +47,15 @@ def stairs_loss(logits, target):
     return F.binary_cross_entropy_with_logits(logits, target) + dice_loss(torch.sigmoid(logits), target)
 
 
+def window(logits, own):
+    """Cross entropy and 1 - IoU of the object in each window [n,h,w]."""
+    share = torch.sigmoid(logits)
+    both = (share * own).sum((1, 2))
+    parts = {"pixels": F.binary_cross_entropy_with_logits(logits, own),
+             "overlap": (1 - both / (share.sum((1, 2)) + own.sum((1, 2)) - both)).mean()}
+    return sum(parts.values()), parts
+
+
 def dense_loss(logits, target, class_weight):
     return F.cross_entropy(logits, target, weight=class_weight, ignore_index=-1, label_smoothing=0.02)
 

@@ -20,6 +20,7 @@ python() { nice -n 4 "$NETWORKS_PYTHON" -u "$@"; }
 python render.py --data "$data"
 [[ ! -d ../../shared/data/clip ]] || python text_table.py
 python train.py --data "$data" --frames "${NETWORKS_FRAMES:-200000}" --minutes "${NETWORKS_MINUTES:-110}"
+python train_masks.py --data "$data"
 python export.py --data "$data"
 python card.py --data "$data"
 python thresholds.py --data "$data"

@@ -15,6 +15,7 @@ MIN_SHARE, MAX_M = 1 / 64, 5.0
 NMS_IOU = 0.5
 LOWEST_SCORE = 0.02
 FALSE_PER_FRAME = 0.1
+MASK_SHARE = 0.5
 STAIR_SHARE = 0.01  # of the picture, for it to be a picture of stairs
 
 
@@ -54,14 +55,21 @@ def decode(heat, box, size):
     return sorted(claims, key=lambda claim: -claim[1])
 
 
-def upsample(planes, size):
-    """Bilinear, cell centres as in the network's own resizing: [c,h,w] -> [c,size,size]."""
-    cells = planes.shape[-1]
-    at = np.clip((np.arange(size) + 0.5) * cells / size - 0.5, 0, cells - 1)
-    low = np.minimum(at.astype(int), cells - 2)
-    part = (at - low).astype(np.float32)
-    rows = planes[:, low] * (1 - part)[:, None] + planes[:, low + 1] * part[:, None]
-    return rows[:, :, low] * (1 - part) + rows[:, :, low + 1] * part
+def upsample(planes, size, window=None):
+    """Bilinear, cell centres as in the network's own resizing: [c,h,w] -> [c,size,size]. The planes cover the
+    picture, or `window` (left, top, right, bottom) of it; beyond it their edge goes on."""
+    left, top, right, bottom = (0, 0, size, size) if window is None else window
+    rows, down = between(size, planes.shape[1], top, bottom)
+    columns, across = between(size, planes.shape[2], left, right)
+    tall = planes[:, rows] * (1 - down)[:, None] + planes[:, rows + 1] * down[:, None]
+    return tall[:, :, columns] * (1 - across) + tall[:, :, columns + 1] * across
+
+
+def between(size, cells, low, high):
+    """Of each pixel: the cell before it, and how far it is towards the next one."""
+    at = np.clip((np.arange(size) + 0.5 - low) * cells / (high - low) - 0.5, 0, cells - 1)
+    first = np.minimum(at.astype(int), cells - 2)
+    return first, (at - first).astype(np.float32)
 
 
 def asked_for(sample, box, one):
@@ -76,7 +84,6 @@ def judge_claims(sample, answer):
     size = sample.depth.shape[0]
     seen = targets.instances(sample)
     claims = decode(answer["heat"], answer["box"], size)
-    share = upsample(answer["mask"], size)
     found, false = [], []
     taken = set()
     for goal, score, box in claims:
@@ -90,17 +97,30 @@ def judge_claims(sample, answer):
             continue
         taken.add(best[0])
         found.append({"id": best[0], "score": score, "claim": box,
-                      "mask_iou": mask_iou(sample, share[goal], box, best[0])})
+                      "mask_iou": mask_iou(sample, claim_mask(answer, goal, box, size), best[0])})
     asked = [row for row in seen if asked_for(sample, row[2], row[0])]
     by_id = {row["id"]: row for row in found}
     return [{"goal": row[1], "box": row[2], "id": row[0], **by_id.get(row[0], {"score": 0.0})} for row in asked], false
 
 
-def mask_iou(sample, share, box, one):
-    """Of the claim's mask (its category above one half, inside its box) and the instance's pixels."""
-    left, top, right, bottom = np.round(box).astype(int)
-    mask = np.zeros(share.shape, bool)
-    mask[top:bottom, left:right] = share[top:bottom, left:right] > 0.5
+def claim_mask(answer, goal, box, size):
+    """What the program makes of a claim (crossnav/networks/crossnav_network.cpp): the pixels of its box where the
+    second network's share of the object, or else the first one's share of the goal, is one half or more."""
+    left, top, right, bottom = np.floor(np.asarray(box) + 0.5).astype(int)
+    mask = np.zeros((size, size), bool)
+    if right <= left or bottom <= top:
+        return mask
+    if "drawn" in answer:
+        share, window = answer["drawn"](goal, (left, top, right, bottom))
+        share = upsample(share[None], size, window)[0]
+    else:
+        share = upsample(answer["mask"][goal : goal + 1], size)[0]
+    mask[top:bottom, left:right] = share[top:bottom, left:right] >= MASK_SHARE
+    return mask
+
+
+def mask_iou(sample, mask, one):
+    """Of a claim's mask and the instance's pixels."""
     truth = sample.instance == one
     return float((mask & truth).sum() / max((mask | truth).sum(), 1))
 

@@ -22,16 +22,17 @@ def write(image, text, at):
     cv2.putText(image, text, at, cv2.FONT_HERSHEY_SIMPLEX, 0.35, (255, 255, 255), 1, cv2.LINE_AA)
 
 
-def claims_picture(rgb, answer, lowest=0.2):
+LOWEST = 0.2  # chosen: scores below it are not drawn
+
+
+def claims_picture(rgb, answer, lowest=LOWEST):
     size = rgb.shape[0]
-    share = metrics.upsample(answer["mask"], size)
+    claims = [claim for claim in metrics.decode(answer["heat"], answer["box"], size)[::-1] if claim[1] >= lowest]
     image = rgb
-    for goal in range(len(common.GOALS)):
-        image = tinted(image, share[goal] > 0.5, COLOURS[goal])
+    for goal, _, box in claims:
+        image = tinted(image, metrics.claim_mask(answer, goal, box, size), COLOURS[goal])
     image = np.ascontiguousarray(image)
-    for goal, score, box in metrics.decode(answer["heat"], answer["box"], size)[::-1]:
-        if score < lowest:
-            continue
+    for goal, score, box in claims:
         left, top, right, bottom = (int(v) for v in box)
         cv2.rectangle(image, (left, top), (right - 1, bottom - 1), COLOURS[goal].tolist(), 1)
         write(image, f"{common.GOALS[goal]} {score:.2f}", (left + 2, min(size - 3, top + 10)))
@@ -70,14 +71,15 @@ def panel(sample, answer):
 
 
 def draw_worst(tally, houses, network, out, count=12):
-    """Missed objects, false claims, wrong stairs: the worst of each kind, truth on the left."""
+    """Missed objects, false claims, wrong masks, wrong stairs: the worst of each kind, truth on the left."""
     out.mkdir(parents=True, exist_ok=True)
     by_name = {house.name: house for house in houses}
     missed = sorted(tally.asked, key=lambda row: (row["score"], -(row["box"][2] - row["box"][0]) * (
         row["box"][3] - row["box"][1])))
     false = sorted(tally.false, key=lambda row: -row["score"])
     stairs = sorted(tally.cases, key=lambda row: -row["stair_error"])
-    for name, rows in (("missed", missed), ("false", false), ("stairs", stairs)):
+    masks = sorted((row for row in tally.asked if row["score"] >= LOWEST), key=lambda row: row["mask_iou"])
+    for name, rows in (("missed", missed), ("false", false), ("masks", masks), ("stairs", stairs)):
         seen, images = set(), []
         for row in rows:
             key = (row["house"], row["index"])
@@ -88,6 +90,7 @@ def draw_worst(tally, houses, network, out, count=12):
             augment.resize(sample, network.size)
             image = panel(sample, network(**sample.inputs()))
             goal = f" {common.GOALS[row['goal']]} {row['score']:.2f}" if "goal" in row else ""
+            goal += f", mask {row['mask_iou']:.2f}" if name == "masks" else ""
             write(image, f"{key[0]}/{key[1]}{goal}", (3, 218))
             images.append(image)
         pairs = [np.hstack(images[i : i + 2]) for i in range(0, len(images) - 1, 2)]

@@ -42,7 +42,8 @@ def arguments():
 
 
 def frame_weights(houses):
-    """Frames with goals that few frames show are drawn more often; frames without any less."""
+    """Frames with goals that few frames show are drawn more often; frames without any less. Also which frame
+    shows which goal, stairs last."""
     places, goals = [], []
     for house in houses:
         for index in range(len(house.frames)):
@@ -57,7 +58,7 @@ def frame_weights(houses):
     goals = np.array(goals)
     rarity = 1 / np.maximum(goals.mean(0), 0.01) ** 0.5
     weights = 1.0 + (goals * rarity).max(1)
-    return places, weights / weights.sum(), goals.sum(0).astype(int)
+    return places, weights / weights.sum(), goals
 
 
 def dense_weights(houses, size=64):
@@ -150,9 +151,9 @@ def step(run, inputs, answers, class_weight, device):
 
 def read_places(data):
     houses = frames.read_set(data, "train")
-    places, weights, counts = frame_weights(houses)
+    places, weights, goals = frame_weights(houses)
     print(f"{len(houses)} houses, {len(places)} frames with",
-          ", ".join(f"{n} {goal}" for n, goal in zip(counts, [*common.GOALS, "stairs"], strict=True)), flush=True)
+          ", ".join(f"{n} {goal}" for n, goal in zip(goals.sum(0).astype(int), [*common.GOALS, "stairs"], strict=True)), flush=True)
     return houses, places, weights
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Our network (networks/): colour, depth and height above the foot in; goal centres, boxes, masks,
-// stairs and dense features out. It runs once a frame, whoever of its four parts asks first.
+// stairs and dense features out. It runs once a frame, whoever of its four parts asks first. A
+// second network, where the card has one, draws the mask in each box that it is asked for.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -39,59 +40,53 @@ XXH128_hash_t HashOf(const Observation& obs) {
 
 class CrossnavModel : public Model, public std::enable_shared_from_this<CrossnavModel> {
  public:
-  CrossnavModel(ModelCard card, Network network, TextTable texts, double camera_height_m)
+  CrossnavModel(ModelCard card, Network network, std::optional<Network> masks, TextTable texts,
+                double camera_height_m)
       : card_(std::move(card)),
         network_(std::move(network)),
+        masks_(std::move(masks)),
         texts_(std::move(texts)),
         camera_height_m_(camera_height_m) {}
 
-  std::unique_ptr<perception::Detector> MakeDetector() override;
-  std::unique_ptr<perception::Segmenter> MakeSegmenter() override;
-  std::unique_ptr<perception::StairSegmenter> MakeStairs() override;
-  std::unique_ptr<perception::DenseEncoder> MakeEncoder() override;
-
-  const ModelCard& card() const { return card_; }
-  const TextTable& texts() const { return texts_; }
-
-  /// All outputs for this frame.
-  Result<void> See(const Observation& obs) {
-    const XXH128_hash_t hash = HashOf(obs);
-    if (seen_ && XXH128_isEqual(*seen_, hash) != 0) return {};
-    seen_.reset();
-    found_.clear();
-    const Tensor inputs[] = {ColourTensor(obs.rgb, card_.input, "image"),
-                             DepthTensor(obs.depth_m, card_.input, "depth"),
-                             HeightTensor(obs, camera_height_m_, card_.input, "height")};
-    auto outputs = network_.Run(inputs);
-    if (!outputs) return tl::unexpected(outputs.error());
-    outputs_ = std::move(*outputs);
-    ScaleStairs(card_.thresholds, outputs_[kStairs].data);
-    placement_ = PlacementOf(card_.input, obs.rgb.width, obs.rgb.height);
-    seen_ = hash;
-    return {};
+  std::unique_ptr<perception::Detector> MakeDetector() override {
+    return std::make_unique<DetectorOf<CrossnavModel>>(shared_from_this());
+  }
+  std::unique_ptr<perception::Segmenter> MakeSegmenter() override {
+    return std::make_unique<SegmenterOf<CrossnavModel>>(shared_from_this());
+  }
+  std::unique_ptr<perception::StairSegmenter> MakeStairs() override {
+    return std::make_unique<StairsOf<CrossnavModel>>(shared_from_this());
+  }
+  std::unique_ptr<perception::DenseEncoder> MakeEncoder() override {
+    return std::make_unique<EncoderOf<CrossnavModel>>(shared_from_this());
   }
 
-  std::vector<Detection> Detections(int label, int width, int height) {
-    std::vector<FoundBox> boxes = Suppress(Peaks(label), card_.thresholds.nms_iou);
+  const ModelCard& card() const { return card_; }
+  int Dim() const { return texts_.dim(); }
+  Result<std::vector<float>> EncodeText(std::string_view text) const { return texts_.Of(text); }
+
+  Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) {
+    const std::vector<int> wanted = LabelsOf(goal, card_.labels);
+    if (wanted.empty()) return NoSuchLabel(goal, card_);
+    if (auto ok = See(obs); !ok) return tl::unexpected(ok.error());
     std::vector<Detection> out;
-    for (const FoundBox& box : boxes) {
-      const PixelBox pixels =
-          placement_.ToFrame(box.left, box.top, box.right, box.bottom, width, height);
-      if (pixels.Area() <= 0) continue;
-      found_.push_back({pixels, label});
-      const double confidence = ConfidenceOf(card_.thresholds, box.label, box.score);
-      out.push_back({pixels, static_cast<float>(confidence), {}, 0});
-    }
+    for (const int label : wanted) AddDetections(label, obs.rgb.width, obs.rgb.height, out);
     return out;
   }
 
-  void Segment(Detection& detection, int width, int height) const {
+  Result<void> Segment(const Observation& obs, Detection& detection) {
+    if (auto ok = See(obs); !ok) return ok;
+    const int width = obs.rgb.width, height = obs.rgb.height;
     detection.mask = MaskImage(width, height);
     detection.mask_quality = 0;
     const PixelBox box{
         std::clamp(detection.box.u0, 0, width), std::clamp(detection.box.v0, 0, height),
         std::clamp(detection.box.u1, 0, width), std::clamp(detection.box.v1, 0, height)};
-    const Image<float> share = Map(kMask, LabelIn(box), width, height, box);
+    if (box.u0 >= box.u1 || box.v0 >= box.v1) return {};
+    const Result<Image<float>> shares =
+        masks_ ? Drawn(box, width, height) : Map(kMask, LabelIn(box), width, height, box);
+    if (!shares) return tl::unexpected(shares.error());
+    const Image<float>& share = *shares;
     double inside = 0, sum = 0;
     for (int v = box.v0; v < box.v1; ++v)
       for (int u = box.u0; u < box.u1; ++u) {
@@ -102,25 +97,89 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
         sum += p;
       }
     if (inside > 0) detection.mask_quality = static_cast<float>(std::min(1.0, sum / inside));
+    return {};
   }
 
-  Image<float> Stairs(int width, int height) const {
+  Result<Image<float>> SegmentStairs(const Observation& obs) {
+    if (auto ok = See(obs); !ok) return tl::unexpected(ok.error());
+    const int width = obs.rgb.width, height = obs.rgb.height;
     return Map(kStairs, 0, width, height, {0, 0, width, height});
   }
 
-  perception::FeatureGrid Features() const {
+  Result<perception::FeatureGrid> EncodeImage(const Observation& obs) {
+    if (auto ok = See(obs); !ok) return tl::unexpected(ok.error());
     const Tensor& dense = outputs_[kDense];
-    return {static_cast<int>(dense.shape[1]), static_cast<int>(dense.shape[2]),
-            static_cast<int>(dense.shape[3]), dense.data};
+    return perception::FeatureGrid{static_cast<int>(dense.shape[1]),
+                                   static_cast<int>(dense.shape[2]),
+                                   static_cast<int>(dense.shape[3]), dense.data};
   }
 
  private:
+  /// All outputs for this frame.
+  Result<void> See(const Observation& obs) {
+    const XXH128_hash_t hash = HashOf(obs);
+    if (seen_ && XXH128_isEqual(*seen_, hash) != 0) return {};
+    seen_.reset();
+    found_.clear();
+    inputs_ = {ColourTensor(obs.rgb, card_.input, "image"),
+               DepthTensor(obs.depth_m, card_.input, "depth"),
+               HeightTensor(obs, camera_height_m_, card_.input, "height")};
+    auto outputs = network_.Run(inputs_);
+    if (!outputs) return tl::unexpected(outputs.error());
+    outputs_ = std::move(*outputs);
+    ScaleStairs(card_.thresholds, outputs_[kStairs].data);
+    placement_ = PlacementOf(card_.input, obs.rgb.width, obs.rgb.height);
+    seen_ = hash;
+    return {};
+  }
+
+  void AddDetections(int label, int width, int height, std::vector<Detection>& out) {
+    for (const FoundBox& box : Suppress(Peaks(label), card_.thresholds.nms_iou)) {
+      const PixelBox pixels =
+          placement_.ToFrame(box.left, box.top, box.right, box.bottom, width, height);
+      if (pixels.Area() <= 0) continue;
+      found_.push_back({pixels, label});
+      const double confidence = ConfidenceOf(card_.thresholds, box.label, box.score);
+      out.push_back({pixels, static_cast<float>(confidence), {}, 0});
+    }
+  }
+
   /// Plane `channel` of an output, enlarged to the frame within `box`.
   Image<float> Map(Output output, int channel, int width, int height, const PixelBox& box) const {
     const Tensor& tensor = outputs_[output];
     const int rows = static_cast<int>(tensor.shape[2]), cols = static_cast<int>(tensor.shape[3]);
     const float* plane = &tensor.data[static_cast<std::size_t>(channel) * rows * cols];
     return ToFrameSize(plane, rows, cols, placement_, card_.input, width, height, box);
+  }
+
+  /// What the second network says of `box`: the share of the object, by pixels of the frame within
+  /// the box.
+  Result<Image<float>> Drawn(const PixelBox& box, int width, int height) {
+    const Tensor& mask = outputs_[kMask];
+    const auto plane = static_cast<std::ptrdiff_t>(mask.shape[2] * mask.shape[3]);
+    const auto share = mask.data.begin() + LabelIn(box) * plane;
+    const auto x = [&](int u) { return u * placement_.scale_x + placement_.offset_x; };
+    const auto y = [&](int v) { return v * placement_.scale_y + placement_.offset_y; };
+    std::vector<Tensor> inputs = inputs_;
+    inputs.push_back({"share", {1, 1, mask.shape[2], mask.shape[3]}, {share, share + plane}});
+    inputs.push_back({"box",
+                      {1, 4},
+                      {static_cast<float>(x(box.u0)), static_cast<float>(y(box.v0)),
+                       static_cast<float>(x(box.u1)), static_cast<float>(y(box.v1))}});
+    const auto outputs = masks_->Run(inputs);
+    if (!outputs) return tl::unexpected(outputs.error());
+    const Tensor& drawn = outputs->at(0);
+    const std::vector<float>& window = outputs->at(1).data;  // left, top, right, bottom, input px
+    ModelCard::Input grid;
+    grid.width = static_cast<int>(drawn.shape[3]);
+    grid.height = static_cast<int>(drawn.shape[2]);
+    const double across = grid.width / (window[2] - window[0]);
+    const double down = grid.height / (window[3] - window[1]);
+    const Placement in_window{placement_.scale_x * across, placement_.scale_y * down,
+                              (placement_.offset_x - window[0]) * across,
+                              (placement_.offset_y - window[1]) * down};
+    return ToFrameSize(drawn.data.data(), grid.height, grid.width, in_window, grid, width, height,
+                       box);
   }
 
   /// Cells whose heat is the greatest of the 3 x 3 around them, with their boxes [input px].
@@ -189,88 +248,14 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
   };
   ModelCard card_;
   Network network_;
+  std::optional<Network> masks_;
   TextTable texts_;
   double camera_height_m_;
   std::optional<XXH128_hash_t> seen_;  // of the frame that outputs_ are of
-  std::vector<Tensor> outputs_;
+  std::vector<Tensor> inputs_, outputs_;
   Placement placement_;
   std::vector<Found> found_;  // boxes that were given for this frame
 };
-
-using ModelPointer = std::shared_ptr<CrossnavModel>;
-
-class CrossnavDetector : public perception::Detector {
- public:
-  explicit CrossnavDetector(ModelPointer model) : model_(std::move(model)) {}
-  Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) override {
-    const std::vector<int> wanted = LabelsOf(goal, model_->card().labels);
-    if (wanted.empty()) return NoSuchLabel(goal, model_->card());
-    if (auto ok = model_->See(obs); !ok) return tl::unexpected(ok.error());
-    std::vector<Detection> out;
-    for (const int label : wanted)
-      for (Detection& one : model_->Detections(label, obs.rgb.width, obs.rgb.height))
-        out.push_back(std::move(one));
-    return out;
-  }
-
- private:
-  ModelPointer model_;
-};
-
-class CrossnavSegmenter : public perception::Segmenter {
- public:
-  explicit CrossnavSegmenter(ModelPointer model) : model_(std::move(model)) {}
-  Result<void> Segment(const Observation& obs, Detection& detection) override {
-    if (auto ok = model_->See(obs); !ok) return ok;
-    model_->Segment(detection, obs.rgb.width, obs.rgb.height);
-    return {};
-  }
-
- private:
-  ModelPointer model_;
-};
-
-class CrossnavStairs : public perception::StairSegmenter {
- public:
-  explicit CrossnavStairs(ModelPointer model) : model_(std::move(model)) {}
-  Result<Image<float>> SegmentStairs(const Observation& obs) override {
-    if (auto ok = model_->See(obs); !ok) return tl::unexpected(ok.error());
-    return model_->Stairs(obs.rgb.width, obs.rgb.height);
-  }
-
- private:
-  ModelPointer model_;
-};
-
-class CrossnavEncoder : public perception::DenseEncoder {
- public:
-  explicit CrossnavEncoder(ModelPointer model) : model_(std::move(model)) {}
-  int Dim() const override { return model_->texts().dim(); }
-  std::string Name() const override { return EncoderNameOf(model_->card()); }
-  Result<perception::FeatureGrid> EncodeImage(const Observation& obs) override {
-    if (auto ok = model_->See(obs); !ok) return tl::unexpected(ok.error());
-    return model_->Features();
-  }
-  Result<std::vector<float>> EncodeText(std::string_view text) override {
-    return model_->texts().Of(text);
-  }
-
- private:
-  ModelPointer model_;
-};
-
-std::unique_ptr<perception::Detector> CrossnavModel::MakeDetector() {
-  return std::make_unique<CrossnavDetector>(shared_from_this());
-}
-std::unique_ptr<perception::Segmenter> CrossnavModel::MakeSegmenter() {
-  return std::make_unique<CrossnavSegmenter>(shared_from_this());
-}
-std::unique_ptr<perception::StairSegmenter> CrossnavModel::MakeStairs() {
-  return std::make_unique<CrossnavStairs>(shared_from_this());
-}
-std::unique_ptr<perception::DenseEncoder> CrossnavModel::MakeEncoder() {
-  return std::make_unique<CrossnavEncoder>(shared_from_this());
-}
 
 }  // namespace
 
@@ -299,8 +284,17 @@ Result<std::shared_ptr<Model>> OpenCrossnavNetwork(const ModelCard& card,
                              {card.PortName("dense"), {1, -1, -1, texts->dim()}}}};
   auto network = OpenNetwork(card, signature, options);
   if (!network) return tl::unexpected(network.error());
-  return std::make_shared<CrossnavModel>(card, std::move(*network), std::move(*texts),
-                                         options.camera_height_m);
+  std::optional<Network> masks;
+  if (!card.decoder.file.empty()) {
+    Signature second{signature.inputs, {{"mask", {1, 1, -1, -1}}, {"window", {1, 4}}}};
+    second.inputs.push_back({"share", {1, 1, rows, cols}});
+    second.inputs.push_back({"box", {1, 4}});
+    auto opened = OpenDecoder(card, second, options);
+    if (!opened) return tl::unexpected(opened.error());
+    masks = std::move(*opened);
+  }
+  return std::make_shared<CrossnavModel>(card, std::move(*network), std::move(masks),
+                                         std::move(*texts), options.camera_height_m);
 }
 
 }  // namespace crossnav::networks

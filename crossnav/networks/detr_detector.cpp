@@ -15,7 +15,9 @@ class DetrModel : public Model, public std::enable_shared_from_this<DetrModel> {
  public:
   DetrModel(ModelCard card, Network network)
       : card_(std::move(card)), network_(std::move(network)) {}
-  std::unique_ptr<perception::Detector> MakeDetector() override;
+  std::unique_ptr<perception::Detector> MakeDetector() override {
+    return std::make_unique<DetectorOf<DetrModel>>(shared_from_this());
+  }
 
   Result<std::vector<perception::Detection>> Detect(const Observation& obs, std::string_view goal) {
     const std::vector<int> wanted = LabelsOf(goal, card_.labels);
@@ -52,22 +54,6 @@ class DetrModel : public Model, public std::enable_shared_from_this<DetrModel> {
   ModelCard card_;
   Network network_;
 };
-
-class DetrDetector : public perception::Detector {
- public:
-  explicit DetrDetector(std::shared_ptr<DetrModel> model) : model_(std::move(model)) {}
-  Result<std::vector<perception::Detection>> Detect(const Observation& obs,
-                                                    std::string_view goal) override {
-    return model_->Detect(obs, goal);
-  }
-
- private:
-  std::shared_ptr<DetrModel> model_;
-};
-
-std::unique_ptr<perception::Detector> DetrModel::MakeDetector() {
-  return std::make_unique<DetrDetector>(shared_from_this());
-}
 
 }  // namespace
 

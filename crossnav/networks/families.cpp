@@ -53,6 +53,13 @@ Result<Network> OpenNetwork(const ModelCard& card, const Signature& signature,
   return Network::FromBytes(*bytes, signature, options.session, card.file.string());
 }
 
+Result<Network> OpenDecoder(ModelCard card, const Signature& signature,
+                            const ModelOptions& options) {
+  card.file = card.decoder.file;
+  card.sha256 = card.decoder.sha256;
+  return OpenNetwork(card, signature, options);
+}
+
 std::string EncoderNameOf(const ModelCard& card) {
   constexpr std::size_t kShown = 12;
   return card.sha256.empty() ? card.name() : card.name() + "-" + card.sha256.substr(0, kShown);

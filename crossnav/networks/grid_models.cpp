@@ -34,7 +34,9 @@ class StairModel : public Model, public std::enable_shared_from_this<StairModel>
  public:
   StairModel(ModelCard card, Network network)
       : card_(std::move(card)), network_(std::move(network)) {}
-  std::unique_ptr<perception::StairSegmenter> MakeStairs() override;
+  std::unique_ptr<perception::StairSegmenter> MakeStairs() override {
+    return std::make_unique<StairsOf<StairModel>>(shared_from_this());
+  }
 
   Result<Image<float>> SegmentStairs(const Observation& obs) {
     const Tensor input = ColourTensor(obs.rgb, card_.input, "pixel_values");
@@ -54,28 +56,16 @@ class StairModel : public Model, public std::enable_shared_from_this<StairModel>
   Network network_;
 };
 
-class StairPart : public perception::StairSegmenter {
- public:
-  explicit StairPart(std::shared_ptr<StairModel> model) : model_(std::move(model)) {}
-  Result<Image<float>> SegmentStairs(const Observation& obs) override {
-    return model_->SegmentStairs(obs);
-  }
-
- private:
-  std::shared_ptr<StairModel> model_;
-};
-
-std::unique_ptr<perception::StairSegmenter> StairModel::MakeStairs() {
-  return std::make_unique<StairPart>(shared_from_this());
-}
-
 class DenseModel : public Model, public std::enable_shared_from_this<DenseModel> {
  public:
   DenseModel(ModelCard card, Network network)
       : card_(std::move(card)), network_(std::move(network)) {}
-  std::unique_ptr<perception::DenseEncoder> MakeEncoder() override;
+  std::unique_ptr<perception::DenseEncoder> MakeEncoder() override {
+    return std::make_unique<EncoderOf<DenseModel>>(shared_from_this());
+  }
 
   const ModelCard& card() const { return card_; }
+  int Dim() const { return card_.output.dim; }
 
   /// Texts come from a table, from a network, or from the network where the table has none.
   Result<void> OpenTexts(const ModelOptions& options) {
@@ -125,26 +115,6 @@ class DenseModel : public Model, public std::enable_shared_from_this<DenseModel>
   std::optional<TextTable> table_;
   std::optional<TextEncoder> encoder_;
 };
-
-class DensePart : public perception::DenseEncoder {
- public:
-  explicit DensePart(std::shared_ptr<DenseModel> model) : model_(std::move(model)) {}
-  int Dim() const override { return model_->card().output.dim; }
-  std::string Name() const override { return EncoderNameOf(model_->card()); }
-  Result<perception::FeatureGrid> EncodeImage(const Observation& obs) override {
-    return model_->EncodeImage(obs);
-  }
-  Result<std::vector<float>> EncodeText(std::string_view text) override {
-    return model_->EncodeText(text);
-  }
-
- private:
-  std::shared_ptr<DenseModel> model_;
-};
-
-std::unique_ptr<perception::DenseEncoder> DenseModel::MakeEncoder() {
-  return std::make_unique<DensePart>(shared_from_this());
-}
 
 Shape ImageShape(const ModelCard::Input& input) {
   if (input.layout == "hwc") return {1, input.height, input.width, 3};

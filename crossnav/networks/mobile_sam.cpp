@@ -17,7 +17,9 @@ class BoxMaskModel : public Model, public std::enable_shared_from_this<BoxMaskMo
  public:
   BoxMaskModel(ModelCard card, Network encoder, Network decoder)
       : card_(std::move(card)), encoder_(std::move(encoder)), decoder_(std::move(decoder)) {}
-  std::unique_ptr<perception::Segmenter> MakeSegmenter() override;
+  std::unique_ptr<perception::Segmenter> MakeSegmenter() override {
+    return std::make_unique<SegmenterOf<BoxMaskModel>>(shared_from_this());
+  }
 
   Result<void> Segment(const Observation& obs, Detection& detection) {
     if (auto ok = Encode(obs.rgb); !ok) return ok;
@@ -87,21 +89,6 @@ class BoxMaskModel : public Model, public std::enable_shared_from_this<BoxMaskMo
   Placement placement_;
 };
 
-class BoxMaskPart : public perception::Segmenter {
- public:
-  explicit BoxMaskPart(std::shared_ptr<BoxMaskModel> model) : model_(std::move(model)) {}
-  Result<void> Segment(const Observation& obs, Detection& detection) override {
-    return model_->Segment(obs, detection);
-  }
-
- private:
-  std::shared_ptr<BoxMaskModel> model_;
-};
-
-std::unique_ptr<perception::Segmenter> BoxMaskModel::MakeSegmenter() {
-  return std::make_unique<BoxMaskPart>(shared_from_this());
-}
-
 }  // namespace
 
 Result<std::shared_ptr<Model>> OpenMobileSam(const ModelCard& card, const ModelOptions& options) {
@@ -120,10 +107,7 @@ Result<std::shared_ptr<Model>> OpenMobileSam(const ModelCard& card, const ModelO
       {{{"image", {1, 3, card.input.height, card.input.width}}}, {{"embeddings", embeddings}}},
       options);
   if (!encoder) return tl::unexpected(encoder.error());
-  ModelCard second = card;
-  second.file = card.decoder.file;
-  second.sha256 = card.decoder.sha256;
-  auto decoder = OpenNetwork(second,
+  auto decoder = OpenDecoder(card,
                              {{{"embeddings", embeddings}, {"box", {1, 4}}},
                               {{"mask", {1, 1, -1, -1}}, {"quality", {1, 1}}}},
                              options);

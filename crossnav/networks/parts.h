@@ -24,6 +24,64 @@ class Model {
   virtual std::unique_ptr<perception::DenseEncoder> MakeEncoder() { return nullptr; }
 };
 
+/// What a dense encoder is called in saved memories: the network's name and the begin of its hash.
+std::string EncoderNameOf(const ModelCard& card);
+
+/// The parts of a model `M` that has the method of the same name, and shares it.
+template <typename M>
+class DetectorOf : public perception::Detector {
+ public:
+  explicit DetectorOf(std::shared_ptr<M> model) : model_(std::move(model)) {}
+  Result<std::vector<perception::Detection>> Detect(const Observation& obs,
+                                                    std::string_view goal) override {
+    return model_->Detect(obs, goal);
+  }
+
+ private:
+  std::shared_ptr<M> model_;
+};
+
+template <typename M>
+class SegmenterOf : public perception::Segmenter {
+ public:
+  explicit SegmenterOf(std::shared_ptr<M> model) : model_(std::move(model)) {}
+  Result<void> Segment(const Observation& obs, perception::Detection& detection) override {
+    return model_->Segment(obs, detection);
+  }
+
+ private:
+  std::shared_ptr<M> model_;
+};
+
+template <typename M>
+class StairsOf : public perception::StairSegmenter {
+ public:
+  explicit StairsOf(std::shared_ptr<M> model) : model_(std::move(model)) {}
+  Result<Image<float>> SegmentStairs(const Observation& obs) override {
+    return model_->SegmentStairs(obs);
+  }
+
+ private:
+  std::shared_ptr<M> model_;
+};
+
+template <typename M>
+class EncoderOf : public perception::DenseEncoder {
+ public:
+  explicit EncoderOf(std::shared_ptr<M> model) : model_(std::move(model)) {}
+  int Dim() const override { return model_->Dim(); }
+  std::string Name() const override { return EncoderNameOf(model_->card()); }
+  Result<perception::FeatureGrid> EncodeImage(const Observation& obs) override {
+    return model_->EncodeImage(obs);
+  }
+  Result<std::vector<float>> EncodeText(std::string_view text) override {
+    return model_->EncodeText(text);
+  }
+
+ private:
+  std::shared_ptr<M> model_;
+};
+
 struct ModelOptions {
   SessionOptions session;
   double camera_height_m = 0.88;  ///< above the robot's foot
@@ -52,8 +110,9 @@ Result<std::shared_ptr<Model>> Open(const ModelCard& card, const ModelOptions& o
 Result<Network> OpenNetwork(const ModelCard& card, const Signature& signature,
                             const ModelOptions& options);
 
-/// What a dense encoder is called in saved memories: the network's name and the begin of its hash.
-std::string EncoderNameOf(const ModelCard& card);
+/// The same for the card's second file.
+Result<Network> OpenDecoder(ModelCard card, const Signature& signature,
+                            const ModelOptions& options);
 
 Result<std::shared_ptr<Model>> OpenCrossnavNetwork(const ModelCard& card,
                                                    const ModelOptions& options);

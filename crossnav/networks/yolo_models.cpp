@@ -20,8 +20,13 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
  public:
   YoloModel(Kind kind, ModelCard card, Network network)
       : kind_(kind), card_(std::move(card)), network_(std::move(network)) {}
-  std::unique_ptr<perception::Detector> MakeDetector() override;
-  std::unique_ptr<perception::Segmenter> MakeSegmenter() override;
+  std::unique_ptr<perception::Detector> MakeDetector() override {
+    return std::make_unique<DetectorOf<YoloModel>>(shared_from_this());
+  }
+  std::unique_ptr<perception::Segmenter> MakeSegmenter() override {
+    if (kind_ != Kind::kYolo8Segment) return nullptr;
+    return std::make_unique<SegmenterOf<YoloModel>>(shared_from_this());
+  }
 
   Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) {
     const Wanted wanted{LabelsOf(goal, card_.labels), card_.thresholds.score};
@@ -117,36 +122,6 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
   std::vector<Found> found_;
   Placement placement_;
 };
-
-class YoloDetector : public perception::Detector {
- public:
-  explicit YoloDetector(std::shared_ptr<YoloModel> model) : model_(std::move(model)) {}
-  Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) override {
-    return model_->Detect(obs, goal);
-  }
-
- private:
-  std::shared_ptr<YoloModel> model_;
-};
-
-class YoloSegmenter : public perception::Segmenter {
- public:
-  explicit YoloSegmenter(std::shared_ptr<YoloModel> model) : model_(std::move(model)) {}
-  Result<void> Segment(const Observation& obs, Detection& detection) override {
-    return model_->Segment(obs, detection);
-  }
-
- private:
-  std::shared_ptr<YoloModel> model_;
-};
-
-std::unique_ptr<perception::Detector> YoloModel::MakeDetector() {
-  return std::make_unique<YoloDetector>(shared_from_this());
-}
-std::unique_ptr<perception::Segmenter> YoloModel::MakeSegmenter() {
-  if (kind_ != Kind::kYolo8Segment) return nullptr;
-  return std::make_unique<YoloSegmenter>(shared_from_this());
-}
 
 Signature SignatureOf(Kind kind, const ModelCard& card) {
   const std::int64_t height = card.input.height, width = card.input.width;

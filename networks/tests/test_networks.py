@@ -19,6 +19,7 @@ import common
 import frames
 import furniture
 import losses
+import masks
 import metrics
 import model
 import numpy as np
@@ -147,6 +148,82 @@ def test_the_loss_falls_on_a_toy_batch():
         seen.append(float(loss.detach()))
     assert set(parts) == set(losses.WEIGHTS)
     assert seen[-1] < 0.7 * seen[0]
+
+
+def window_of(box, share=None):
+    """What the second network is given of a box of the toy picture."""
+    inputs, _ = batch()
+    if share is None:
+        share = torch.zeros(1, 1, SIZE // 4, SIZE // 4)
+        share[..., 10:18, 5:11] = 1  # the chair
+    return masks.window(*[value[:1] for value in inputs], share, torch.tensor([box], dtype=torch.float32))
+
+
+def test_a_window_shows_range_beside_that_of_the_object_and_a_margin_around_the_box():
+    seen = window_of((20, 40, 44, 72))
+    assert seen.shape == (1, 7, masks.SIZE, masks.SIZE)
+    middle, corner = masks.SIZE // 2, 1
+    assert seen[0, 3, middle, middle] == pytest.approx(0, abs=0.02)
+    assert seen[0, 3, corner, corner] == pytest.approx(np.log(3.0 / 1.5), abs=0.02)  # the wall beyond the box
+    assert seen[0, 6, middle, middle] == pytest.approx(1) and seen[0, 4].min() == 1
+
+
+def test_a_window_of_nothing_seen_is_finite():
+    inputs = [torch.zeros(1, channels, SIZE, SIZE) for channels in (3, 1, 1)]
+    seen = masks.window(*inputs, torch.zeros(1, 1, SIZE // 4, SIZE // 4), torch.tensor([[0.0, 0.0, 1.0, 1.0]]))
+    assert torch.isfinite(masks.Masks().eval()(seen)).all()
+
+
+def test_the_loss_of_windows_falls_on_a_toy_batch():
+    torch.manual_seed(1)
+    head = masks.Masks(fine=8, coarse=16)
+    optimizer = torch.optim.AdamW(head.parameters(), lr=5e-3)
+    seen = window_of((20, 40, 44, 72)).expand(2, -1, -1, -1)
+    own = (seen[:, 3].abs() < 0.1).float()
+    falling = []
+    for _ in range(15):
+        loss, _ = losses.window(head(seen)[:, 0], own)
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+        falling.append(float(loss.detach()))
+    assert falling[-1] < 0.6 * falling[0]
+
+
+def test_a_claims_mask_is_what_was_drawn_within_its_box():
+    half = np.zeros((4, 4), np.float32)
+    half[:, 2:] = 1
+    asked = []
+
+    def drawn(goal, box):
+        asked.append((goal, box))
+        return half, (0.0, 0.0, 80.0, 80.0)
+
+    mask = metrics.claim_mask({"drawn": drawn}, 3, (10.4, 20, 60, 39.6), SIZE)
+    assert asked == [(3, (10, 20, 60, 40))]
+    assert mask.sum() == 20 * 20 and mask[20:40, 40:60].all()
+
+
+def test_the_exported_masks_are_those_of_torch(tmp_path):
+    pytest.importorskip("onnx")
+    pytest.importorskip("onnxruntime")
+    import export
+    import onnxruntime
+
+    torch.manual_seed(1)
+    head = export.fold_norms(masks.Masks(fine=8, coarse=16).eval())
+    file = tmp_path / "toy_masks.onnx"
+    export.export_masks(head, file, SIZE)
+    session = onnxruntime.InferenceSession(str(file), providers=["CPUExecutionProvider"])
+    inputs = [value[:1] for value in batch()[0]]
+    inputs += [torch.rand(1, 1, SIZE // 4, SIZE // 4), torch.tensor([[20.0, 40.0, 44.0, 72.0]])]
+    names = ["image", "depth", "height", "share", "box"]
+    mine = session.run(masks.OUTPUTS, {name: value.numpy() for name, value in zip(names, inputs, strict=True)})
+    with torch.no_grad():
+        theirs = masks.MaskOfBox(head)(*inputs)
+    assert mine[0].shape == (1, 1, masks.SIZE, masks.SIZE)
+    assert np.abs(mine[0] - theirs[0].numpy()).max() < 0.01
+    assert mine[1][0] == pytest.approx([18.56, 38.08, 45.44, 73.92], abs=1e-3)
 
 
 def test_the_exported_file_has_the_agreed_shapes_and_answers_as_torch_does(tmp_path):

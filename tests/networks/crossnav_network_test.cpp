@@ -131,6 +131,10 @@ TEST_F(CrossnavFamily, WhatDoesNotFitTheCardIsNamed) {
   EXPECT_NE(ErrorOf().find("holds vectors of 4 numbers"), std::string::npos) << ErrorOf();
   Write(std::string("sha256 = \"") + std::string(64, '0') + "\"\n" + kSmallCard);
   EXPECT_NE(ErrorOf().find("is not the file"), std::string::npos) << ErrorOf();
+  Write(std::string("decoder = \"nowhere.onnx\"\n") + kSmallCard);
+  EXPECT_NE(ErrorOf().find("nowhere.onnx"), std::string::npos) << ErrorOf();
+  Write(std::string("decoder = \"small.onnx\"\n") + kSmallCard);  // another network
+  EXPECT_NE(ErrorOf().find("has no input \"share\""), std::string::npos) << ErrorOf();
   Write(kSmallCard);
   config_.stairs = "none";
   EXPECT_NE(ErrorOf().find("needed by networks.stairs"), std::string::npos) << ErrorOf();
