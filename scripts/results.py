@@ -83,7 +83,7 @@ def main() -> None:
         crossnav("suite", "run", args.suite, "--variant", variant, "--jobs", str(args.jobs),
                  *options)
         folder = place / "runs" / variant
-        runs[variant] = json.loads(crossnav("metrics", str(folder), "--json", "--quiet"))
+        runs[variant] = json.loads(crossnav("metrics", str(folder / "results.jsonl"), "--json", "--quiet"))
         if variant == "full":
             continue
         found = json.loads(crossnav("report", str(folder), str(place / "runs/full"), "--out",
