@@ -170,6 +170,9 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     if (!outputs) return tl::unexpected(outputs.error());
     const Tensor& drawn = outputs->at(0);
     const std::vector<float>& window = outputs->at(1).data;  // left, top, right, bottom, input px
+    if (!(window[2] - window[0] >= 1 && window[3] - window[1] >= 1))
+      return Fail(ErrorCode::kInvalid, "the second network answers for less than a pixel",
+                  card_.decoder.file);
     ModelCard::Input grid;
     grid.width = static_cast<int>(drawn.shape[3]);
     grid.height = static_cast<int>(drawn.shape[2]);
