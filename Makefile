@@ -10,6 +10,7 @@ BUILD := build/$(PRESET)
 DEMO ?= 1
 PERCEPTION ?= oracle
 SECONDS ?= 60
+SUITE ?= crossnav-mfmon-1-mini
 TARGET ?=
 # One compiler per core, as far as 1.5 GB of free memory each goes.
 JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
@@ -17,12 +18,12 @@ JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)
 SOURCES := $(shell find crossnav apps tests benchmarks python -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-.PHONY: help setup demo test test-long bench networks wheel format lint asan tsan fuzz docs clean \
+.PHONY: help setup demo test test-long bench networks results wheel format lint asan tsan fuzz docs clean \
   program everything
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' Makefile
-	@echo "  Settings: DEMO=1|2  PERCEPTION=oracle|networks  PRESET=release|dev|ci  JOBS=$(JOBS)"
+	@echo "  Settings: DEMO=1|2  PERCEPTION=oracle|networks  SUITE=$(SUITE)  PRESET=release|dev|ci  JOBS=$(JOBS)"
 	@echo "            FILES='a.cpp b.h' for format and lint (default: all)"
 
 setup:  ## install what the build needs (asks for sudo only when something is missing)
@@ -53,6 +54,9 @@ bench:  ## timings of the kernels and of the whole step (see BENCHMARKS.md)
 	@for program in $$(find build/bench/benchmarks -maxdepth 1 -type f -executable | sort); do \
 	  "$$program"; done
 	@build/bench/apps/crossnav/crossnav bench
+
+results: program  ## a suite in every variant, into docs/results.md (the full one: days)
+	@CROSSNAV=$(BUILD)/apps/crossnav/crossnav scripts/results.py $(SUITE) --jobs $(JOBS)
 
 networks: program  ## render frames, train, export and evaluate the networks (hours on a CPU)
 	@networks/make.sh

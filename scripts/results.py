@@ -40,7 +40,13 @@ def table(title: str, names: tuple, rows: list) -> list:
     return [f"| {title} | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|", *rows, ""]
 
 
-def page(suite: str, options: list, runs: dict, comparisons: list) -> str:
+def head() -> str:
+    done = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"],
+                          stdout=subprocess.PIPE, text=True, check=False)
+    return done.stdout.strip() or "no commit"
+
+
+def page(suite: str, options: list, runs: dict, comparisons: list, commit: str) -> str:
     any_run = next(iter(runs.values()))
     required = any_run["groups"]["cfr"]["episodes"]
     command = " ".join(["scripts/results.py", suite, *options])
@@ -48,7 +54,7 @@ def page(suite: str, options: list, runs: dict, comparisons: list) -> str:
         "# Results", "",
         f"The suite `{suite}`: {any_run['episodes']} episodes of {any_run['goals']} goals, "
         f"{required} of which require a floor change. Values in percent, with 95 % intervals by "
-        "bootstrap over episodes. Ground-truth perception. Written by", "",
+        f"bootstrap over episodes. Ground-truth perception. Measured at `{commit}`, written by", "",
         f"```\n{command}\n```", ""]
     if any_run["episodes"] < 100:
         lines += ["Fewer than a hundred episodes are an anecdote: read the intervals.", ""]
@@ -75,6 +81,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("suite")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--commit", default=head(), help="which CROSSNAV is of, if not HEAD")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results.md")
     args, options = parser.parse_known_args()
     place = Path("out/suites") / args.suite
@@ -89,7 +96,7 @@ def main() -> None:
         found = json.loads(crossnav("report", str(folder), str(place / "runs/full"), "--out",
                                     str(place / "compared" / variant), "--json", "--quiet"))
         comparisons += found["comparisons"]
-    args.out.write_text(page(args.suite, options, runs, comparisons), encoding="utf-8")
+    args.out.write_text(page(args.suite, options, runs, comparisons, args.commit), encoding="utf-8")
     print(args.out)
 
 
