@@ -98,8 +98,10 @@ trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_
   trace::CandidateTrace t;
   t.kind = NameOf(candidate.kind);
   t.p_focus_world = candidate.p_focus_world;
-  if (!candidate.standing.empty())
-    t.p_nav_world = CenterOf(candidate.standing[candidate.standing.size() / 2], voxel_m);
+  // What is claimed has no place to go to any more.
+  t.p_nav_world = candidate.standing.empty()
+                      ? candidate.p_focus_world
+                      : CenterOf(candidate.standing[candidate.standing.size() / 2], voxel_m);
   t.score = candidate.score;
   t.size = candidate.size;
   return t;

@@ -250,5 +250,19 @@ TEST(Agent, MovesOnlyThroughFreeSpace) {
   EXPECT_LE(10 * bumps, forward);
 }
 
+TEST(Agent, WhatIsClaimedIsShownWhereItIs) {
+  Agent agent(SmallConfig(), FakeSuite(CouchSight()));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  BoxWalker walker = TwoRooms();
+  const Walk walk = RunAgent(agent, walker, 300);
+  ASSERT_EQ(walk.last_action, Action::kStop);
+  const auto last = trace::StepTraceFromJson(walk.traces.back());
+  ASSERT_TRUE(last.has_value());
+  const auto target = std::find_if(last->candidates.begin(), last->candidates.end(),
+                                   [](const trace::CandidateTrace& c) { return c.is_target; });
+  ASSERT_NE(target, last->candidates.end());
+  EXPECT_LT(kCouch.HorizontalDistance(target->p_nav_world), 0.5);
+}
+
 }  // namespace
 }  // namespace crossnav::agent
