@@ -11,6 +11,7 @@
 #include "crossnav/policy/flights.h"
 #include "crossnav/policy/ground_frontiers.h"
 #include "crossnav/policy/stair_geometry.h"
+#include "crossnav/policy/whereabouts.h"
 
 namespace crossnav::agent {
 
@@ -27,34 +28,73 @@ constexpr double kSplitLevel_m = 1.0;  // chosen: flat ground this near in heigh
 /// The classes of one sweep and the best target so far.
 class Sweep {
  public:
-  Sweep(const Situation& now, const VoxelKey& start, std::vector<Candidate>* shown)
+  Sweep(Situation& now, const VoxelKey& start, std::vector<Candidate>* shown)
       : now_(now),
         config_(now.config.policy.explore),
         voxel_m_(now.config.map.voxel_m),
         search_(now.world.ground, now.config.planner, start, RulesOf(now)),
-        shown_(shown) {}
+        shown_(shown),
+        likelier_above_m_(config_.storey_bit_m * policy::UpperStoreyBits(now.goal.goal)) {}
 
   std::optional<GroundTarget> Run() {
     while (const auto key = search_.Next()) {
       const double cost_m = search_.cost() * voxel_m_;
       // A hook may prefer what is far.
-      if (!now_.hooks && best_ && cost_m - config_.commit_m >= best_->score_m) break;
+      if (!now_.hooks && cost_m + LeastClass() >= best_score_m_) break;
       Visit(*key);
     }
-    return now_.hooks ? AskHooks() : std::move(best_);
+    PriceFlightsOn();
+    for (const Offered& offered : all_) shown_->push_back(offered.target.candidate);
+    return now_.hooks ? AskHooks() : Best();
   }
 
  private:
+  struct Offered {
+    GroundTarget target;
+    double rise_m = 0;    ///< over the level
+    double spared_m = 0;  ///< by the commitment
+    bool is_flight = false;
+  };
+
+  std::optional<GroundTarget> Best() {
+    const auto best = std::min_element(
+        all_.begin(), all_.end(),
+        [](const Offered& a, const Offered& b) { return a.target.score_m < b.target.score_m; });
+    if (best == all_.end()) return std::nullopt;
+    return std::move(best->target);
+  }
+
+  /// A flight that goes on past a floor which was not looked at yet leads one storey further than
+  /// that floor, however near its next tread is.
+  void PriceFlightsOn() {
+    for (Offered& flight : all_) {
+      if (!flight.is_flight) continue;
+      const bool is_past = std::any_of(all_.begin(), all_.end(), [&](const Offered& floor) {
+        return !floor.is_flight && std::abs(floor.rise_m) >= config_.storey_m &&
+               floor.rise_m * flight.rise_m > 0 &&
+               std::abs(floor.rise_m) < std::abs(flight.rise_m) - voxel_m_;
+      });
+      if (!is_past) continue;
+      flight.target.score_m += config_.elsewhere_m + flight.spared_m;
+      flight.target.candidate.score = -flight.target.score_m;
+    }
+  }
+
+  /// What the class and the commitment take from the way at most.
+  double LeastClass() const {
+    return std::min(0.0, config_.elsewhere_m - std::abs(likelier_above_m_)) - config_.commit_m;
+  }
+
   std::optional<GroundTarget> AskHooks() {
     std::vector<ExplorationOption> options;
-    for (const GroundTarget& target : all_)
-      options.push_back({target.candidate, target.cost_m, target.score_m});
+    for (const Offered& offered : all_)
+      options.push_back({offered.target.candidate, offered.target.cost_m, offered.target.score_m});
     if (options.empty()) return std::nullopt;
     const std::vector<double> scores = now_.hooks->ScoreExploration(now_, options);
     CROSSNAV_CHECK(scores.size() == all_.size(), "a hook answers with one score for each option");
     const auto least = std::min_element(scores.begin(), scores.end());
     if (!(*least < std::numeric_limits<double>::infinity())) return std::nullopt;
-    return std::move(all_[static_cast<std::size_t>(least - scores.begin())]);
+    return std::move(all_[static_cast<std::size_t>(least - scores.begin())].target);
   }
 
   void Visit(const VoxelKey& key) {
@@ -79,24 +119,82 @@ class Sweep {
     candidate.kind = is_local ? CandidateKind::kTraversableFrontier : CandidateKind::kStairFrontier;
     const double level_m = is_local ? 0 : config_.elsewhere_m;
     if (LeadsToStorey(key)) {
-      Offer(std::move(candidate), key, level_m);
+      Offer(std::move(candidate), key, OfFlight(key), 1, IsBesideStep(key));
       return;
     }
+    // The first tread of a flight may border on unseen ground of the level: it counts for itself.
+    for (const VoxelKey& member : candidate.standing)
+      if (LeadsToStorey(member)) clustered_.erase(member);
     const bool is_crumb = candidate.size < config_.min_cluster;
     Offer(std::move(candidate), key, level_m + (is_crumb ? config_.crumb_m : 0),
           policy::FrontierWorth(now_.world.ground, key, now_.goal.resemblance, config_));
   }
 
   /// On a flight that was not walked yet, the next tread stands for a storey: stair evidence names
-  /// flights, and nothing else is that far from every level.
+  /// flights, nothing that one steps down to from a floor is furniture, and nothing else is that
+  /// far from every level.
   bool LeadsToStorey(const VoxelKey& key) const {
     const Vector3d p_world = CenterOf(key, voxel_m_);
     for (const geometry::StairFlight& flight : now_.world.flights)
       if (policy::IsBeside(flight, p_world)) return false;
     if (policy::EvidenceShare({p_world}, now_.world.stairs, voxel_m_) > 0) return true;
+    if (RiseOf(key) < -1.5 * voxel_m_ && IsLowest(p_world.z())) return true;
     return std::all_of(now_.world.levels_m.begin(), now_.world.levels_m.end(), [&](double level_m) {
       return std::abs(p_world.z() - level_m) >= config_.furniture_m;
     });
+  }
+
+  /// What a flight costs that leads to where the goal is likelier, or less likely, to be. Of a
+  /// storey that is not the lowest only the way down says anything.
+  double OfFlight(const VoxelKey& tread) {
+    const double rise_m = RiseOf(tread);
+    if (std::abs(rise_m) < voxel_m_) return 0;  // its first edge: where it leads was not seen
+    const bool is_up = rise_m > 0;
+    NoteWayOff(is_up);
+    if (is_up && HasWayDown()) return config_.elsewhere_m;
+    return config_.elsewhere_m + (is_up ? -likelier_above_m_ : likelier_above_m_);
+  }
+
+  /// Two steps, or one of double height, as near as on a flight and not on a floor.
+  bool IsBesideStep(const VoxelKey& key) const {
+    constexpr int kTread_vox = 3, kRiser_vox = 2;  // chosen: depth and height of a tread
+    const auto& ground = now_.world.ground;
+    for (int dx = -kTread_vox; dx <= kTread_vox; ++dx)
+      for (int dy = -kTread_vox; dy <= kTread_vox; ++dy) {
+        const auto z = ground.StandingNear(key.x + dx, key.y + dy, key.z, ground.climb());
+        if (z && std::abs(*z - key.z) >= kRiser_vox) return true;
+      }
+    return false;
+  }
+
+  /// Of a foot over the level [m].
+  double RiseOf(const VoxelKey& key) const {
+    return CenterOf(key, voxel_m_).z() - 0.5 * voxel_m_ - now_.world.level_m;
+  }
+
+  /// Below every level that was stood on.
+  bool IsLowest(double z_m) const {
+    return std::all_of(now_.world.levels_m.begin(), now_.world.levels_m.end(),
+                       [&](double level_m) { return z_m < level_m; });
+  }
+
+  bool IsOfLevel(double z_m) const { return std::abs(z_m - now_.world.level_m) < kSplitLevel_m; }
+
+  void NoteWayOff(bool is_up) {
+    auto& ways = now_.world.ways_off_level;
+    if (std::none_of(ways.begin(), ways.end(), [&](const WayOffLevel& way) {
+          return way.is_up == is_up && IsOfLevel(way.level_m);
+        }))
+      ways.push_back({now_.world.level_m, is_up});
+  }
+
+  bool HasWayDown() const {
+    const auto& world = now_.world;
+    return std::any_of(world.levels_m.begin(), world.levels_m.end(),
+                       [&](double m) { return m < world.level_m - config_.storey_m; }) ||
+           std::any_of(
+               world.ways_off_level.begin(), world.ways_off_level.end(),
+               [&](const WayOffLevel& way) { return !way.is_up && IsOfLevel(way.level_m); });
   }
 
   void OfferUninspected(const VoxelKey& key) {
@@ -170,8 +268,10 @@ class Sweep {
            now_.config.action.forward_m;
   }
 
-  void Offer(Candidate candidate, const VoxelKey& key, double class_m, double worth = 1) {
-    GroundTarget target;
+  void Offer(Candidate candidate, const VoxelKey& key, double class_m, double worth = 1,
+             bool is_flight = false) {
+    Offered offered;
+    GroundTarget& target = offered.target;
     target.path = search_.PathTo(key);
     target.cost_m = search_.cost() * voxel_m_ + SettingOut(target.path);
     target.score_m = (target.cost_m + config_.start_m) / worth + class_m + TurningBack(candidate);
@@ -182,27 +282,28 @@ class Sweep {
     if (is_moving && activity.candidate.kind == candidate.kind &&
         (activity.candidate.p_focus_world - candidate.p_focus_world).norm() <
             2 * config_.same_place_m)
-      target.score_m -= config_.commit_m + class_m;
+      offered.spared_m = config_.commit_m + class_m;
+    target.score_m -= offered.spared_m;
     candidate.score = -target.score_m;
-    shown_->push_back(candidate);
     target.candidate = std::move(candidate);
-    if (now_.hooks) {
-      all_.push_back(std::move(target));
-    } else if (!best_ || target.score_m < best_->score_m) {
-      best_ = std::move(target);
-    }
+    offered.rise_m = RiseOf(key);
+    offered.is_flight = is_flight;
+    const double surcharge_m = is_flight ? config_.elsewhere_m + offered.spared_m : 0;
+    best_score_m_ = std::min(best_score_m_, target.score_m + surcharge_m);
+    all_.push_back(std::move(offered));
   }
 
-  const Situation& now_;
+  Situation& now_;
   const policy::ExploreConfig& config_;
   double voxel_m_;
   GroundSearch search_;
   std::vector<Candidate>* shown_;
+  double likelier_above_m_;  // what the goal's odds of an upper storey are worth; negative: below
   std::set<VoxelKey> clustered_;
   std::set<int> offered_;           // sightings
   std::set<VoxelKey> uninspected_;  // coarse cells that were offered
-  std::optional<GroundTarget> best_;
-  std::vector<GroundTarget> all_;  // with hooks
+  double best_score_m_ = std::numeric_limits<double>::infinity();
+  std::vector<Offered> all_;
 };
 
 }  // namespace

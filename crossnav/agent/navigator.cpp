@@ -301,6 +301,7 @@ void ChooseActivity(Situation& now, Decision& decision) {
   }
   if (activity.kind == ActivityKind::kVisit) End(now, Ending::kUnreachable);
   if (GoNearer(now, *start)) return;
+  if (IsOnLevel(now, now.agent.p_world) && QueueGlance(now, *start)) return;
   Explore(now, *start, decision);
 }
 
@@ -350,6 +351,7 @@ Decision Navigate(Situation& now) {
   Decision decision;
   NoteBump(now);
   NoteLevel(now);
+  now.world.looked_along.Add(now.agent, DegToRad(now.config.sensor.hfov_deg));
   MeasureProgress(now);
   if (!Prove(now, decision)) {
     bool is_at_loss = false;

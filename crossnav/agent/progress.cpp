@@ -54,6 +54,21 @@ void QueueLookAround(Situation& now) {
   now.world.looked_around_m.push_back(now.agent.p_world.z());
 }
 
+bool QueueGlance(Situation& now, const VoxelKey& start) {
+  const auto heading_rad = policy::GlanceHeading(now.world.ground, start, now.agent,
+                                                 DegToRad(now.config.sensor.hfov_deg),
+                                                 now.world.looked_along, now.config.policy.explore);
+  if (!heading_rad) return false;
+  const double off_rad = WrapAngle(*heading_rad - now.agent.yaw_rad);
+  const auto turns = std::lround(std::abs(off_rad) / DegToRad(now.config.action.turn_deg));
+  if (turns == 0) return false;
+  now.goal.script.insert(now.goal.script.end(), static_cast<std::size_t>(turns),
+                         off_rad > 0 ? Action::kTurnLeft : Action::kTurnRight);
+  now.goal.activity.motion.clear();
+  now.goal.events.push_back("a glance at unseen ground");
+  return true;
+}
+
 void NoteLevel(Situation& now) {
   World& world = now.world;
   const double z_m = now.agent.p_world.z();

@@ -20,6 +20,10 @@ void NoteLevel(Situation& now);
 /// A turn on the spot, with the camera down at the ground.
 void QueueLookAround(Situation& now);
 
+/// Turns towards much unseen ground in sight that was not looked at from here. False if there is
+/// none.
+bool QueueGlance(Situation& now, const geometry::VoxelKey& start);
+
 /// Length of the way from the agent along `path` [m].
 double RemainingOf(const Situation& now, const std::vector<geometry::VoxelKey>& path);
 /// Ground distance to the end of the activity's way [m].

@@ -87,6 +87,9 @@ struct ExploreConfig {
   int progress_steps = 24;       // chosen: a turn around, twice
   int max_choices = 6;           // chosen: a target chosen so often and never reached is given up
   double same_place_m = 0.5;     // chosen: half the width of a door
+  double glance_m2 = 3;          // chosen: unseen ground that is worth a turn to the side
+  double glance_range_m = 4;     // chosen: of it that counts
+  double storey_bit_m = 25;      // chosen: way that twice the odds of a storey are worth
   double furniture_m = 1.1;      // chosen: nothing that is climbed by mistake is higher
   double storey_m = 1.8;         // chosen: more than a landing, less than a floor
 };
@@ -182,6 +185,9 @@ void Visit(V& visit, ExploreConfig& c) {
   visit("progress_steps", c.progress_steps, 1, 100000);
   visit("max_choices", c.max_choices, 1, 100000);
   visit("same_place_m", c.same_place_m, 0.0, 100.0);
+  visit("glance_m2", c.glance_m2, 0.0, 100000.0);
+  visit("glance_range_m", c.glance_range_m, 0.0, 100.0);
+  visit("storey_bit_m", c.storey_bit_m, 0.0, 1000.0);
   visit("furniture_m", c.furniture_m, 0.0, 100.0);
   visit("storey_m", c.storey_m, 0.1, 100.0);
 }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Which of the places to look next comes first, on ground that was set by hand.
+#include "crossnav/agent/explore.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/map_of_states.h"
+
+namespace crossnav::agent {
+namespace {
+
+using geometry::VoxelKey;
+using geometry::VoxelMap;
+using geometry::VoxelState;
+using test::AddGround;
+using test::SetState;
+
+constexpr int kSide = 30;      // columns of the room
+constexpr int kHead_vox = 20;  // walls
+const VoxelKey kStart{15, 15, 1};
+
+void Wall(VoxelMap& map, int x, int y) {
+  for (int z = -40; z <= kHead_vox; ++z) SetState(map, {x, y, z}, VoxelState::kOccupied);
+}
+
+/// A room with walls; the columns [12, 18) of the sides x = 30 and x = -1 are open.
+VoxelMap Room() {
+  VoxelMap map;
+  AddGround(map, 0, 0, kSide, kSide, 0);
+  for (int i = -1; i <= kSide; ++i) {
+    const bool is_open = i >= 12 && i < 18;
+    for (const int edge : {-1, kSide}) {
+      Wall(map, i, edge);
+      if (!is_open) Wall(map, edge, i);
+    }
+  }
+  return map;
+}
+
+/// Treads of two columns from x = 30 on, `rise_vox` each, between walls.
+void AddTreads(VoxelMap& map, int count, int rise_vox) {
+  for (int tread = 0; tread < count; ++tread) {
+    const int x = kSide + 2 * tread;
+    AddGround(map, x, 12, x + 2, 18, (tread + 1) * rise_vox);
+    for (const int y : {11, 18})
+      for (const int dx : {0, 1}) Wall(map, x + dx, y);
+  }
+}
+
+struct Choice {
+  GroundTarget target;
+  bool is_flight = false;
+};
+
+Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart) {
+  Config config;
+  config.policy.explore.uninspected_m = 1000;  // all of it was seen from near
+  World world(config);
+  map.ForEach([&](const VoxelKey& key, const geometry::Voxel& voxel) {
+    SetState(world.map, key, voxel.state);
+  });
+  world.ground.Rebuild(world.map);
+  world.has_level = true;
+  world.levels_m = {0.1};
+  world.level_m = 0.1;
+  GoalState goal;
+  goal.goal = goal_name;
+  AgentPose agent;
+  agent.p_world = CenterOf(start, config.map.voxel_m) - Vector3d(0, 0, 0.05);
+  const Observation obs;
+  const std::vector<policy::Sighting> sightings;
+  Situation now{config, world, goal, agent, obs, sightings};
+  std::vector<policy::Candidate> shown;
+  auto target = ChooseExploration(now, start, &shown);
+  if (!target) {
+    ADD_FAILURE() << "nothing to look at";
+    return {};
+  }
+  const bool is_flight = target->candidate.p_focus_world.x() > 0.1 * kSide;
+  return {std::move(*target), is_flight};
+}
+
+// A door on one side, a flight up on the other, as far away: where the goal is likelier decides.
+TEST(Explore, AFlightUpComesFirstForABedAndLastForASofa) {
+  VoxelMap map = Room();
+  AddTreads(map, 6, 2);
+  EXPECT_TRUE(Choose(map, "bed").is_flight);
+  EXPECT_FALSE(Choose(map, "sofa").is_flight);
+  EXPECT_FALSE(Choose(map, "chair").is_flight);
+}
+
+TEST(Explore, AFlightDownComesFirstForASofaAndLastForABed) {
+  VoxelMap map = Room();
+  AddTreads(map, 2, -2);
+  EXPECT_TRUE(Choose(map, "sofa").is_flight);
+  EXPECT_FALSE(Choose(map, "bed").is_flight);
+  EXPECT_FALSE(Choose(map, "chair").is_flight);
+}
+
+// Two treads bordering on a few unseen columns were worth a tenth of their way, like what is left
+// behind a bed, and the flight came after everything else on two floors.
+TEST(Explore, TheFirstTreadsDownAreAWayToAStorey) {
+  VoxelMap map = Room();
+  AddTreads(map, 2, -2);
+  for (int y = 11; y <= 18; ++y) Wall(map, kSide + 6, y);  // little unseen ground beyond
+  for (int y = 12; y < 18; ++y) Wall(map, -1, y);          // no door
+  const Choice choice = Choose(map, "chair");
+  EXPECT_TRUE(choice.is_flight);
+  EXPECT_LT(choice.target.score_m, choice.target.cost_m + 15);
+}
+
+// The next tread is always the nearest: the agent went from the third floor to the ground past two
+// floors that it had not looked at.
+TEST(Explore, AFloorOnTheWayDownComesBeforeTheFlightGoesOn) {
+  VoxelMap map = Room();
+  AddTreads(map, 10, -3);
+  for (int y = 12; y < 18; ++y) Wall(map, -1, y);  // no door
+  constexpr int kFloor = -30, kWest = kSide + 20, kEast = kWest + 36;
+  AddGround(map, kWest, 12, kEast, 18, kFloor);
+  AddGround(map, kWest, 18, kWest + 4, 20, kFloor - 3);  // it goes on here
+  for (int z = kFloor - 6; z <= kFloor + 16; ++z) {
+    for (int x = kWest; x < kEast; ++x) {
+      SetState(map, {x, 11, z}, VoxelState::kOccupied);
+      if (x >= kWest + 4) SetState(map, {x, 18, z}, VoxelState::kOccupied);
+    }
+    for (const int y : {18, 19}) {
+      SetState(map, {kWest - 1, y, z}, VoxelState::kOccupied);
+      SetState(map, {kWest + 4, y, z}, VoxelState::kOccupied);
+    }
+  }
+  const Choice choice = Choose(map, "chair", {kWest + 3, 15, kFloor + 1});
+  EXPECT_NEAR(choice.target.candidate.p_focus_world.x(), 0.1 * kEast, 0.2)
+      << choice.target.candidate.p_focus_world.transpose();
+}
+
+}  // namespace
+}  // namespace crossnav::agent
