@@ -22,7 +22,7 @@
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/sim/ray_caster.h"
 #include "crossnav/sim/scene.h"
-#include "crossnav/world/embedded_house.h"
+#include "crossnav/world/house/embedded_house.h"
 #endif
 
 namespace {

@@ -21,7 +21,7 @@
 #include "crossnav/sim/ray_caster.h"
 #include "crossnav/sim/scene.h"
 #include "crossnav/sim/simulator.h"
-#include "crossnav/world/embedded_house.h"
+#include "crossnav/world/house/embedded_house.h"
 
 namespace {
 

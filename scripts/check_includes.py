@@ -34,6 +34,22 @@ ROOMS = {
     "bench": _AGENT | {"networks", "serve", "sim", "world", "homes", "store"},
 }
 
+# Rooms whose files lie in folders: what each folder may include of its own room besides itself.
+FOLDERS = {
+    "world": {
+        "mesh": set(),
+        "scene": set(),
+        "models": {"mesh"},
+        "plan": {"mesh"},
+        "stairs": {"mesh", "plan"},
+        "layout": {"mesh", "plan", "stairs"},
+        "surface": {"mesh", "plan"},
+        "furniture": {"mesh", "models", "plan", "scene", "surface"},
+        "shell": {"mesh", "plan", "surface"},
+        "house": {"furniture", "layout", "mesh", "plan", "scene", "shell", "stairs", "surface"},
+    },
+}
+
 # Third-party headers that any file may include: they are part of our own vocabulary.
 COMMON = re.compile(r"^(Eigen/|fmt/|gtest/|gmock/|benchmark/)")
 
@@ -42,7 +58,7 @@ COMMON = re.compile(r"^(Eigen/|fmt/|gtest/|gmock/|benchmark/)")
 ADAPTERS = {
     "tl-expected": (r"^tl/", ["crossnav/core/result.h"]),
     "Embree": (r"^embree[34]/", ["crossnav/sim/embree_shim.h"]),
-    "meshoptimizer": (r"^meshoptimizer", ["crossnav/world/simplify.cpp"]),
+    "meshoptimizer": (r"^meshoptimizer", ["crossnav/world/mesh/simplify.cpp"]),
     "tinygltf": (r"^tiny_gltf", ["crossnav/sim/gltf_accessor.h"]),
     "Recast and Detour": (r"^recastnavigation/", ["crossnav/sim/navmesh*",
                                                   "crossnav/sim/walk_graph.cpp"]),
@@ -51,15 +67,15 @@ ADAPTERS = {
     "libjpeg": (r"^jpeglib", ["crossnav/sim/image_codec.cpp", "crossnav/trace/preview.cpp"]),
     "libpng": (r"^png", ["crossnav/recordings/depth_image.cpp",
                          "crossnav/sim/image_codec.cpp", "crossnav/sim/picture.cpp",
-                         "crossnav/trace/preview.cpp", "crossnav/world/png_writer.cpp"]),
+                         "crossnav/trace/preview.cpp", "crossnav/world/scene/png_writer.cpp"]),
     "xxHash": (r"^xxhash", ["crossnav/sim/scene.cpp", "crossnav/sim/navmesh*.cpp",
-                            "crossnav/store/*.cpp", "crossnav/world/furniture_pack.cpp",
+                            "crossnav/store/*.cpp", "crossnav/world/furniture/furniture_pack.cpp",
                             "crossnav/networks/crossnav_network.cpp"]),
     "Protobuf": (r"^google/protobuf/", ["crossnav/serve/messages.cpp"]),
     "OpenVINO": (r"^openvino/", ["crossnav/networks/openvino_backend.cpp"]),
     "zlib": (r"^zlib", ["crossnav/bench/gzip_file.cpp", "crossnav/trace/mcap_writer.cpp",
-                        "crossnav/trace/replay_page.cpp", "crossnav/world/furniture_pack.cpp",
-                        "crossnav/world/zip_reader.cpp"]),
+                        "crossnav/trace/replay_page.cpp", "crossnav/world/furniture/furniture_pack.cpp",
+                        "crossnav/world/models/zip_reader.cpp"]),
     "zstd": (r"^zstd", ["crossnav/trace/mcap_*.cpp", "crossnav/store/*.cpp"]),
     "SQLite": (r"^sqlite3", ["crossnav/store/*"]),
     "simdjson": (r"^simdjson", ["crossnav/bench/episode_reader.cpp",
@@ -71,9 +87,9 @@ ADAPTERS = {
                                       "crossnav/bench/result_json.cpp",
                                       "crossnav/bench/suite.cpp",
                                       "crossnav/homes/objects_file.cpp",
-                                      "crossnav/world/furniture_pack.cpp",
-                                      "crossnav/world/glb_writer.cpp",
-                                      "crossnav/world/house_file.cpp", "apps/crossnav/*.cpp"]),
+                                      "crossnav/world/furniture/furniture_pack.cpp",
+                                      "crossnav/world/scene/glb_writer.cpp",
+                                      "crossnav/world/house/house_file.cpp", "apps/crossnav/*.cpp"]),
     "pugixml": (r"^pugixml", ["crossnav/homes/home_xml.cpp"]),
     "Assimp": (r"^assimp/", ["crossnav/homes/assimp_reader.cpp"]),
     "toml++": (r"^toml", ["crossnav/bench/config_file.cpp",
@@ -110,6 +126,24 @@ def check_room_include(room, name):
     return None
 
 
+def check_folder(room, relative):
+    """The problem with where a file of a room lies, or None."""
+    parts = relative.split("/")
+    if room in FOLDERS and (len(parts) < 4 or parts[2] not in FOLDERS[room]):
+        return f"{relative}: {room} has the folders {', '.join(sorted(FOLDERS[room]))}"
+    return None
+
+
+def check_folder_include(relative, name):
+    """The problem with including one of our headers across the folders of a room, or None."""
+    own, other = relative.split("/"), name.split("/")
+    if own[1] != other[1] or own[1] not in FOLDERS or own[2] == other[2]:
+        return None
+    if other[2] not in FOLDERS[own[1]].get(own[2], set()):
+        return f"{own[1]}/{own[2]} may not include {own[1]}/{other[2]} ({name})"
+    return None
+
+
 def check_third_party(relative, name):
     """The problem with a third-party include, or None."""
     if COMMON.match(name) or SYSTEM.match(name):
@@ -141,11 +175,13 @@ def check_cmake_deps(path, room):
 def check_file(root, path, room):
     """Problems of one file; `room` is None for the program, which may include every room."""
     relative = path.relative_to(root).as_posix()
+    if misplaced := check_folder(room, relative):
+        yield misplaced
     for number, name, is_ours in included(path):
         if not is_ours:
             problem = check_third_party(relative, name)
         elif room and name.startswith(("crossnav/", "apps/")):
-            problem = check_room_include(room, name)
+            problem = check_room_include(room, name) or check_folder_include(relative, name)
         else:
             problem = None  # a generated header
         if problem:

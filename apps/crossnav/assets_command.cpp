@@ -7,8 +7,8 @@
 
 #include "commands.h"
 #include "crossnav/bench/output_path.h"
-#include "crossnav/world/furniture_import.h"
-#include "crossnav/world/furniture_pack.h"
+#include "crossnav/world/furniture/furniture_import.h"
+#include "crossnav/world/furniture/furniture_pack.h"
 
 namespace crossnav::app {
 namespace {

@@ -12,8 +12,8 @@
 #include "console.h"
 #include "crossnav/bench/run_config.h"
 #include "crossnav/core/result.h"
-#include "crossnav/world/furniture_pack.h"
-#include "crossnav/world/house_params.h"
+#include "crossnav/world/furniture/furniture_pack.h"
+#include "crossnav/world/layout/house_params.h"
 
 namespace crossnav::app {
 

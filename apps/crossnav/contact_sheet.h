@@ -8,7 +8,7 @@
 
 #include "crossnav/core/image.h"
 #include "crossnav/core/result.h"
-#include "crossnav/world/house_generator.h"
+#include "crossnav/world/house/house_generator.h"
 
 namespace crossnav::app {
 

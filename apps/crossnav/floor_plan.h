@@ -4,7 +4,7 @@
 #pragma once
 
 #include "crossnav/sim/picture.h"
-#include "crossnav/world/house_file.h"
+#include "crossnav/world/house/house_file.h"
 
 namespace crossnav::app {
 

@@ -3,7 +3,7 @@
 
 #include "crossnav/bench/episode_generator.h"
 #include "crossnav/bench/output_path.h"
-#include "crossnav/world/embedded_house.h"
+#include "crossnav/world/house/embedded_house.h"
 #include "play.h"
 
 namespace crossnav::app {

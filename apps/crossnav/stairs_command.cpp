@@ -12,8 +12,8 @@
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/stair_trials.h"
 #include "crossnav/bench/timing.h"
-#include "crossnav/world/architecture.h"
-#include "crossnav/world/scene_writer.h"
+#include "crossnav/world/scene/scene_writer.h"
+#include "crossnav/world/shell/architecture.h"
 
 namespace crossnav::app {
 namespace {

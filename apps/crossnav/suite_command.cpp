@@ -9,7 +9,7 @@
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/suite.h"
 #include "crossnav/bench/worker_pool.h"
-#include "crossnav/world/house_generator.h"
+#include "crossnav/world/house/house_generator.h"
 #include "session.h"
 
 namespace crossnav::app {

@@ -6,8 +6,8 @@
 #include "commands.h"
 #include "contact_sheet.h"
 #include "crossnav/bench/output_path.h"
-#include "crossnav/world/embedded_house.h"
-#include "crossnav/world/house_generator.h"
+#include "crossnav/world/house/embedded_house.h"
+#include "crossnav/world/house/house_generator.h"
 
 namespace crossnav::app {
 namespace {

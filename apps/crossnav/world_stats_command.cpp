@@ -9,7 +9,7 @@
 
 #include "commands.h"
 #include "crossnav/bench/timing.h"
-#include "crossnav/world/house_generator.h"
+#include "crossnav/world/house/house_generator.h"
 
 namespace crossnav::app {
 namespace {

@@ -7,8 +7,8 @@
 #include "crossnav/bench/trial_worlds.h"
 #include "crossnav/core/check.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/world/furniture.h"
-#include "crossnav/world/plan_walls.h"
+#include "crossnav/world/furniture/furniture.h"
+#include "crossnav/world/plan/plan_walls.h"
 
 namespace crossnav::bench {
 

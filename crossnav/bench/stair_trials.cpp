@@ -7,7 +7,7 @@
 #include "crossnav/core/rng.h"
 #include "crossnav/sim/ground_truth.h"
 #include "crossnav/sim/simulator.h"
-#include "crossnav/world/architecture.h"
+#include "crossnav/world/shell/architecture.h"
 
 namespace crossnav::bench {
 namespace {

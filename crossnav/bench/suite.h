@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "crossnav/bench/episodes.h"
-#include "crossnav/world/house_params.h"
+#include "crossnav/world/layout/house_params.h"
 
 namespace crossnav::bench {
 

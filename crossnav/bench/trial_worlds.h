@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "crossnav/world/plan.h"
-#include "crossnav/world/stairs.h"
+#include "crossnav/world/plan/plan.h"
+#include "crossnav/world/stairs/stairs.h"
 
 namespace crossnav::bench {
 

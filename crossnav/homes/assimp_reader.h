@@ -5,7 +5,7 @@
 #include <string>
 
 #include "crossnav/core/result.h"
-#include "crossnav/world/obj_reader.h"
+#include "crossnav/world/models/obj_reader.h"
 
 namespace crossnav::homes {
 

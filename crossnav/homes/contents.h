@@ -8,7 +8,7 @@
 #include <string>
 
 #include "crossnav/core/result.h"
-#include "crossnav/world/zip_reader.h"
+#include "crossnav/world/models/zip_reader.h"
 
 namespace crossnav::homes {
 

@@ -6,7 +6,7 @@
 
 #include "crossnav/core/read_file.h"
 #include "crossnav/sim/gltf_reader.h"
-#include "crossnav/world/obj_reader.h"
+#include "crossnav/world/models/obj_reader.h"
 
 namespace crossnav::homes {
 namespace fs = std::filesystem;

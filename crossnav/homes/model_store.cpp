@@ -7,7 +7,7 @@
 #include "crossnav/homes/assimp_reader.h"
 #include "crossnav/sim/gltf_reader.h"
 #include "crossnav/sim/image_codec.h"
-#include "crossnav/world/simplify.h"
+#include "crossnav/world/mesh/simplify.h"
 
 namespace crossnav::homes {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "crossnav/homes/contents.h"
-#include "crossnav/world/obj_reader.h"
+#include "crossnav/world/models/obj_reader.h"
 
 namespace crossnav::homes {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "crossnav/homes/home_plan.h"
-#include "crossnav/world/obj_reader.h"
+#include "crossnav/world/models/obj_reader.h"
 
 namespace crossnav::homes {
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "crossnav/sim/scene.h"
-#include "crossnav/world/furniture_classes.h"
+#include "crossnav/world/furniture/furniture_classes.h"
 
 namespace crossnav::homes {
 namespace {

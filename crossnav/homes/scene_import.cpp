@@ -13,7 +13,7 @@
 #include "crossnav/homes/home_builder.h"
 #include "crossnav/homes/home_xml.h"
 #include "crossnav/homes/mesh_scene.h"
-#include "crossnav/world/scene_writer.h"
+#include "crossnav/world/scene/scene_writer.h"
 
 namespace crossnav::homes {
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "crossnav/homes/home_plan.h"
-#include "crossnav/world/scene_builder.h"
+#include "crossnav/world/shell/scene_builder.h"
 
 namespace crossnav::homes {
 

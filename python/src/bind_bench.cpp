@@ -12,9 +12,9 @@
 #include "crossnav/bench/runner.h"
 #include "crossnav/trace/replay_page.h"
 #include "crossnav/trace/trace_json.h"
-#include "crossnav/world/embedded_house.h"
-#include "crossnav/world/furniture_pack.h"
-#include "crossnav/world/house_generator.h"
+#include "crossnav/world/furniture/furniture_pack.h"
+#include "crossnav/world/house/embedded_house.h"
+#include "crossnav/world/house/house_generator.h"
 #include "scene_handle.h"
 
 namespace crossnav::python {

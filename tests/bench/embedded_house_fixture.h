@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "crossnav/bench/scene_context.h"
-#include "crossnav/world/embedded_house.h"
+#include "crossnav/world/house/embedded_house.h"
 #include "support/temp_folder.h"
 
 namespace crossnav::bench::test {

@@ -9,7 +9,7 @@
 #include "bench/embedded_house_fixture.h"
 #include "crossnav/bench/metrics.h"
 #include "crossnav/bench/result_records.h"
-#include "crossnav/world/architecture.h"
+#include "crossnav/world/shell/architecture.h"
 
 namespace crossnav::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/house_file.h"
+#include "crossnav/world/house/house_file.h"
 #include "fuzz/harness.h"
 
 FUZZ(house, input) {

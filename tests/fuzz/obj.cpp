@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/obj_reader.h"
+#include "crossnav/world/models/obj_reader.h"
 #include "fuzz/harness.h"
 
 // What stands behind the first zero byte is the MTL and the picture that it names.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/furniture_pack.h"
+#include "crossnav/world/furniture/furniture_pack.h"
 #include "fuzz/harness.h"
 
 FUZZ(pack, input) {

@@ -16,7 +16,7 @@
 #include "crossnav/trace/replay_writer.h"
 #include "crossnav/trace/trace_json.h"
 #include "crossnav/trace/voxel_codec.h"
-#include "crossnav/world/furniture_pack.h"
+#include "crossnav/world/furniture/furniture_pack.h"
 #include "fuzz/plain_mcap.h"
 #include "homes/home_maker.h"
 #include "sim/glb_maker.h"

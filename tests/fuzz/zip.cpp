@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/zip_reader.h"
+#include "crossnav/world/models/zip_reader.h"
 #include "fuzz/harness.h"
 
 FUZZ(zip, input) {

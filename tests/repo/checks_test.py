@@ -47,6 +47,20 @@ class Checks(unittest.TestCase):
                                        SPDX + '#include "crossnav/sim/scene.h"\n'},
                           "agent may not include sim")
 
+    def test_a_folder_of_a_room_including_a_higher_one_is_found(self):
+        self.assert_found("includes", {"crossnav/world/mesh/rect.cpp":
+                                       SPDX + '#include "crossnav/world/house/house_file.h"\n'},
+                          "world/mesh may not include world/house")
+
+    def test_a_folder_of_a_room_including_a_lower_one_passes(self):
+        status, output = self.run_check("includes", {"crossnav/world/house/house_file.cpp":
+                                        SPDX + '#include "crossnav/world/mesh/rect.h"\n'})
+        self.assertEqual(status, 0, output)
+
+    def test_a_loose_file_in_a_room_with_folders_is_found(self):
+        self.assert_found("includes", {"crossnav/world/rect.cpp": SPDX},
+                          "crossnav/world/rect.cpp: world has the folders")
+
     def test_the_agent_linking_the_evaluator_is_found(self):
         self.assert_found("includes", {"crossnav/agent/CMakeLists.txt":
                                        "crossnav_library(agent SOURCES agent.cpp DEPS core bench)\n"},

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/bake_light.h"
+#include "crossnav/world/surface/bake_light.h"
 
 #include <gtest/gtest.h>
 
-#include "crossnav/world/architecture.h"
-#include "crossnav/world/plan_walls.h"
-#include "crossnav/world/subdivide.h"
+#include "crossnav/world/mesh/subdivide.h"
+#include "crossnav/world/plan/plan_walls.h"
+#include "crossnav/world/shell/architecture.h"
 
 namespace crossnav::world {
 namespace {

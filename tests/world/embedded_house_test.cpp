@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/embedded_house.h"
+#include "crossnav/world/house/embedded_house.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "crossnav/sim/simulator.h"
-#include "crossnav/world/architecture.h"
-#include "crossnav/world/glb_writer.h"
+#include "crossnav/world/scene/glb_writer.h"
+#include "crossnav/world/shell/architecture.h"
 #include "oracle_walk.h"
 #include "support/temp_folder.h"
 

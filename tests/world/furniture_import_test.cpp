@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/furniture_import.h"
+#include "crossnav/world/furniture/furniture_import.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "crossnav/world/furniture_pack.h"
-#include "crossnav/world/obj_reader.h"
-#include "crossnav/world/zip_reader.h"
+#include "crossnav/world/furniture/furniture_pack.h"
+#include "crossnav/world/models/obj_reader.h"
+#include "crossnav/world/models/zip_reader.h"
 #include "support/temp_folder.h"
 #include "support/zip_archive.h"
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/house_generator.h"
+#include "crossnav/world/house/house_generator.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "crossnav/sim/navmesh.h"
-#include "crossnav/world/architecture.h"
-#include "crossnav/world/glb_writer.h"
-#include "crossnav/world/groups.h"
-#include "crossnav/world/house_file.h"
-#include "crossnav/world/house_gate.h"
+#include "crossnav/world/furniture/groups.h"
+#include "crossnav/world/house/house_file.h"
+#include "crossnav/world/house/house_gate.h"
+#include "crossnav/world/scene/glb_writer.h"
+#include "crossnav/world/shell/architecture.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "crossnav/sim/simulator.h"
-#include "crossnav/world/architecture.h"
-#include "crossnav/world/house_generator.h"
-#include "crossnav/world/house_plan.h"
+#include "crossnav/world/house/house_generator.h"
+#include "crossnav/world/layout/house_plan.h"
+#include "crossnav/world/shell/architecture.h"
 #include "oracle_walk.h"
 #include "support/temp_folder.h"
 

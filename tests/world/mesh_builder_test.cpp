@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/mesh_builder.h"
+#include "crossnav/world/mesh/mesh_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/pictures.h"
+#include "crossnav/world/surface/pictures.h"
 
 #include <gtest/gtest.h>
 
 #include "crossnav/sim/ray_caster.h"
-#include "crossnav/world/furniture.h"
-#include "crossnav/world/furniture_source.h"
-#include "crossnav/world/glb_writer.h"
-#include "crossnav/world/scene_builder.h"
-#include "crossnav/world/textures.h"
+#include "crossnav/world/furniture/furniture.h"
+#include "crossnav/world/furniture/furniture_source.h"
+#include "crossnav/world/scene/glb_writer.h"
+#include "crossnav/world/shell/scene_builder.h"
+#include "crossnav/world/surface/textures.h"
 
 namespace crossnav::world {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/scan_damage.h"
+#include "crossnav/world/surface/scan_damage.h"
 
 #include <gtest/gtest.h>
 
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/sim/ray_caster.h"
-#include "crossnav/world/architecture.h"
-#include "crossnav/world/embedded_house.h"
-#include "crossnav/world/subdivide.h"
+#include "crossnav/world/house/embedded_house.h"
+#include "crossnav/world/mesh/subdivide.h"
+#include "crossnav/world/shell/architecture.h"
 
 namespace crossnav::world {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/world/scene_writer.h"
+#include "crossnav/world/scene/scene_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <fstream>
 #include <set>
 
-#include "crossnav/world/glb_writer.h"
-#include "crossnav/world/scene_builder.h"
+#include "crossnav/world/scene/glb_writer.h"
+#include "crossnav/world/shell/scene_builder.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 

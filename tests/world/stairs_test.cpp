@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Every kind of stair in a small shaft on a corridor, walked up and down with the simulator's
 // actions on the simulator's own navmesh.
-#include "crossnav/world/stairs.h"
+#include "crossnav/world/stairs/stairs.h"
 
 #include <gtest/gtest.h>
 
 #include "crossnav/sim/simulator.h"
-#include "crossnav/world/architecture.h"
-#include "crossnav/world/plan_walls.h"
-#include "crossnav/world/scene_writer.h"
+#include "crossnav/world/plan/plan_walls.h"
+#include "crossnav/world/scene/scene_writer.h"
+#include "crossnav/world/shell/architecture.h"
 #include "oracle_walk.h"
 #include "support/temp_folder.h"
 

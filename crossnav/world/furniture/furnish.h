@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Furnishes a plan room by room: what a room of its type holds, against walls, in corners, in the
+// middle, on tops and on walls. Keeps doors, their leaves, stairs and walkways free; boxes of
+// furniture do not overlap by more than kOverlapTolerance_m.
+#pragma once
+
+#include "crossnav/core/rng.h"
+#include "crossnav/world/furniture/furniture_source.h"
+#include "crossnav/world/plan/plan.h"
+
+namespace crossnav::world {
+
+inline constexpr double kOverlapTolerance_m = 0.03;  // chosen: handles and rims may touch
+
+void Furnish(HousePlan& plan, const FurnitureSource& source, Rng& rng);
+
+}  // namespace crossnav::world

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Where furniture comes from: an imported pack where there is one, otherwise (and for kinds that
+// the pack lacks) the parametric shapes.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "crossnav/core/rng.h"
+#include "crossnav/world/mesh/object_model.h"
+
+namespace crossnav::world {
+
+class FurniturePack;
+
+struct FurnitureSource {
+  const FurniturePack* pack = nullptr;
+  bool has_pictures = false;  ///< on screens and in frames
+  double pack_share = 0.85;   ///< chosen: mostly real models, some parametric ones for variety
+
+  /// nullopt for an unknown kind. The raw name varies as annotators' names do ("couch", "sofa").
+  std::optional<ObjectModel> Make(std::string_view kind, Rng& rng) const;
+};
+
+}  // namespace crossnav::world

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The quality gate of generated houses: what a house must have before it is written.
+#pragma once
+
+#include "crossnav/core/result.h"
+#include "crossnav/sim/navmesh.h"
+#include "crossnav/world/plan/plan.h"
+
+namespace crossnav::world {
+
+inline constexpr std::uintmax_t kMaxSceneBytes = 40'000'000;
+
+/// Error with the first reason: floors that are not connected, a room that cannot be reached or is
+/// mostly cut off, fewer than five of the six categories, furniture in furniture or in a doorway.
+Result<void> CheckHouse(const HousePlan& plan, const sim::Scene& scene,
+                        const sim::NavMesh& navmesh);
+
+}  // namespace crossnav::world

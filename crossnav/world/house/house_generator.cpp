@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/house/house_generator.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "crossnav/sim/navmesh.h"
+#include "crossnav/world/furniture/furnish.h"
+#include "crossnav/world/furniture/furniture_pack.h"
+#include "crossnav/world/house/house_file.h"
+#include "crossnav/world/house/house_gate.h"
+#include "crossnav/world/layout/house_plan.h"
+#include "crossnav/world/mesh/subdivide.h"
+#include "crossnav/world/scene/glb_writer.h"
+#include "crossnav/world/scene/scene_writer.h"
+#include "crossnav/world/shell/architecture.h"
+#include "crossnav/world/stairs/stairs.h"
+#include "crossnav/world/surface/bake_light.h"
+#include "crossnav/world/surface/scan_damage.h"
+
+namespace crossnav::world {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLitEdge_m = 0.5;    // chosen: fine enough for the shadow of a table
+constexpr double kLitArea_m2 = 0.03;  // chosen: skirtings and frames need no finer light
+
+Result<void> CheckParams(const HouseParams& params) {
+  if (params.floors < 0 || params.floors > 4) {
+    return Fail(ErrorCode::kInvalid, "floors must be 1 to 4, or 0 to draw", "world.floors");
+  }
+  if (params.area_m2 != 0 && !(params.area_m2 >= 60 && params.area_m2 <= 400)) {
+    return Fail(ErrorCode::kInvalid, "area must be 60 to 400 m2, or 0 to draw", "world.area_m2");
+  }
+  if (params.max_attempts < 1) {
+    return Fail(ErrorCode::kInvalid, "at least one attempt", "world.max_attempts");
+  }
+  return {};
+}
+
+/// Floors and area drawn from the seed alone: were they drawn anew for each attempt, the houses
+/// that are easy to draw would crowd out the others.
+HouseParams Settled(HouseParams params) {
+  Rng rng(params.seed, 0);
+  constexpr int kFloors[] = {1, 2, 2, 2, 2, 3, 3, 4};
+  const int floors = kFloors[rng.Below(std::size(kFloors))];
+  const double area_m2 = std::exp(rng.Uniform(std::log(60.0), std::log(240.0)));
+  if (params.floors == 0) params.floors = floors;
+  if (params.area_m2 == 0) params.area_m2 = area_m2;
+  return params;
+}
+
+HouseReport Describe(const HousePlan& plan, const sim::Scene& scene) {
+  HouseReport report;
+  report.scene_id = plan.id;
+  report.floors = static_cast<int>(plan.levels.size());
+  for (const Stair& s : plan.stairs) ++report.stairs[std::string(NameOf(s.kind))];
+  for (const Room& r : plan.rooms) ++report.rooms[r.name];
+  for (const auto& i : scene.instances) {
+    if (!i.category.empty()) ++report.instances[i.category];
+  }
+  report.pieces = static_cast<int>(plan.furniture.size());
+  return report;
+}
+
+/// Clean, or as a scanner would see it.
+sim::Scene AsAsked(sim::Scene scene, const HouseParams& params) {
+  if (!params.is_scan) return scene;
+  ScanDamage damage;
+  damage.seed = params.seed;
+  DamageAsScan(scene, damage);
+  return scene;
+}
+
+/// One plan: drawn, built, checked, lit, written. kIo where the disk refuses, else what the plan
+/// lacks.
+Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::path& out_dir,
+                            const FurniturePack* pack) {
+  const auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
+  if (!plan) return tl::unexpected(plan.error());
+  auto [clean, glowing] = BuildHouseWithLights(*plan, {params.has_textures, params.seed});
+  const sim::Scene checked = AsAsked(clean, params);
+  const auto navmesh = sim::NavMesh::Build(checked, {});
+  if (!navmesh) return tl::unexpected(navmesh.error());
+  if (auto ok = CheckHouse(*plan, checked, *navmesh); !ok) return tl::unexpected(ok.error());
+  HouseReport report = Describe(*plan, checked);
+  report.area_m2 = navmesh->AreaM2();
+  if (params.has_lights) {  // of the house, not of its scan
+    Subdivide(clean.mesh, kLitEdge_m, kLitArea_m2);
+    BakeLight(clean, *plan, LightsOf(*plan), glowing);
+  }
+  const sim::Scene scene = AsAsked(std::move(clean), params);
+  const auto folder = WriteScene(scene, out_dir, HouseText(*plan, params, pack));
+  if (!folder) return tl::unexpected(folder.error());
+  report.folder = *folder;
+  for (const auto& file : fs::directory_iterator(*folder)) report.bytes += file.file_size();
+  if (report.bytes < kMaxSceneBytes) return report;
+  fs::remove_all(*folder);
+  return Fail(ErrorCode::kInvalid, "files larger than 40 MB", folder->string());
+}
+
+}  // namespace
+
+std::string SceneIdOf(const HouseParams& params) {
+  return fmt::format("{:05}-House{}", params.seed % 100000, params.seed);
+}
+
+Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
+                                    const FurnitureSource& source) {
+  Rng rng(params.seed, static_cast<std::uint64_t>(attempt) + 1);
+  auto plan = DrawHousePlan(Settled(params), rng);
+  if (!plan) return plan;
+  plan->id = SceneIdOf(params);
+  Furnish(*plan, source, rng);
+  return plan;
+}
+
+Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out_dir,
+                                  const FurniturePack* pack) {
+  if (auto ok = CheckParams(params); !ok) return tl::unexpected(ok.error());
+  std::map<std::string, int> refusals;
+  for (int attempt = 0; attempt < params.max_attempts; ++attempt) {
+    auto report = Attempt(params, attempt, out_dir, pack);
+    if (report) {
+      report->attempts = attempt + 1;
+      report->refusals = std::move(refusals);
+      return report;
+    }
+    if (report.error().code == ErrorCode::kIo) return report;  // another plan would not help
+    ++refusals[report.error().what];
+  }
+  std::string reasons;
+  for (const auto& [what, count] : refusals) {
+    reasons += fmt::format("{}{} ({}x)", reasons.empty() ? "" : ", ", what, count);
+  }
+  return Fail(
+      ErrorCode::kInvalid,
+      fmt::format("no house passed the checks in {} attempts: {}", params.max_attempts, reasons),
+      fmt::format("seed {}", params.seed));
+}
+
+}  // namespace crossnav::world
