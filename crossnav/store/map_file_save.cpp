@@ -157,6 +157,15 @@ Result<SaveReport> SaveInTransaction(Database& db, const geometry::VoxelMap& map
   return report;
 }
 
+/// As if nothing had been tried: a file that was made for it goes again.
+void Undo(Database& db, const std::filesystem::path& place, bool is_new) {
+  (void)db.Exec("ROLLBACK");
+  std::error_code ignored;
+  if (is_new && std::filesystem::file_size(place, ignored) == 0) {
+    std::filesystem::remove(place, ignored);
+  }
+}
+
 }  // namespace
 
 Result<SaveReport> SaveMemory(const std::filesystem::path& path, const geometry::VoxelMap& map,
@@ -165,6 +174,8 @@ Result<SaveReport> SaveMemory(const std::filesystem::path& path, const geometry:
     return Fail(ErrorCode::kMismatch, "map and memory have different voxel sizes", path.string());
   const auto place = OutputPlace(path);
   if (!place) return tl::unexpected(place.error());
+  std::error_code ignored;
+  const bool is_new = !std::filesystem::exists(*place, ignored);
   auto db = Database::Open(*place, Database::Access::kWrite);
   if (!db) return tl::unexpected(db.error());
   // Large pages suit blobs of 20 to 100 kB. The rollback journal keeps the map one file, and a save
@@ -172,14 +183,17 @@ Result<SaveReport> SaveMemory(const std::filesystem::path& path, const geometry:
   auto begun = db->Exec(
       "PRAGMA page_size=16384;PRAGMA journal_mode=DELETE;PRAGMA synchronous=FULL;"
       "PRAGMA cache_size=-65536;BEGIN IMMEDIATE");
-  if (!begun) return tl::unexpected(begun.error());
+  if (!begun) {
+    Undo(*db, *place, is_new);
+    return tl::unexpected(begun.error());
+  }
   auto report = SaveInTransaction(*db, map, memory, info);
   if (!report) {
-    (void)db->Exec("ROLLBACK");
+    Undo(*db, *place, is_new);
     return report;
   }
   if (auto done = db->Exec("COMMIT"); !done) {
-    (void)db->Exec("ROLLBACK");
+    Undo(*db, *place, is_new);
     return tl::unexpected(done.error());
   }
   return report;

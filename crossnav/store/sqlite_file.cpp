@@ -21,6 +21,9 @@ tl::unexpected<Error> FailSqlite(sqlite3* db, int code, const std::string& file)
       return Fail(ErrorCode::kMalformed, "damaged or not a map file (" + text + ")", file);
     case SQLITE_FULL:
       return Fail(ErrorCode::kIo, "the disk is full", file);
+    case SQLITE_IOERR:
+      return Fail(ErrorCode::kIo, "cannot be read or written; is the disk full? (" + text + ")",
+                  file);
     case SQLITE_BUSY:
       return Fail(ErrorCode::kIo, "another program is writing this file; try again", file);
     default:
