@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kMaxArchive = 1U << 30;    // chosen: real homes have up to 200 MB
-constexpr std::uint32_t kMaxXml = 64U << 20;        // chosen: real ones have up to 5 MB
-constexpr std::uint32_t kMaxEntry = 256U << 20;     // chosen: one model or picture
+constexpr std::uint64_t kMaxXml = 64U << 20;        // chosen: real ones have up to 5 MB
+constexpr std::uint64_t kMaxEntry = 256U << 20;     // chosen: one model or picture
 constexpr std::uint64_t kMaxUnpacked = 1ULL << 30;  // chosen: all that is read of one home
 constexpr const char* kSaveAgain = "; open it in Sweet Home 3D 5.3 or newer and save it again";
 
@@ -80,9 +80,9 @@ Result<Contents::Xml> Contents::HomeXml(const std::string& home) const {
 }
 
 std::optional<std::string> Contents::Read(const std::string& entry) const {
-  const std::uint32_t size = zip_.SizeOf(entry);
+  const std::uint64_t size = zip_.SizeOf(entry);
   if (!zip_.Has(entry) || size > kMaxEntry) return std::nullopt;
-  if (unpacked_bytes_ + size > kMaxUnpacked) return std::nullopt;
+  if (size > kMaxUnpacked - unpacked_bytes_) return std::nullopt;
   unpacked_bytes_ += size;
   auto bytes = zip_.Read(entry);
   if (!bytes) return std::nullopt;

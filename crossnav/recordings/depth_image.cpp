@@ -2,92 +2,16 @@
 #include "crossnav/recordings/depth_image.h"
 
 #include <algorithm>
-#include <csetjmp>
 #include <cstdio>
-#include <cstring>
 
-#include <png.h>
+#include "crossnav/core/png_image.h"
 
 namespace crossnav::recordings {
 namespace {
 
 using Raw = Image<std::uint16_t>;
 
-struct PngState {
-  std::span<const std::uint8_t> rest;
-  std::jmp_buf jump;
-  char message[128] = "";
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-};
-
-void OnError(png_structp png, png_const_charp message) {
-  auto* state = static_cast<PngState*>(png_get_error_ptr(png));
-  std::snprintf(state->message, sizeof state->message, "%s", message);
-  std::longjmp(state->jump, 1);
-}
-
-void OnWarning(png_structp, png_const_charp) {}  // libraries do not print
-
-void OnRead(png_structp png, png_bytep out, png_size_t count) {
-  auto* state = static_cast<PngState*>(png_get_io_ptr(png));
-  if (count > state->rest.size()) png_error(png, "it ends early");
-  std::memcpy(out, state->rest.data(), count);
-  state->rest = state->rest.subspan(count);
-}
-
-// In the two functions below nothing with a destructor may live in the frame, because of longjmp.
-// `is_grey16` stays false for other kinds.
-bool ReadHead(PngState& state, png_uint_32& width, png_uint_32& height, bool& is_grey16) {
-  if (setjmp(state.jump) != 0) return false;
-  png_set_read_fn(state.png, &state, OnRead);
-  png_read_info(state.png, state.info);
-  int bits = 0, colour = 0;
-  png_get_IHDR(state.png, state.info, &width, &height, &bits, &colour, nullptr, nullptr, nullptr);
-  is_grey16 = bits == 16 && colour == PNG_COLOR_TYPE_GRAY;
-  return true;
-}
-
-bool ReadRows(PngState& state, Raw& image) {
-  if (setjmp(state.jump) != 0) return false;
-  png_set_swap(state.png);  // PNG has the high byte first
-  const int passes = png_set_interlace_handling(state.png);
-  png_read_update_info(state.png, state.info);
-  for (int pass = 0; pass < passes; ++pass)
-    for (int v = 0; v < image.height; ++v)
-      png_read_row(state.png, reinterpret_cast<png_bytep>(&image.At(0, v)), nullptr);
-  png_read_end(state.png, nullptr);
-  return true;
-}
-
-Result<Raw> ReadPng(PngState& state, const std::string& where) {
-  png_uint_32 width = 0, height = 0;
-  bool is_grey16 = false;
-  const auto broken = [&] {
-    return Fail(ErrorCode::kMalformed, std::string("broken PNG image: ") + state.message, where);
-  };
-  if (!ReadHead(state, width, height, is_grey16)) return broken();
-  if (!is_grey16)
-    return Fail(ErrorCode::kUnsupported, "a depth image must be a grey PNG of 16 bits", where);
-  if (width > kMostSide_px || height > kMostSide_px)
-    return Fail(ErrorCode::kUnsupported, "has a side of more than 8192 px", where);
-  Raw image(static_cast<int>(width), static_cast<int>(height));
-  if (!ReadRows(state, image)) return broken();
-  return image;
-}
-
 }  // namespace
-
-Result<Raw> DecodePng16(std::span<const std::uint8_t> bytes, const std::string& where) {
-  PngState state;
-  state.rest = bytes;
-  state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, OnError, OnWarning);
-  state.info = state.png != nullptr ? png_create_info_struct(state.png) : nullptr;
-  if (state.info == nullptr) return Fail(ErrorCode::kIo, "no memory for a PNG image", where);
-  auto image = ReadPng(state, where);
-  png_destroy_read_struct(&state.png, &state.info, nullptr);
-  return image;
-}
 
 Result<Raw> DecodePgm16(std::span<const std::uint8_t> bytes, const std::string& where) {
   const auto bad = [&](const char* what) { return Fail(ErrorCode::kMalformed, what, where); };
@@ -112,7 +36,7 @@ Result<Raw> DecodePgm16(std::span<const std::uint8_t> bytes, const std::string& 
 
 Result<Raw> DecodeDepth16(std::span<const std::uint8_t> bytes, const std::string& where) {
   if (bytes.size() > 1 && bytes[0] == 'P' && bytes[1] == '5') return DecodePgm16(bytes, where);
-  if (bytes.size() > 8 && png_sig_cmp(bytes.data(), 0, 8) == 0) return DecodePng16(bytes, where);
+  if (IsPng(bytes)) return DecodePng16(bytes, kMostSide_px, where);
   return Fail(ErrorCode::kUnsupported, "a depth image must be a PNG or PGM of 16 bits", where);
 }
 

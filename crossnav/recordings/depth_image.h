@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth images of 16 bits in files and messages -> metres. Adapter over libpng.
+// Depth images of 16 bits in files and messages -> metres.
 #pragma once
 
 #include <span>
@@ -11,11 +11,6 @@
 namespace crossnav::recordings {
 
 inline constexpr int kMostSide_px = 8192;  ///< of an image, as sensor.width_px
-
-/// Grey PNG of 16 bits as it stands, H x W. Errors: kMalformed (broken), kUnsupported (another kind
-/// of PNG, or larger than kMostSide_px).
-Result<Image<std::uint16_t>> DecodePng16(std::span<const std::uint8_t> bytes,
-                                         const std::string& where);
 
 /// Binary PGM (P5) of 16 bits as it stands, H x W. Errors: kMalformed.
 Result<Image<std::uint16_t>> DecodePgm16(std::span<const std::uint8_t> bytes,

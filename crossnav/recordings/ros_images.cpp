@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "crossnav/core/png_image.h"
 #include "crossnav/recordings/depth_image.h"
 #include "crossnav/recordings/frames.h"
 
@@ -63,7 +64,7 @@ Result<DepthImage> CompressedDepth(const RosImage& image, double unit_m, const s
   float a = 0, b = 0;
   std::memcpy(&a, image.data.data() + 4, sizeof a);
   std::memcpy(&b, image.data.data() + 8, sizeof b);
-  const auto raw = DecodePng16(BytesOf(image.data.substr(12)), where);
+  const auto raw = DecodePng16(BytesOf(image.data.substr(12)), kMostSide_px, where);
   if (!raw) return tl::unexpected(raw.error());
   if (!image.encoding.starts_with("32FC1")) return DepthOf(*raw, unit_m);
   DepthImage depth_m(raw->width, raw->height);
@@ -107,7 +108,7 @@ Result<DepthImage> DepthOf(const RosImage& image, double unit_m, const std::stri
   if (image.width_px == 0) {
     if (image.encoding.find("compressedDepth") != std::string::npos)
       return CompressedDepth(image, unit_m, where);
-    const auto raw = DecodePng16(BytesOf(image.data), where);
+    const auto raw = DecodePng16(BytesOf(image.data), kMostSide_px, where);
     if (!raw) return tl::unexpected(raw.error());
     return DepthOf(*raw, unit_m);
   }

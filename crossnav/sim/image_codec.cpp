@@ -4,57 +4,32 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
-#include <vector>
 
 #include <jpeglib.h>
-#include <png.h>
+
+#include "crossnav/core/png_image.h"
 
 namespace crossnav::sim {
 namespace {
 
 constexpr std::int64_t kMaxPixels = 1LL << 26;  // chosen: 8192 x 8192, four times HM3D's largest
-constexpr std::uint64_t kMaxDeflate = 1032;     // what a byte of a PNG can unpack to at most
 constexpr int kMaxScans = 100;                  // chosen: progressive JPEGs have about ten
 
-Texture FromRgba(const std::vector<std::uint8_t>& rgba, int width, int height) {
+Texture FromRgba(const Image<Rgba8>& rgba) {
   Texture texture;
-  texture.rgb = RgbImage(width, height);
+  texture.rgb = RgbImage(rgba.width, rgba.height);
   bool any_hole = false;
-  for (std::size_t i = 0; i < texture.rgb.data.size(); ++i) {
-    texture.rgb.data[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
-    any_hole |= rgba[4 * i + 3] < 128;
+  for (std::size_t i = 0; i < rgba.data.size(); ++i) {
+    const Rgba8& pixel = rgba.data[i];
+    texture.rgb.data[i] = {pixel[0], pixel[1], pixel[2]};
+    any_hole |= pixel[3] < 128;
   }
   if (!any_hole) return texture;
-  texture.opaque = MaskImage(width, height);
-  for (std::size_t i = 0; i < texture.opaque.data.size(); ++i) {
-    texture.opaque.data[i] = rgba[4 * i + 3] >= 128 ? 1 : 0;
+  texture.opaque = MaskImage(rgba.width, rgba.height);
+  for (std::size_t i = 0; i < rgba.data.size(); ++i) {
+    texture.opaque.data[i] = rgba.data[i][3] >= 128 ? 1 : 0;
   }
   return texture;
-}
-
-Result<Texture> DecodePng(std::span<const std::uint8_t> bytes, const std::string& where) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
-    return Fail(ErrorCode::kMalformed, std::string("PNG image: ") + image.message, where);
-  }
-  if (static_cast<std::int64_t>(image.width) * image.height > kMaxPixels) {
-    png_image_free(&image);
-    return Fail(ErrorCode::kUnsupported, "PNG image is larger than 2^26 pixels", where);
-  }
-  // At least a bit a pixel, and a byte a row that says how it is filtered.
-  const std::uint64_t row_bytes = 1 + image.width / 8;
-  if (row_bytes * image.height > kMaxDeflate * bytes.size()) {
-    png_image_free(&image);
-    return Fail(ErrorCode::kMalformed,
-                "PNG image is cut short: more pixels than its bytes can hold", where);
-  }
-  image.format = PNG_FORMAT_RGBA;
-  std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr) == 0) {
-    return Fail(ErrorCode::kMalformed, std::string("PNG image: ") + image.message, where);
-  }
-  return FromRgba(rgba, static_cast<int>(image.width), static_cast<int>(image.height));
 }
 
 struct JpegErrors {
@@ -110,7 +85,11 @@ Result<Texture> DecodeJpeg(std::span<const std::uint8_t> bytes, const std::strin
 }  // namespace
 
 Result<Texture> DecodeImage(std::span<const std::uint8_t> bytes, const std::string& where) {
-  if (bytes.size() > 8 && png_sig_cmp(bytes.data(), 0, 8) == 0) return DecodePng(bytes, where);
+  if (IsPng(bytes)) {
+    const auto rgba = DecodePng(bytes, where);
+    if (!rgba) return tl::unexpected(rgba.error());
+    return FromRgba(*rgba);
+  }
   if (bytes.size() > 3 && bytes[0] == 0xFF && bytes[1] == 0xD8) return DecodeJpeg(bytes, where);
   return Fail(ErrorCode::kUnsupported, "image is neither PNG nor JPEG", where);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG and JPEG in memory -> RGB with an opacity mask. Adapter over libpng and libjpeg.
+// PNG and JPEG in memory -> RGB with an opacity mask. Adapter over libjpeg.
 #pragma once
 
 #include <cstdint>

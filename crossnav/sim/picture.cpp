@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/sim/picture.h"
 
-#include <png.h>
-
 #include <array>
 
 #include <algorithm>
 #include <cmath>
 
 #include "crossnav/core/check.h"
+#include "crossnav/core/png_image.h"
 #include "crossnav/core/rng.h"
 #include "crossnav/core/write_file.h"
 
@@ -28,26 +27,12 @@ Rgb8 Mix(const Rgb8& a, const Rgb8& b, double share_b) {
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> EncodePng(const RgbImage& image) {
-  if (image.empty()) return Fail(ErrorCode::kInvalid, "an image without pixels cannot be a PNG");
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  std::vector<std::uint8_t> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
-  png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data.data(), 0, nullptr) == 0) {
-    return Fail(ErrorCode::kIo, std::string("PNG: ") + png.message);
-  }
-  bytes.resize(size);
-  return bytes;
-}
-
 Result<void> WritePng(const RgbImage& image, const std::filesystem::path& file) {
-  auto bytes = EncodePng(image);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (image.empty()) return Fail(ErrorCode::kInvalid, "an image without pixels cannot be a PNG");
+  if (std::max(image.width, image.height) > kMostPngSide_px) {
+    return Fail(ErrorCode::kInvalid, "too many pixels for a PNG", file.string());
+  }
+  return WriteFileAtomically(file, EncodePng(image));
 }
 
 RgbImage ColourDepth(const DepthImage& depth_m, double max_m) {

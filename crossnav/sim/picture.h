@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "crossnav/core/image.h"
 #include "crossnav/core/result.h"
@@ -13,8 +12,6 @@
 
 namespace crossnav::sim {
 
-/// 8-bit RGB PNG in memory.
-Result<std::vector<std::uint8_t>> EncodePng(const RgbImage& image);
 /// Writes atomically: a reader never sees half a file.
 Result<void> WritePng(const RgbImage& image, const std::filesystem::path& file);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/trace/preview.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +9,7 @@
 #include <jpeglib.h>
 
 #include "crossnav/core/check.h"
+#include "crossnav/core/png_image.h"
 
 namespace crossnav::trace {
 namespace {
@@ -38,30 +37,6 @@ std::uint16_t ToMm(float depth_m) {
 std::uint8_t ToGrey(std::uint16_t depth_mm, double max_m) {
   if (depth_mm == 0) return 0;
   return static_cast<std::uint8_t>(1 + std::lround(254 * std::min(depth_mm / 1000.0 / max_m, 1.0)));
-}
-
-void AppendPng(png_structp png, png_bytep bytes, png_size_t count) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
-}
-
-/// `pixels`: rows without gaps, of one or three bytes a pixel as `colour_type` says.
-std::string PngOf(int width, int height, int colour_type, const png_byte* pixels) {
-  std::string bytes;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  CROSSNAV_CHECK(png != nullptr, "libpng gave no writer");
-  png_infop info = png_create_info_struct(png);
-  png_set_write_fn(png, &bytes, AppendPng, nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
-               colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png, info);
-  const std::size_t row_bytes =
-      static_cast<std::size_t>(width) * (colour_type == PNG_COLOR_TYPE_RGB ? 3 : 1);
-  for (int v = 0; v < height; ++v)
-    png_write_row(png, pixels + static_cast<std::size_t>(v) * row_bytes);
-  png_write_end(png, nullptr);
-  png_destroy_write_struct(&png, &info);
-  return bytes;
 }
 
 }  // namespace
@@ -123,17 +98,10 @@ std::string EncodeJpeg(const RgbImage& rgb, int quality) {
 }
 
 std::string EncodeDepthPng(const Image<std::uint16_t>& depth_mm, double max_m) {
-  CROSSNAV_CHECK(!depth_mm.empty(), "an empty image has no PNG");
-  std::vector<png_byte> grey(depth_mm.data.size());
-  std::transform(depth_mm.data.begin(), depth_mm.data.end(), grey.begin(),
+  Image<std::uint8_t> grey(depth_mm.width, depth_mm.height);
+  std::transform(depth_mm.data.begin(), depth_mm.data.end(), grey.data.begin(),
                  [max_m](std::uint16_t mm) { return ToGrey(mm, max_m); });
-  return PngOf(depth_mm.width, depth_mm.height, PNG_COLOR_TYPE_GRAY, grey.data());
-}
-
-std::string EncodePng(const RgbImage& rgb) {
-  CROSSNAV_CHECK(!rgb.empty(), "an empty image has no PNG");
-  const auto* bytes = reinterpret_cast<const png_byte*>(rgb.data.data());
-  return PngOf(rgb.width, rgb.height, PNG_COLOR_TYPE_RGB, bytes);
+  return EncodePng(grey);
 }
 
 }  // namespace crossnav::trace

@@ -26,7 +26,4 @@ std::string EncodeJpeg(const RgbImage& rgb, int quality);
 /// Grey PNG of 8 bits: 0 = invalid, 1..255 = 0..`max_m` (further is 255).
 std::string EncodeDepthPng(const Image<std::uint16_t>& depth_mm, double max_m);
 
-/// Colour PNG of 8 bits. The image must not be empty.
-std::string EncodePng(const RgbImage& rgb);
-
 }  // namespace crossnav::trace

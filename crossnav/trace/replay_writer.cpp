@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "crossnav/core/png_image.h"
 #include "crossnav/trace/foxglove.h"
 #include "crossnav/trace/mcap_writer.h"
 #include "crossnav/trace/preview.h"

@@ -8,6 +8,7 @@
 #include "crossnav/bench/episodes.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/bench/suite.h"
+#include "crossnav/core/png_image.h"
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/store/block_codec.h"
 #include "crossnav/store/map_file.h"
@@ -58,7 +59,7 @@ class Seeds {
 std::string SmallPng() {
   RgbImage image(8, 8);
   image.At(3, 4) = {200, 10, 90};
-  return trace::EncodePng(image);
+  return EncodePng(image);
 }
 
 std::string SmallGlb() {

@@ -2,6 +2,7 @@
 // Depth files, lenses and registration.
 #include <gtest/gtest.h>
 
+#include "crossnav/core/png_image.h"
 #include "crossnav/core/rng.h"
 #include "crossnav/recordings/depth_image.h"
 #include "crossnav/recordings/frames.h"
@@ -44,9 +45,8 @@ TEST(DepthImage, PgmOf16BitsHasTheHighByteFirst) {
 }
 
 TEST(DepthImage, AColourPngIsNoDepth) {
-  const auto png = sim::EncodePng(testing::Gradient(4, 4));
-  ASSERT_TRUE(png);
-  const auto image = DecodePng16(*png, "c.png");
+  const std::string png = EncodePng(testing::Gradient(4, 4));
+  const auto image = DecodePng16(BytesOf(png), kMostSide_px, "c.png");
   ASSERT_FALSE(image);
   EXPECT_EQ(image.error().code, ErrorCode::kUnsupported);
 }

@@ -5,8 +5,8 @@
 #include "crossnav/core/rng.h"
 #include "crossnav/sim/gltf_reader.h"
 #include "crossnav/sim/image_codec.h"
-#include "crossnav/sim/picture.h"
 #include "glb_maker.h"
+#include "support/png_bytes.h"
 
 namespace crossnav::sim::test {
 namespace {
@@ -21,7 +21,7 @@ std::vector<std::uint8_t> RichGlb() {
       maker.Accessor(std::vector<std::uint8_t>(16, 200), GlbMaker::kByte, "VEC4", 4, true);
   const int uv =
       maker.Accessor(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}, GlbMaker::kFloat, "VEC2", 2);
-  const int view = maker.View(*EncodePng(RgbImage(4, 4, {9, 8, 7})));
+  const int view = maker.View(crossnav::test::PngBytes(RgbImage(4, 4, {9, 8, 7})));
   maker.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
   maker.json["textures"] = {{{"source", 0}}};
   maker.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
@@ -99,7 +99,7 @@ TEST(HostileGltf, ASmallFileThatDrawsItsMeshEverywhereIsRefused) {
 }
 
 TEST(HostileGltf, APngThatClaimsMorePixelsThanItsBytesCanHoldIsRefused) {
-  std::vector<std::uint8_t> png = *EncodePng(RgbImage(4, 4));
+  std::vector<std::uint8_t> png = crossnav::test::PngBytes(RgbImage(4, 4));
   for (const std::size_t side : {16U, 20U}) {  // width and height, big-endian
     png[side] = 0;
     png[side + 1] = 0;

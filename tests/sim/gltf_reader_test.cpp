@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "crossnav/sim/picture.h"
 #include "glb_maker.h"
+#include "support/png_bytes.h"
 
 namespace crossnav::sim::test {
 namespace {
@@ -139,7 +139,7 @@ TEST(GltfReader, EmbeddedPngIsDecodedTopRowFirst) {
   RgbImage image(2, 2);
   image.At(0, 0) = {255, 0, 0};
   image.At(1, 1) = {0, 0, 255};
-  const GltfModel model = Parse(TexturedTriangle(*EncodePng(image), "image/png"));
+  const GltfModel model = Parse(TexturedTriangle(crossnav::test::PngBytes(image), "image/png"));
   ASSERT_EQ(model.textures.size(), 1U);
   EXPECT_EQ(model.textures[0].rgb.data, image.data);
   EXPECT_EQ(model.materials[0].texture, 0);

@@ -9,6 +9,7 @@
 
 #include "crossnav/sim/image_codec.h"
 #include "micro_scene.h"
+#include "support/png_bytes.h"
 #include "support/temp_folder.h"
 
 namespace crossnav::sim::test {
@@ -40,7 +41,7 @@ TEST(Picture, WhatCannotBeWrittenIsAnError) {
 }
 
 TEST(Picture, BrokenImagesAreErrors) {
-  auto bytes = *EncodePng(RgbImage(8, 8, {1, 2, 3}));
+  auto bytes = crossnav::test::PngBytes(RgbImage(8, 8, {1, 2, 3}));
   bytes.resize(bytes.size() / 2);
   EXPECT_FALSE(DecodeImage(bytes, "x").has_value());
   EXPECT_FALSE(

@@ -7,7 +7,6 @@
 
 #include "crossnav/world/furniture/furniture_pack.h"
 #include "crossnav/world/models/obj_reader.h"
-#include "crossnav/world/models/zip_reader.h"
 #include "support/temp_folder.h"
 #include "support/zip_archive.h"
 
@@ -20,20 +19,6 @@ constexpr const char* kObj =
     "mtllib a.mtl\nv 0 0 0\nv 2 0 0\nv 2 0 4\nv 0 0 4\nv 0 6 -1\nvt 0 0\n"
     "usemtl wood\nf 1/1 2/1 3/1 4/1\nusemtl glass\nf 1 2 5\nusemtl wood\nf -5 -4 -1\n";
 constexpr const char* kMtl = "newmtl wood\nKd 1 0.5 0\nnewmtl glass\nKd 1 1 1\nd 0.05\n";
-
-TEST(ZipReader, ReadsWhatWasWrittenAndRefusesTheRest) {
-  const std::string bytes = Zip({{"a.txt", "hello"}, {"b/c.txt", "world"}});
-  const auto zip = ZipReader::Parse(bytes, "test.zip");
-  ASSERT_TRUE(zip.has_value()) << zip.error().Message();
-  EXPECT_EQ(zip->Names(), (std::vector<std::string>{"a.txt", "b/c.txt"}));
-  EXPECT_EQ(zip->Read("b/c.txt").value(), "world");
-  EXPECT_EQ(zip->Read("none").error().code, ErrorCode::kNotFound);
-  for (std::size_t n = 0; n < bytes.size(); ++n) {  // never reads past the end
-    const auto cut = ZipReader::Parse(bytes.substr(0, n), "cut");
-    if (cut) (void)cut->Read("a.txt");
-  }
-  EXPECT_FALSE(ZipReader::Parse("nothing of the kind, but long enough", "x").has_value());
-}
 
 TEST(ObjReader, ReadsFacesMaterialsAndLeavesGlassOut) {
   const auto lookup = [](const std::string& name) -> std::optional<std::string> {
@@ -48,22 +33,6 @@ TEST(ObjReader, ReadsFacesMaterialsAndLeavesGlassOut) {
   const auto bad = ParseObj("v 0 0 0\nf 1 2 3\n", lookup, "bad.obj");
   ASSERT_FALSE(bad.has_value());
   EXPECT_EQ(bad.error().where, "bad.obj: line 2");
-}
-
-TEST(ZipReader, AnEntryThatWouldUnpackToMoreThanDeflateCanIsRefused) {
-  std::string bytes = Zip({{"a.txt", "hello"}});
-  const auto directory = bytes.find("PK\1\2");
-  bytes[directory + 10] = 8;     // deflated
-  bytes[directory + 26] = 0x10;  // 1 MiB from five bytes
-  const auto entry = ZipReader::Parse(bytes, "zip")->Read("a.txt");
-  ASSERT_FALSE(entry);
-  EXPECT_NE(entry.error().what.find("damaged"), std::string::npos);
-}
-
-TEST(ZipReader, AFlippedBitInAStoredEntryIsFound) {
-  std::string bytes = Zip({{"a.txt", "hello"}});
-  bytes[bytes.find("hello")] ^= 1;
-  EXPECT_FALSE(ZipReader::Parse(bytes, "zip")->Read("a.txt"));
 }
 
 TEST(ObjReader, FacesOf60000CornersAreRefusedWithTheirLine) {

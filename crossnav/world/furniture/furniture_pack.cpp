@@ -9,11 +9,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "crossnav/core/png_image.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/text_shape.h"
 #include "crossnav/core/write_file.h"
 #include "crossnav/sim/image_codec.h"
-#include "crossnav/world/scene/glb_writer.h"
 
 namespace crossnav::world {
 namespace {
@@ -150,7 +150,7 @@ std::string EncodeModel(const ObjectModel& model) {
   w.Array(model.materials);
   w.Number(model.textures.size());
   for (const auto& t : model.textures) {
-    const std::string png = EncodePng(t);
+    const std::string png = EncodePng(t.rgb, t.opaque);
     w.Array(std::vector<char>(png.begin(), png.end()));
   }
   return std::move(w.out);

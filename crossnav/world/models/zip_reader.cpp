@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/world/models/zip_reader.h"
 
-#include <zlib.h>
+#include <zip.h>
 
 #include <algorithm>
 
@@ -10,19 +10,41 @@
 namespace crossnav::world {
 namespace {
 
-constexpr std::uint64_t kMaxDeflate = 1032;    // what a packed byte can unpack to at most
-constexpr std::size_t kMaxEntry = 512U << 20;  // chosen: no model is larger; guards against bombs
+constexpr std::uint64_t kMaxDeflate = 1032;      // what a packed byte can unpack to at most
+constexpr std::uint64_t kMaxEntry = 512U << 20;  // chosen: no model is larger; guards against bombs
 
-std::uint32_t U(const std::string& b, std::size_t at, int bytes) {
-  std::uint32_t v = 0;
-  for (int i = 0; i < bytes; ++i) {
-    v |= static_cast<std::uint32_t>(static_cast<unsigned char>(b[at + static_cast<std::size_t>(i)]))
-         << (8 * i);
+/// Whether the entry holds just as many bytes as `out` and is intact: libzip compares the checksum
+/// where the entry ends.
+bool ReadWhole(zip_file_t* file, std::string& out) {
+  std::size_t at = 0;
+  while (at < out.size()) {
+    const zip_int64_t n = zip_fread(file, out.data() + at, out.size() - at);
+    if (n <= 0) return false;
+    at += static_cast<std::size_t>(n);
   }
-  return v;
+  char beyond = 0;
+  return zip_fread(file, &beyond, 1) == 0;
 }
 
 }  // namespace
+
+struct ZipReader::Archive {
+  std::string bytes;
+  zip_t* zip = nullptr;
+
+  explicit Archive(std::string all) : bytes(std::move(all)) {
+    if (bytes.empty()) return;  // libzip takes it for an archive without entries
+    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr);
+    if (source == nullptr) return;
+    zip = zip_open_from_source(source, ZIP_RDONLY, nullptr);
+    if (zip == nullptr) zip_source_free(source);
+  }
+  ~Archive() {
+    if (zip != nullptr) zip_discard(zip);
+  }
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+};
 
 Result<ZipReader> ZipReader::Open(const std::filesystem::path& path) {
   auto bytes = ReadFile(path);
@@ -31,34 +53,25 @@ Result<ZipReader> ZipReader::Open(const std::filesystem::path& path) {
 }
 
 Result<ZipReader> ZipReader::Parse(std::string bytes, std::string where) {
-  ZipReader zip;
-  zip.bytes_ = std::move(bytes);
-  zip.where_ = std::move(where);
-  const std::string& b = zip.bytes_;
-  const auto bad = [&](const char* what) { return Fail(ErrorCode::kMalformed, what, zip.where_); };
-  if (b.size() < 22) return bad("not a zip archive");
-  std::size_t end = b.size() - 22;
-  const std::size_t last = b.size() > 22 + 65535 ? b.size() - 22 - 65535 : 0;
-  while (U(b, end, 4) != 0x06054b50) {
-    if (end == last) return bad("not a zip archive: no directory at its end");
-    --end;
+  ZipReader reader;
+  reader.where_ = std::move(where);
+  reader.archive_ = std::make_shared<const Archive>(std::move(bytes));
+  zip_t* zip = reader.archive_->zip;
+  if (zip == nullptr) {
+    return Fail(ErrorCode::kMalformed, "not a zip archive, or its directory is broken",
+                reader.where_);
   }
-  const std::uint32_t count = U(b, end + 10, 2);
-  std::size_t at = U(b, end + 16, 4);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (at + 46 > b.size() || U(b, at, 4) != 0x02014b50) return bad("the zip directory is broken");
-    const std::size_t name = U(b, at + 28, 2), extra = U(b, at + 30, 2), comment = U(b, at + 32, 2);
-    if (at + 46 + name > b.size()) return bad("the zip directory is broken");
-    Entry e;
-    e.method = static_cast<std::uint16_t>(U(b, at + 10, 2));
-    e.crc = U(b, at + 16, 4);
-    e.packed = U(b, at + 20, 4);
-    e.size = U(b, at + 24, 4);
-    e.offset = U(b, at + 42, 4);
-    zip.entries_[b.substr(at + 46, name)] = e;
-    at += 46 + name + extra + comment;
+  const zip_int64_t count = zip_get_num_entries(zip, 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    zip_stat_t stat;
+    const auto index = static_cast<zip_uint64_t>(i);
+    if (zip_stat_index(zip, index, ZIP_FL_ENC_RAW, &stat) != 0) continue;
+    const bool is_known =
+        (stat.comp_method == ZIP_CM_STORE || stat.comp_method == ZIP_CM_DEFLATE) &&
+        stat.encryption_method == ZIP_EM_NONE;
+    reader.entries_[stat.name] = {index, stat.comp_size, stat.size, is_known};
   }
-  return zip;
+  return reader;
 }
 
 std::vector<std::string> ZipReader::Names() const {
@@ -67,7 +80,7 @@ std::vector<std::string> ZipReader::Names() const {
   return names;
 }
 
-std::uint32_t ZipReader::SizeOf(const std::string& name) const {
+std::uint64_t ZipReader::SizeOf(const std::string& name) const {
   const auto it = entries_.find(name);
   return it == entries_.end() ? 0 : std::max(it->second.size, it->second.packed);
 }
@@ -76,39 +89,21 @@ Result<std::string> ZipReader::Read(const std::string& name) const {
   const std::string where = where_ + ": " + name;
   const auto it = entries_.find(name);
   if (it == entries_.end()) return Fail(ErrorCode::kNotFound, "no such entry", where);
-  const Entry& e = it->second;
-  if (e.size > kMaxEntry) return Fail(ErrorCode::kUnsupported, "entry is too large", where);
-  const std::size_t head = e.offset;
-  if (head + 30 > bytes_.size() || U(bytes_, head, 4) != 0x04034b50) {
-    return Fail(ErrorCode::kMalformed, "entry has no header", where);
+  const Entry& entry = it->second;
+  if (entry.size > kMaxEntry) return Fail(ErrorCode::kUnsupported, "entry is too large", where);
+  if (!entry.is_known) {
+    return Fail(ErrorCode::kUnsupported, "entry is encrypted, or its compression is unknown",
+                where);
   }
-  const std::size_t data = head + 30 + U(bytes_, head + 26, 2) + U(bytes_, head + 28, 2);
-  if (data > bytes_.size() || e.packed > bytes_.size() - data) {
-    return Fail(ErrorCode::kMalformed, "entry ends after the file", where);
+  std::string out;
+  bool is_whole = entry.size / kMaxDeflate <= entry.packed;
+  if (is_whole) {
+    out.resize(entry.size);
+    zip_file_t* file = zip_fopen_index(archive_->zip, entry.index, 0);
+    is_whole = file != nullptr && ReadWhole(file, out);
+    if (file != nullptr) zip_fclose(file);
   }
-  const auto is_intact = [&](const std::string& out) {
-    return crc32(0, reinterpret_cast<const Bytef*>(out.data()), static_cast<uInt>(out.size())) ==
-           e.crc;
-  };
-  const auto damaged = [&] { return Fail(ErrorCode::kMalformed, "entry is damaged", where); };
-  if (e.method == 0) {
-    std::string out = bytes_.substr(data, e.packed);
-    if (e.packed > kMaxEntry || !is_intact(out)) return damaged();
-    return out;
-  }
-  if (e.method != 8) return Fail(ErrorCode::kUnsupported, "unknown compression", where);
-  if (e.size > kMaxDeflate * e.packed) return damaged();
-  std::string out(e.size, '\0');
-  z_stream z{};
-  if (inflateInit2(&z, -MAX_WBITS) != Z_OK) return Fail(ErrorCode::kIo, "out of memory", where);
-  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes_.data() + data));
-  z.avail_in = e.packed;
-  z.next_out = reinterpret_cast<Bytef*>(out.data());
-  z.avail_out = e.size;
-  const int status = inflate(&z, Z_FINISH);
-  const bool is_whole = status == Z_STREAM_END && z.avail_out == 0;
-  inflateEnd(&z);
-  if (!is_whole || !is_intact(out)) return damaged();
+  if (!is_whole) return Fail(ErrorCode::kMalformed, "entry is damaged", where);
   return out;
 }
 

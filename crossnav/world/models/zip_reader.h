@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Reads zip archives (.sh3f and .sh3d of Sweet Home 3D): stored and deflated entries, no zip64, no
-// encryption. Any bytes are safe to pass: every offset is checked.
+// Reads zip archives (.sh3f and .sh3d of Sweet Home 3D) in memory: stored and deflated entries, no
+// encryption. Any bytes are safe to pass. Adapter over libzip; an archive and its copies belong to
+// one thread.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,20 +20,21 @@ class ZipReader {
   static Result<ZipReader> Open(const std::filesystem::path& path);
   static Result<ZipReader> Parse(std::string bytes, std::string where);
 
-  std::vector<std::string> Names() const;  ///< sorted
+  std::vector<std::string> Names() const;  ///< sorted; of equal ones the last entry counts
   bool Has(const std::string& name) const { return entries_.count(name) != 0; }
   /// Unpacked size that the directory states, 0 where there is no such entry [bytes].
-  std::uint32_t SizeOf(const std::string& name) const;
+  std::uint64_t SizeOf(const std::string& name) const;
   Result<std::string> Read(const std::string& name) const;
 
  private:
+  struct Archive;
   struct Entry {
-    std::uint32_t offset = 0, packed = 0, size = 0;
-    std::uint32_t crc = 0;
-    std::uint16_t method = 0;
+    std::uint64_t index = 0, packed = 0, size = 0;
+    bool is_known = false;  ///< stored or deflated, not encrypted
   };
-  std::string bytes_, where_;
+  std::shared_ptr<const Archive> archive_;
   std::map<std::string, Entry> entries_;
+  std::string where_;
 };
 
 }  // namespace crossnav::world

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "crossnav/core/png_image.h"
+
 namespace crossnav::world {
 namespace {
 
@@ -200,7 +202,7 @@ void AddImages(const sim::Scene& scene, Json& root, Buffers& buffers) {
   root["images"] = Json::array();
   root["textures"] = Json::array();
   for (const auto& texture : scene.textures) {
-    const std::string png = EncodePng(texture);
+    const std::string png = EncodePng(texture.rgb, texture.opaque);
     const int view = buffers.AddView(png.data(), png.size(), 0);
     root["textures"].push_back({{"sampler", 0}, {"source", root["images"].size()}});
     root["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});

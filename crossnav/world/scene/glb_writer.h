@@ -21,7 +21,4 @@ std::string EncodeSemanticGlb(const sim::Scene& scene);
 /// Colour of an instance in the semantic mesh and text; different ids below 2^24 differ.
 Rgb8 SemanticColour(int instance_id);
 
-/// PNG bytes; with alpha where the texture has a mask.
-std::string EncodePng(const sim::Texture& texture);
-
 }  // namespace crossnav::world
