@@ -8,6 +8,7 @@
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/memory/history_poi.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/sim/ground_truth_encoder.h"
 #include "crossnav/sim/simulator.h"
 #include "crossnav/store/export_ply.h"
@@ -116,10 +117,11 @@ std::optional<agent::ObservationPlace> PlaceToStand(const MapOptions& options,
   return agent::FindObservationPlace(map, cluster, p_from_world, config);
 }
 
-Json ClusterJson(const memory::MemoryCluster& cluster,
+Json ClusterJson(const memory::MemoryCluster& cluster, double match,
                  const std::optional<agent::ObservationPlace>& place, double voxel_m,
                  bool with_voxels) {
-  Json json = {{"score", cluster.score},
+  Json json = {{"match", match},
+               {"score", cluster.score},
                {"similarity", cluster.similarity},
                {"center", PointJson(cluster.p_center_world)},
                {"box_min", PointJson(cluster.box.min)},
@@ -141,6 +143,27 @@ Json ClusterJson(const memory::MemoryCluster& cluster,
     json["voxel_centers"] = std::move(centers);
   }
   return json;
+}
+
+/// The first line of an answer.
+std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
+                        const std::string& encoder, bool is_nowhere) {
+  const auto from = memory::PresentFrom(encoder);
+  switch (memory::Judge(match, encoder)) {
+    case memory::Verdict::kAbsent:
+      return fmt::format(
+          "\"{}\" is absent: nothing matches better than {:.2f}, present is {:.2f}\n", text,
+          match.best, *from);
+    case memory::Verdict::kUnknown:
+      return fmt::format(
+          "\"{}\" matches {:.2f}; for features of {} it was never measured from where "
+          "on it is there\n",
+          text, match.best, encoder.empty() ? "an unknown encoder" : encoder);
+    case memory::Verdict::kPresent:
+      break;
+  }
+  return fmt::format("\"{}\" is present: it matches {:.2f} (0 chance, 1 the name itself){}\n", text,
+                     match.best, is_nowhere ? ", but so much of it that no place stands out" : "");
 }
 
 }  // namespace
@@ -186,10 +209,15 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const bench::RunConfig&
   if (!vectors) return tl::unexpected(vectors.error());
   memory::QueryConfig query = config.agent.query;
   query.top_k = options.top;
+  const auto found = memory::Query(loaded->memory, vectors->text, query, vectors->background);
+  const auto match = memory::MatchOf(loaded->memory, vectors->text, found);
+  const std::string& encoder = loaded->header.encoder_name;
+  const memory::Verdict verdict = memory::Judge(match, encoder);
   Json places = Json::array();
   MapAnswer answer;
-  for (const auto& cluster :
-       memory::Query(loaded->memory, vectors->text, query, vectors->background)) {
+  answer.text = VerdictText(options.text, match, encoder, found.empty());
+  for (std::size_t i = 0; verdict != memory::Verdict::kAbsent && i < found.size(); ++i) {
+    const memory::MemoryCluster& cluster = found[i];
     const Vector3d& p = cluster.p_center_world;
     const auto place = PlaceToStand(options, loaded->map, cluster, config.agent);
     const std::string where = place
@@ -197,13 +225,18 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const bench::RunConfig&
                                                 place->p_foot_world.x(), place->p_foot_world.y(),
                                                 place->p_foot_world.z(), place->path_m)
                                   : "no reachable place to see it from";
-    answer.text += fmt::format("  {:6.3f}  ({:.2f}, {:.2f}, {:.2f})  {} voxels, {}\n",
-                               cluster.score, p.x(), p.y(), p.z(), cluster.voxels.size(), where);
-    places.push_back(
-        ClusterJson(cluster, place, loaded->map.config().voxel_m, options.with_voxels));
+    answer.text += fmt::format("  {:4.2f}  ({:.2f}, {:.2f}, {:.2f})  {} voxels, {}\n",
+                               match.places[i], p.x(), p.y(), p.z(), cluster.voxels.size(), where);
+    places.push_back(ClusterJson(cluster, match.places[i], place, loaded->map.config().voxel_m,
+                                 options.with_voxels));
   }
-  if (places.empty()) answer.text = "nothing in this map stands out for \"" + options.text + "\"\n";
-  answer.json = Json({{"text", options.text}, {"places", std::move(places)}}).dump(1);
+  const auto from = memory::PresentFrom(encoder);
+  answer.json = Json({{"text", options.text},
+                      {"verdict", memory::NameOf(verdict)},
+                      {"match", match.best},
+                      {"present_from", from ? Json(*from) : Json()},
+                      {"places", std::move(places)}})
+                    .dump(1);
   return answer;
 }
 

@@ -219,9 +219,11 @@ void AddMap(CLI::App& app, Options& o) {
   AddMapBuild(*map, o);
   CLI::App* info = AddVerb(*map, o, "info", "What a map file holds", "crossnav map info home.map",
                            [&o](Console& c) { return MapInfo(o.map, o.common, c); });
-  CLI::App* query = AddVerb(*map, o, "query", "Places that answer a text, best first",
-                            "crossnav map query home.map \"potted plant\" --top 4",
-                            [&o](Console& c) { return MapQuery(o.map, o.common, c); });
+  CLI::App* query =
+      AddVerb(*map, o, "query",
+              "Whether a text is in a map (match: 0 chance, 1 the name itself), and where",
+              "crossnav map query home.map \"potted plant\" --top 4",
+              [&o](Console& c) { return MapQuery(o.map, o.common, c); });
   CLI::App* points = AddVerb(*map, o, "export", "Voxels as a coloured point cloud (PLY)",
                              "crossnav map export home.map --out home.ply",
                              [&o](Console& c) { return MapExport(o.map, o.common, c); });

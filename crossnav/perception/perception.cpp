@@ -9,12 +9,21 @@ namespace crossnav::perception {
 Result<std::vector<std::vector<float>>> EncodeTexts(DenseEncoder& encoder,
                                                     std::span<const char* const> texts) {
   std::vector<std::vector<float>> vectors;
+  std::string missing;
   for (const char* text : texts) {
     auto vector = encoder.EncodeText(text);
-    if (!vector) return tl::unexpected(vector.error());
-    vectors.push_back(std::move(*vector));
+    if (vector) {
+      vectors.push_back(std::move(*vector));
+    } else if (vector.error().code == ErrorCode::kUnsupported) {
+      missing += (missing.empty() ? "\"" : ", \"") + std::string(text) + "\"";
+    } else {
+      return tl::unexpected(vector.error());
+    }
   }
-  return vectors;
+  if (!vectors.empty()) return vectors;
+  return Fail(ErrorCode::kUnsupported,
+              "has a vector for none of " + missing + ", which query.relevancy = contrastive needs",
+              encoder.Name());
 }
 
 Result<Percept> PerceptionSuite::Look(const Observation& obs, std::string_view goal) {

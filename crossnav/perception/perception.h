@@ -68,7 +68,8 @@ class DenseEncoder {
   virtual Result<std::vector<float>> EncodeText(std::string_view text) = 0;
 };
 
-/// Unit vectors of several texts.
+/// Unit vectors of those of several texts that the encoder has one for (a table of names may lack
+/// some). Error kUnsupported: it has none of them.
 Result<std::vector<std::vector<float>>> EncodeTexts(DenseEncoder& encoder,
                                                     std::span<const char* const> texts);
 

@@ -77,6 +77,24 @@ TEST_F(MapCli, ContrastiveRelevancyIsOffUnlessAskedFor) {
   EXPECT_NE(test::ReadText(At("a.ply")), test::ReadText(At("b.ply")));
 }
 
+TEST_F(MapCli, WhatIsNotInTheMapIsAbsentAndWhatIsInItHasAMatchOnTheScale) {
+  ASSERT_EQ(Run(RunCommand() + " --save-map m.map --set eval.action_budget=120").exit_code, 0);
+  const Json sofa = Query("m.map sofa");
+  EXPECT_EQ(sofa["verdict"], "present");
+  EXPECT_GT(sofa["match"], sofa["present_from"]);
+  EXPECT_LE(sofa["match"], 1);
+  EXPECT_GT(sofa["places"][0]["match"], 0);
+  for (const char* word : {"zebra", "airplane", "traffic light"}) {
+    const Json none = Query(std::string("m.map '") + word + "'");
+    EXPECT_EQ(none["verdict"], "absent") << word << " matches " << none["match"];
+    EXPECT_LT(none["match"], none["present_from"]);
+    EXPECT_TRUE(none["places"].empty());
+  }
+  const Outcome said = Run("map query m.map zebra");
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_EQ(said.out.find("\"zebra\" is absent"), 0U) << said.out;
+}
+
 TEST_F(MapCli, ALimitOfRowsIsKeptAndReportedEverywhere) {
   const Outcome run = Run(RunCommand() + " --out run --save-map m.map --set fusion.max_rows=6000");
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -127,6 +145,14 @@ TEST_F(MapCli, RealClipVectorsFindASofaByAnyOfItsNames) {
     }
     EXPECT_TRUE(is_at_sofa) << word;
   }
+  for (const char* word : {"Zebra", "Airplane", "fire hydrant"}) {
+    const Json none = Query("m.map '" + std::string(word) + "'" + set);
+    EXPECT_EQ(none["verdict"], "absent") << word << " matches " << none["match"];
+    EXPECT_TRUE(none["places"].empty());
+  }
+  EXPECT_EQ(Query("m.map couch" + set)["verdict"], "present");
+  EXPECT_EQ(Query("m.map couch" + set + " --set query.relevancy=contrastive")["verdict"],
+            "present");
   // Without them the map's features mean nothing; the message names file and remedy.
   for (const std::string& command :
        {std::string("map query m.map couch"), look + " --memory m.map"}) {

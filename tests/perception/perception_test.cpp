@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "support/fake_perception.h"
 
 namespace crossnav::perception {
@@ -88,6 +90,33 @@ TEST(Look, HandsOnTheErrorOfWhicheverPartFails) {
     EXPECT_EQ(seen.error().where, part);
     EXPECT_EQ(seen.error().code, ErrorCode::kMalformed);
   }
+}
+
+/// Knows one word.
+struct TableEncoder : DenseEncoder {
+  ErrorCode otherwise = ErrorCode::kUnsupported;
+  int Dim() const override { return 2; }
+  std::string Name() const override { return "table"; }
+  Result<FeatureGrid> EncodeImage(const Observation&) override { return FeatureGrid{}; }
+  Result<std::vector<float>> EncodeText(std::string_view text) override {
+    if (text == "wall") return std::vector<float>{1, 0};
+    return Fail(otherwise, "has no vector for it");
+  }
+};
+
+TEST(EncodeTexts, WordsThatATableLacksAreLeftOutAndNoneAtAllIsSaid) {
+  TableEncoder encoder;
+  const std::array<const char*, 3> texts = {"wall", "furniture", "thing"};
+  const auto some = EncodeTexts(encoder, texts);
+  ASSERT_TRUE(some.has_value()) << some.error().Message();
+  EXPECT_EQ(*some, (std::vector<std::vector<float>>{{1, 0}}));
+  const auto none = EncodeTexts(encoder, std::span(texts).subspan(1));
+  ASSERT_FALSE(none.has_value());
+  for (const char* part : {"\"furniture\", \"thing\"", "query.relevancy"}) {
+    EXPECT_NE(none.error().what.find(part), std::string::npos) << none.error().Message();
+  }
+  encoder.otherwise = ErrorCode::kIo;
+  EXPECT_EQ(EncodeTexts(encoder, texts).error().code, ErrorCode::kIo);
 }
 
 TEST(PixelBox, AreaCountsItsPixels) {
