@@ -2,9 +2,14 @@
 #include "crossnav/world/scene/scene_writer.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "crossnav/world/scene/glb_writer.h"
@@ -102,6 +107,32 @@ TEST(SceneWriter, LeavesNoHalfWrittenFileAndListsTheScene) {
   }
   const std::string config = test::ReadText(dir.path() / "crossnav.scene_dataset_config.json");
   EXPECT_NE(config.find("00042-Boxes/Boxes.glb"), std::string::npos);
+}
+
+TEST(SceneWriter, AFullDiskLeavesTheSceneThatWasThereWhole) {
+  const test::TempFolder dir;
+  const auto folder = WriteScene(TwoBoxes(), dir.path(), "{}");
+  ASSERT_TRUE(folder.has_value());
+  const auto files = [&] {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(*folder))
+      found[entry.path().filename().string()] = test::ReadText(entry.path());
+    return found;
+  };
+  const auto before = files();
+  sim::Scene other = TwoBoxes();
+  other.instances[0].name = "another wall";
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};  // the texts fit, the meshes do not
+    setrlimit(RLIMIT_FSIZE, &limit);
+    _exit(WriteScene(other, dir.path(), "{\"rooms\":[]}") ? 1 : 0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0) << "it was called a success";
+  EXPECT_EQ(files(), before);
 }
 
 TEST(SceneWriter, RefusesBadIdsAndEmptyScenes) {

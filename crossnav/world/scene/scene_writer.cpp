@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "crossnav/core/write_file.h"
@@ -11,6 +12,36 @@
 
 namespace crossnav::world {
 namespace fs = std::filesystem;
+namespace {
+
+struct NamedBytes {
+  std::string name, bytes;  ///< without bytes there shall be no such file
+};
+
+fs::path PartOf(const fs::path& folder, const NamedBytes& file) {
+  return folder / (file.name + ".part");
+}
+
+/// All of them or none, instead of what was there. Readers know a scene by the last file: it goes
+/// first and comes last, so that a scene is never half the old one.
+Result<void> WriteTogether(const fs::path& folder, std::span<const NamedBytes> files) {
+  std::error_code ignored;
+  for (const NamedBytes& file : files) {
+    auto written = WriteFileAtomically(PartOf(folder, file), file.bytes);
+    if (written) continue;
+    for (const NamedBytes& other : files) fs::remove(PartOf(folder, other), ignored);
+    return tl::unexpected(
+        Error{written.error().code, written.error().what, (folder / file.name).string()});
+  }
+  fs::remove(folder / files.back().name, ignored);
+  for (const NamedBytes& file : files) {
+    if (auto put = PutInPlace(PartOf(folder, file), folder / file.name); !put) return put;
+    if (file.bytes.empty()) fs::remove(folder / file.name, ignored);
+  }
+  return {};
+}
+
+}  // namespace
 
 std::string SemanticText(const sim::Scene& scene) {
   std::string text = "HM3D Semantic Annotations\n";
@@ -80,15 +111,11 @@ Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir,
   fs::create_directories(folder, error);
   if (error) return Fail(ErrorCode::kIo, error.message(), folder.string());
   const std::string stem = scene.id.substr(dash + 1);
-  const std::pair<std::string, std::string> files[] = {
-      {stem + ".house.json", house_text},
-      {stem + ".semantic.txt", SemanticText(scene)},
-      {stem + ".semantic.glb", EncodeSemanticGlb(scene)},
-      {stem + ".glb", EncodeRenderGlb(scene)}};
-  for (const auto& [name, bytes] : files) {
-    if (bytes.empty()) continue;
-    if (auto ok = WriteFileAtomically(folder / name, bytes); !ok) return tl::unexpected(ok.error());
-  }
+  const NamedBytes files[] = {{stem + ".house.json", house_text},
+                              {stem + ".semantic.txt", SemanticText(scene)},
+                              {stem + ".semantic.glb", EncodeSemanticGlb(scene)},
+                              {stem + ".glb", EncodeRenderGlb(scene)}};
+  if (auto ok = WriteTogether(folder, files); !ok) return tl::unexpected(ok.error());
   if (auto ok = WriteDatasetConfig(dir); !ok) return tl::unexpected(ok.error());
   return folder;
 }

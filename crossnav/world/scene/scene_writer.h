@@ -2,7 +2,8 @@
 // Writes a scene in HM3D's layout, so that one reader serves both:
 //   <dir>/<id>/<hash>.glb, <hash>.semantic.glb, <hash>.semantic.txt   with id = "<number>-<hash>"
 //   <dir>/crossnav.scene_dataset_config.json                          for Habitat
-// Every file is written beside its name first and renamed, so that none is ever half written.
+// Every file is written beside its name first and renamed, so that none is ever half written, nor a
+// scene half replaced by another one.
 #pragma once
 
 #include <filesystem>
