@@ -70,6 +70,7 @@ ADAPTERS = {
                                       "crossnav/bench/report_figures.cpp",
                                       "crossnav/bench/result_json.cpp",
                                       "crossnav/bench/suite.cpp",
+                                      "crossnav/bench/viewpoint_cache.cpp",
                                       "crossnav/homes/objects_file.cpp",
                                       "crossnav/world/furniture_pack.cpp",
                                       "crossnav/world/glb_writer.cpp",
