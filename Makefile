@@ -18,7 +18,7 @@ JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)
 SOURCES := $(shell find crossnav apps tests benchmarks python -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-.PHONY: help setup demo test test-long bench networks results wheel format lint asan tsan fuzz docs clean \
+.PHONY: help setup demo test test-long golden bench networks results wheel format lint asan tsan fuzz docs clean \
   program everything
 
 help:  ## this list
@@ -47,6 +47,9 @@ test: everything  ## every test
 test-long: export CROSSNAV_LONG_TESTS := 1
 test-long: everything  ## every test, the long ones included
 	@ctest --preset $(PRESET) -j $(JOBS)
+
+golden: program  ## after a change of the navigator: how the suite -mini ends now, for test-long
+	@tests/suite/mini_test.py $(BUILD)/apps/crossnav/crossnav --update
 
 bench:  ## timings of the kernels and of the whole step (see BENCHMARKS.md)
 	@scripts/setup.sh build bench

@@ -85,6 +85,7 @@ ADAPTERS = {
                                       "crossnav/bench/report_figures.cpp",
                                       "crossnav/bench/result_json.cpp",
                                       "crossnav/bench/suite.cpp",
+                                      "crossnav/bench/viewpoint_cache.cpp",
                                       "crossnav/homes/objects_file.cpp",
                                       "crossnav/world/furniture/furniture_pack.cpp",
                                       "crossnav/world/scene/glb_writer.cpp",

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "crossnav/bench/episode_generator.h"
+#include "crossnav/bench/evaluation.h"
 #include "crossnav/bench/output_path.h"
+#include "eval_progress.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -41,9 +43,13 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   SceneCache cache(options.scenes, *config);
   const auto scenes = cache.GetAll(console);
   if (!scenes) return tl::unexpected(scenes.error());
-  const auto file =
-      bench::GenerateEpisodes(*scenes, *config, {options.count, options.cross_floor, options.seed});
+  CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(options.count));
+  const auto file = bench::GenerateEpisodes(
+      *scenes, *config, {options.count, options.cross_floor, options.seed, {}, [&](int done) {
+                           progress.Done(static_cast<std::size_t>(done));
+                         }});
   if (!file) return tl::unexpected(file.error());
+  console.EndProgress();
   if (auto ok = bench::WriteEpisodes(options.out, *file); !ok) return ok;
   const Tally tally = Count(*file);
   std::string stages;
@@ -68,9 +74,9 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
   if (!file) return tl::unexpected(file.error());
   SceneCache cache(options.scenes, *config);
   Json failures = Json::array();
-  int checked = 0;
-  for (const bench::Episode& episode : file->episodes) {
-    console.Progress(fmt::format("episode {} of {}", ++checked, file->episodes.size()));
+  CountProgress progress(console, "episodes checked", file->episodes.size());
+  std::size_t checked = 0;
+  for (const bench::Episode& episode : bench::GroupedByScene(file->episodes)) {
     const auto context = cache.Get(episode.scene_id);
     std::vector<std::string> problems;
     if (context) {
@@ -82,6 +88,7 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
       console.Print(episode.episode_id + ": " + problem + "\n");
       failures.push_back({{"episode_id", episode.episode_id}, {"problem", problem}});
     }
+    progress.Done(++checked);
   }
   console.EndProgress();
   if (!failures.empty()) {

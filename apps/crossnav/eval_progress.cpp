@@ -30,6 +30,17 @@ void EvalProgress::Add(const bench::EpisodeRecord& record) {
                                 DurationText(seconds / done_ * (episodes_ - done_))));
 }
 
+CountProgress::CountProgress(Console& console, std::string things, std::size_t total)
+    : console_(console), things_(std::move(things)), total_(total), start_ms_(bench::WallMs()) {}
+
+void CountProgress::Done(std::size_t count) {
+  const double seconds = std::max(1e-3, (bench::WallMs() - start_ms_) * 1e-3);
+  const double per_s = static_cast<double>(count) / seconds;
+  const double left_s = static_cast<double>(total_ - count) / std::max(1e-9, per_s);
+  console_.Progress(fmt::format("{} of {} {} | {:.1f} per s | {} left", count, total_, things_,
+                                per_s, DurationText(left_s)));
+}
+
 std::string DurationText(double seconds) {
   const auto whole = static_cast<long>(std::lround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);

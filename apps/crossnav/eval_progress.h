@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The progress line of an evaluation: how episodes ended so far, rate, remaining time.
+// Progress lines of evaluations (how episodes ended so far, rate, remaining time) and of counted
+// work.
 #pragma once
 
 #include <map>
@@ -20,6 +21,19 @@ class EvalProgress {
   int episodes_, done_ = 0;
   double start_ms_;
   std::map<std::string, int> outcomes_;
+};
+
+/// Progress of work on many equal things: how many, rate, remaining time.
+class CountProgress {
+ public:
+  CountProgress(Console& console, std::string things, std::size_t total);
+  void Done(std::size_t count);
+
+ private:
+  Console& console_;
+  std::string things_;
+  std::size_t total_;
+  double start_ms_;
 };
 
 /// "2 h 05 min", "3 min 20 s", "45 s".

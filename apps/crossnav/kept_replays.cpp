@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "kept_replays.h"
 
-#include <algorithm>
-#include <string_view>
-
 #include "crossnav/bench/output_path.h"
+#include "crossnav/bench/result_records.h"
 
 namespace crossnav::app {
 
@@ -41,13 +39,7 @@ void KeptReplays::Finish(const bench::EpisodeRecord& record) const {
 }
 
 fs::path KeptReplays::PathOf(const std::string& episode_id) const {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
-  std::string name = episode_id;
-  for (char& c : name) {
-    if (kPlain.find(c) == std::string_view::npos) c = '_';
-  }
-  return folder_ / (name + ".mcap");
+  return folder_ / bench::ReplayName(episode_id);
 }
 
 }  // namespace crossnav::app

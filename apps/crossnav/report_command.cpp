@@ -13,7 +13,8 @@ namespace {
 using Pages = std::vector<std::pair<std::string, std::string>>;  // file name, content
 
 Pages MakePages(const std::vector<bench::ReportRun>& runs,
-                const std::vector<bench::Comparison>& comparisons) {
+                const std::vector<bench::Comparison>& comparisons,
+                const std::filesystem::path& folder) {
   const auto figures = bench::CollectFigures(runs, {});
   Pages pages = {{"report.md", bench::ReportMarkdown(runs, figures)},
                  {"report.csv", bench::ReportCsv(figures)},
@@ -26,7 +27,7 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs,
                        bench::OutcomePlotSvg(runs[r]));
   }
   for (const bench::Comparison& comparison : comparisons) {
-    pages[0].second += bench::ComparisonMarkdown(comparison);
+    pages[0].second += bench::ComparisonMarkdown(comparison, folder);
   }
   if (!comparisons.empty()) {
     pages.emplace_back("comparison.json", bench::ComparisonsJson(comparisons));
@@ -63,7 +64,7 @@ Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*
   if (!comparisons) return tl::unexpected(comparisons.error());
   for (const auto& comparison : *comparisons) console.Print(bench::ComparisonText(comparison));
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const auto& [name, content] : MakePages(*runs, *comparisons)) {
+  for (const auto& [name, content] : MakePages(*runs, *comparisons, options.out)) {
     const auto path = std::filesystem::path(options.out) / name;
     if (auto ok = bench::WriteTextFile(path, content); !ok) return ok;
     console.Print(path.string() + "\n");

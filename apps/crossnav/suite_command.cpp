@@ -10,6 +10,7 @@
 #include "crossnav/bench/suite.h"
 #include "crossnav/bench/worker_pool.h"
 #include "crossnav/world/house/house_generator.h"
+#include "eval_progress.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -96,10 +97,13 @@ Result<void> MakeEpisodes(const bench::SuiteDefinition& suite, const SuitePlace&
     const auto scenes = cache.GetAll(console);
     if (!scenes) return tl::unexpected(scenes.error());
     console.EndProgress();
-    console.Log(fmt::format("drawing {} episodes", suite.episodes));
-    const auto file = bench::GenerateEpisodes(
-        *scenes, config, {suite.episodes, 0, suite.episode_seed, suite.first_transitions});
+    CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(suite.episodes));
+    const auto file =
+        bench::GenerateEpisodes(*scenes, config,
+                                {suite.episodes, 0, suite.episode_seed, suite.first_transitions,
+                                 [&](int done) { progress.Done(static_cast<std::size_t>(done)); }});
     if (!file) return tl::unexpected(file.error());
+    console.EndProgress();
     if (auto ok = bench::WriteEpisodes(place.episodes(), *file); !ok) {
       return tl::unexpected(ok.error());
     }

@@ -25,6 +25,18 @@ std::vector<int> ReachableFloorsOf(const SceneContext& context, const std::strin
   return floors;
 }
 
+/// True where the goal can be observed from a viewpoint to which no floor change leads.
+bool IsSeenHere(const SceneContext& context, const std::string& goal, const Vector3d& p_start) {
+  const FloorParts& parts = context.Parts();
+  const int part = parts.PartAt(p_start), floor = context.navmesh().FloorOf(p_start);
+  for (const Target& target : context.TargetsOf(goal)) {
+    for (const Vector3d& p : target.viewpoints_world) {
+      if (context.navmesh().FloorOf(p) == floor && parts.PartAt(p) == part) return true;
+    }
+  }
+  return false;
+}
+
 std::string Text(const std::vector<int>& floors) {
   std::string text = "[";
   for (const int floor : floors) text += (text.size() > 1 ? ", " : "") + std::to_string(floor);
@@ -57,6 +69,32 @@ void CompareCertificates(const Episode& claimed, const Episode& proven,
   }
 }
 
+/// True where a STOP at some place to which no floor change leads is a success (eval.success =
+/// box).
+bool IsSolvedHere(const SceneContext& context, const Vector3d& p_start, const std::string& goal,
+                  const EvalConfig& eval) {
+  const int floor = context.navmesh().FloorOf(p_start);
+  std::vector<const Target*> here;
+  for (const Target& target : context.TargetsOf(goal)) {
+    if (std::ranges::find(target.floors, floor) != target.floors.end()) here.push_back(&target);
+  }
+  if (here.empty()) return false;
+  return context.Parts().AnyPoint(context.Parts().PartAt(p_start), [&](const Vector3d& p_world) {
+    return std::ranges::any_of(here, [&](const Target* target) {
+      return IsWithinBoxRadius(*target, p_world, floor, eval);
+    });
+  });
+}
+
+/// The first stage, from 1, that no such place solves; 0 = all are solved.
+int FirstStageElsewhere(const SceneContext& context, const Episode& episode,
+                        const Vector3d& p_start, const EvalConfig& eval) {
+  for (std::size_t k = 0; k < episode.goals.size(); ++k) {
+    if (!IsSolvedHere(context, p_start, episode.goals[k], eval)) return static_cast<int>(k) + 1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 void Certify(const SceneContext& context, Episode& episode) {
@@ -70,13 +108,10 @@ void Certify(const SceneContext& context, Episode& episode) {
   episode.certificate.clear();
   episode.first_transition_stage = 0;
   for (std::size_t k = 0; k < episode.goals.size(); ++k) {
-    const auto floors = ReachableFloorsOf(context, episode.goals[k], p_start);
-    const bool is_here =
-        std::find(floors.begin(), floors.end(), episode.start_floor) != floors.end();
-    if (!is_here && episode.first_transition_stage == 0) {
+    episode.certificate.push_back(ReachableFloorsOf(context, episode.goals[k], p_start));
+    if (episode.first_transition_stage == 0 && !IsSeenHere(context, episode.goals[k], p_start)) {
       episode.first_transition_stage = static_cast<int>(k) + 1;
     }
-    episode.certificate.push_back(floors);
   }
   episode.cross_floor_required = episode.first_transition_stage > 0;
   episode.has_certificate = true;
@@ -100,6 +135,12 @@ std::vector<std::string> CheckCertificate(const SceneContext& context, const Epi
     }
   }
   const Vector3d p_start = context.navmesh().Snap(episode.start.p_world).value();
+  const int elsewhere = FirstStageElsewhere(context, episode, p_start, config.eval);
+  if (elsewhere != proven.first_transition_stage) {
+    problems.push_back("the first stage that cannot be solved without a floor change is " +
+                       std::to_string(elsewhere) + ", not " +
+                       std::to_string(proven.first_transition_stage));
+  }
   if (IsGoalReached(context, context.TargetsOf(episode.goals[0]), p_start, config.eval)) {
     problems.push_back("the start is already at the first goal");
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "crossnav/bench/cause.h"
 #include "crossnav/bench/config_file.h"
 
 namespace crossnav::bench {
@@ -75,14 +76,27 @@ void CompareSettings(const RunHeader& a, const RunHeader& b, HeaderComparison& r
   }
 }
 
-std::vector<Flip> FlipsOf(const std::vector<EpisodeRecord>& a,
-                          const std::vector<EpisodeRecord>& b) {
+Ending EndingOf(const EpisodeRecord& episode, const std::filesystem::path& folder) {
+  Ending ending{std::string(episode.OutcomeName()), episode.Completed(), "", {}};
+  if (episode.failed) {
+    ending.cause = episode.failed->message;
+  } else if (!episode.stages.empty()) {
+    ending.cause = CauseOf(episode.stages.back());
+  }
+  const auto replay = folder / "replays" / ReplayName(episode.episode_id);
+  std::error_code ignored;
+  if (!folder.empty() && std::filesystem::exists(replay, ignored)) ending.replay = replay;
+  return ending;
+}
+
+std::vector<Flip> FlipsOf(const std::vector<EpisodeRecord>& a, const std::vector<EpisodeRecord>& b,
+                          const std::filesystem::path& folder_a,
+                          const std::filesystem::path& folder_b) {
   std::vector<Flip> flips;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a[i].IsComplete() == b[i].IsComplete()) continue;
-    flips.push_back({a[i].episode_id, std::string(a[i].OutcomeName()),
-                     std::string(b[i].OutcomeName()), a[i].Completed(), b[i].Completed(),
-                     static_cast<int>(a[i].goals.size())});
+    flips.push_back({a[i].episode_id, static_cast<int>(a[i].goals.size()), EndingOf(a[i], folder_a),
+                     EndingOf(b[i], folder_b)});
   }
   return flips;
 }
@@ -156,7 +170,7 @@ Result<Comparison> CompareRuns(const ReportRun& a, const ReportRun& b,
   for (const auto& [name, statistic] : NamedStatistics(ComputeMetrics(in_a).goals)) {
     if (result.differences.count(name) > 0) result.order.push_back(name);
   }
-  result.flips = FlipsOf(in_a, in_b);
+  result.flips = FlipsOf(in_a, in_b, a.folder, b.folder);
   return result;
 }
 
@@ -171,11 +185,15 @@ std::string ComparisonsJson(const std::vector<Comparison>& comparisons) {
     }
     for (const Flip& flip : c.flips) {
       flips.push_back({{"episode_id", flip.episode_id},
-                       {"before", flip.before},
-                       {"after", flip.after},
-                       {"goals_before", flip.goals_before},
-                       {"goals_after", flip.goals_after},
-                       {"goals", flip.goals}});
+                       {"before", flip.before.outcome},
+                       {"after", flip.after.outcome},
+                       {"goals_before", flip.before.goals},
+                       {"goals_after", flip.after.goals},
+                       {"goals", flip.goals},
+                       {"cause_before", flip.before.cause},
+                       {"cause_after", flip.after.cause},
+                       {"replay_before", flip.before.replay.string()},
+                       {"replay_after", flip.after.replay.string()}});
     }
     list.push_back({{"before", c.name_a},
                     {"after", c.name_b},

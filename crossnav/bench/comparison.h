@@ -3,6 +3,7 @@
 // differ, and which episodes ended differently. Pure functions; the intervals are seeded.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,11 +24,19 @@ struct HeaderComparison {
 /// eval.episode_seconds. All others are what is compared.
 HeaderComparison CompareHeaders(const RunHeader& a, const RunHeader& b);
 
+/// How an episode ended in a run.
+struct Ending {
+  std::string outcome;           ///< EpisodeRecord::OutcomeName
+  int goals = 0;                 ///< completed ones
+  std::string cause;             ///< CauseOf the stage that failed, or why there is no result
+  std::filesystem::path replay;  ///< that the run kept of it; empty = none
+};
+
 /// An episode that was completed in one of the runs only.
 struct Flip {
   std::string episode_id;
-  std::string before, after;                         ///< EpisodeRecord::OutcomeName
-  int goals_before = 0, goals_after = 0, goals = 0;  ///< completed ones, of how many
+  int goals = 0;
+  Ending before, after;
 };
 
 struct Comparison {
@@ -44,7 +53,8 @@ struct Comparison {
 Result<Comparison> CompareRuns(const ReportRun& a, const ReportRun& b,
                                const BootstrapConfig& bootstrap, bool is_forced);
 
-std::string ComparisonMarkdown(const Comparison& comparison);
+/// Links to replays are relative to `folder`, where the text will lie.
+std::string ComparisonMarkdown(const Comparison& comparison, const std::filesystem::path& folder);
 std::string ComparisonText(const Comparison& comparison);  ///< for a terminal
 std::string ComparisonsJson(const std::vector<Comparison>& comparisons);
 

@@ -41,7 +41,7 @@ std::string Joined(const std::vector<std::string>& parts) {
 
 int Gained(const Comparison& c) {
   return static_cast<int>(std::count_if(c.flips.begin(), c.flips.end(), [](const Flip& flip) {
-    return flip.goals_after > flip.goals_before;
+    return flip.after.goals > flip.before.goals;
   }));
 }
 
@@ -51,13 +51,27 @@ std::string FlipSummary(const Comparison& c) {
                      c.flips.size(), gained, static_cast<int>(c.flips.size()) - gained);
 }
 
-std::string Ending(const std::string& outcome, int completed, int goals) {
-  return fmt::format("{} ({}/{})", outcome, completed, goals);
+std::string Words(const Ending& ending, int goals) {
+  return fmt::format("{} ({}/{})", ending.outcome, ending.goals, goals);
+}
+
+/// The side that did not complete the episode.
+const Ending& FailedSide(const Flip& flip) {
+  return flip.after.goals > flip.before.goals ? flip.before : flip.after;
+}
+
+/// Relative to the folder of the report; a cell of a table.
+std::string Link(const Ending& ending, const std::filesystem::path& folder) {
+  if (ending.replay.empty()) return "-";
+  // The folder may not be there yet, so that nothing is resolved.
+  const auto replay = std::filesystem::absolute(ending.replay).lexically_normal();
+  const auto place = std::filesystem::absolute(folder).lexically_normal();
+  return fmt::format("[replay](<{}>)", replay.lexically_proximate(place).generic_string());
 }
 
 }  // namespace
 
-std::string ComparisonMarkdown(const Comparison& c) {
+std::string ComparisonMarkdown(const Comparison& c, const std::filesystem::path& folder) {
   std::string text = fmt::format("\n## {} against {}, paired\n\n", c.name_b, c.name_a);
   if (!c.headers.unfair.empty()) {
     text += "**Forced: the runs differ in what they should share.** " + Joined(c.headers.unfair) +
@@ -72,11 +86,13 @@ std::string ComparisonMarkdown(const Comparison& c) {
   }
   text += "\n" + FlipSummary(c) + ".\n";
   if (c.flips.empty()) return text;
-  text += fmt::format("\n| episode | {} | {} |\n|---|---|---|\n", c.name_a, c.name_b);
+  text += fmt::format("\n| episode | {} | {} | cause | replay |\n|---|---|---|---|---|\n", c.name_a,
+                      c.name_b);
   for (const Flip& flip : c.flips) {
-    text += fmt::format("| {} | {} | {} |\n", flip.episode_id,
-                        Ending(flip.before, flip.goals_before, flip.goals),
-                        Ending(flip.after, flip.goals_after, flip.goals));
+    const Ending& failed = FailedSide(flip);
+    text +=
+        fmt::format("| {} | {} | {} | {} | {} |\n", flip.episode_id, Words(flip.before, flip.goals),
+                    Words(flip.after, flip.goals), OneCell(failed.cause), Link(failed, folder));
   }
   return text;
 }
@@ -94,9 +110,9 @@ std::string ComparisonText(const Comparison& c) {
   text += "  " + FlipSummary(c) + "\n";
   for (std::size_t i = 0; i < c.flips.size() && i < kFlipsOnTerminal; ++i) {
     const Flip& flip = c.flips[i];
-    text += fmt::format("    {}: {} -> {}\n", flip.episode_id,
-                        Ending(flip.before, flip.goals_before, flip.goals),
-                        Ending(flip.after, flip.goals_after, flip.goals));
+    const Ending& failed = FailedSide(flip);
+    text += fmt::format("    {}: {} -> {}: {}\n", flip.episode_id, Words(flip.before, flip.goals),
+                        Words(flip.after, flip.goals), failed.cause);
   }
   if (c.flips.size() > kFlipsOnTerminal) {
     text += fmt::format("    and {} more, see report.md\n", c.flips.size() - kFlipsOnTerminal);

@@ -187,6 +187,7 @@ Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
                   "episode " + std::to_string(i + 1) + " of " + std::to_string(options.count));
     }
     file.episodes.push_back(std::move(*episode));
+    options.drawn(i + 1);
   }
   for (const GeneratorScene& scene : scenes) AddGoalObjects(scene, file);
   return file;

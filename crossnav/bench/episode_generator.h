@@ -4,6 +4,7 @@
 // floor change. Seeded; refuses what it cannot certify.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,6 +22,8 @@ struct GeneratorOptions {
   std::uint64_t seed = 1;
   /// How many episodes have their first transition at stage 1, 2, ...; empty = by the share.
   std::vector<int> first_transitions = {};
+  /// Called after each episode with how many there are.
+  std::function<void(int done)> drawn = [](int) {};
 };
 
 struct GeneratorScene {

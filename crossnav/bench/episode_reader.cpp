@@ -160,11 +160,22 @@ std::string IdText(dom::object object) {
   return "";
 }
 
+/// Of an ObjectNav episode; the oldest files name it at its goals only.
+Result<std::string> CategoryOf(dom::object object, const std::string& where) {
+  dom::array goals;
+  dom::object first;
+  if (object["object_category"].is_string() || object["goals"].get(goals) != simdjson::SUCCESS ||
+      goals.at(0).get(first) != simdjson::SUCCESS) {
+    return GetString(object, "object_category", where);
+  }
+  return GetString(first, "object_category", where + ": goals[0]");
+}
+
 Result<void> ReadGoals(dom::object object, EpisodeFormat format, Episode& episode) {
   if (format == EpisodeFormat::kObjectNav) {
-    auto category = GetString(object, "object_category", episode.where);
+    auto category = CategoryOf(object, episode.where);
     if (!category) return tl::unexpected(category.error());
-    episode.goals = {*category};
+    episode.goals = {std::move(*category)};
     // Episode numbers repeat from scene to scene.
     const std::string id = IdText(object);
     if (id.empty()) return Malformed("key \"episode_id\" is missing", episode.where);
@@ -217,6 +228,31 @@ Result<GoalObject> ReadGoalObject(dom::object object, const std::string& where) 
   return goal;
 }
 
+Result<std::vector<GoalObject>> ReadGoalObjects(dom::array objects, const std::string& where) {
+  std::vector<GoalObject> goals;
+  for (const dom::element element : objects) {
+    dom::object object;
+    if (element.get(object) != simdjson::SUCCESS) return Malformed("holds no object", where);
+    auto goal = ReadGoalObject(object, where);
+    if (!goal) return tl::unexpected(goal.error());
+    goals.push_back(std::move(*goal));
+  }
+  return goals;
+}
+
+/// Goals that stand in the episode itself; those of the first episode of a kind count for all.
+Result<void> ReadOwnGoals(dom::object object, const Episode& episode, EpisodeFile& file) {
+  dom::array objects;
+  if (object["goals"].get(objects) != simdjson::SUCCESS || objects.size() == 0) return {};
+  const std::string scene = std::filesystem::path(episode.scene_id).filename().string();
+  const std::string key = scene + "_" + episode.goals.front();
+  if (file.goals_by_category.count(key) > 0) return {};
+  auto goals = ReadGoalObjects(objects, episode.where + ": goals");
+  if (!goals) return tl::unexpected(goals.error());
+  file.goals_by_category[key] = std::move(*goals);
+  return {};
+}
+
 Result<void> ReadGoalsByCategory(dom::object root, const std::string& where, EpisodeFile& file) {
   dom::object categories;
   if (root["goals_by_category"].get(categories) != simdjson::SUCCESS) return {};
@@ -224,14 +260,9 @@ Result<void> ReadGoalsByCategory(dom::object root, const std::string& where, Epi
     const std::string at = where + ": goals_by_category[\"" + std::string(key) + "\"]";
     dom::array objects;
     if (value.get(objects) != simdjson::SUCCESS) return Malformed("is no list", at);
-    auto& goals = file.goals_by_category[std::string(key)];
-    for (const dom::element element : objects) {
-      dom::object object;
-      if (element.get(object) != simdjson::SUCCESS) return Malformed("holds no object", at);
-      auto goal = ReadGoalObject(object, at);
-      if (!goal) return tl::unexpected(goal.error());
-      goals.push_back(std::move(*goal));
-    }
+    auto goals = ReadGoalObjects(objects, at);
+    if (!goals) return tl::unexpected(goals.error());
+    file.goals_by_category[std::string(key)] = std::move(*goals);
   }
   return {};
 }
@@ -281,6 +312,9 @@ Result<void> ReadText(const std::string& text, const std::string& where, Episode
     file.format = format;
     auto episode = ReadEpisode(object, format, at);
     if (!episode) return tl::unexpected(episode.error());
+    if (format == EpisodeFormat::kObjectNav) {
+      if (auto ok = ReadOwnGoals(object, *episode, file); !ok) return ok;
+    }
     file.episodes.push_back(std::move(*episode));
   }
   file.content_hash = MixSeed(file.content_hash, HashString(text));

@@ -17,8 +17,9 @@ namespace crossnav::bench {
 
 /// One run as a report shows it.
 struct ReportRun {
-  std::string name;     ///< of its folder
-  std::string variant;  ///< full, no-history-poi, planar, paper; empty where unknown
+  std::string name;              ///< of its folder
+  std::filesystem::path folder;  ///< where its files lie
+  std::string variant;           ///< full, no-history-poi, planar, paper; empty where unknown
   std::string perception, config_hash, episodes_hash;
   std::vector<EpisodeRecord> episodes;
   std::optional<RunHeader> header;  ///< absent in files of other programs
@@ -44,6 +45,8 @@ std::vector<ReportFigure> CollectFigures(const std::vector<ReportRun>& runs,
 
 std::string ReportMarkdown(const std::vector<ReportRun>& runs,
                            const std::vector<ReportFigure>& figures);
+/// A text as one cell of a Markdown table.
+std::string OneCell(std::string text);
 std::string ReportCsv(const std::vector<ReportFigure>& figures);
 /// How many stages failed of which cause and with which outcome (cause.h), as rows.
 std::string CausesCsv(const std::vector<ReportRun>& runs);

@@ -41,13 +41,6 @@ std::string Head(const std::vector<std::string>& cells) {
   return Row(cells) + rule + "\n";
 }
 
-/// Text that stays in its cell of a table.
-std::string OneCell(std::string text) {
-  std::replace(text.begin(), text.end(), '|', '/');
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 int GoalsOf(const std::vector<ReportRun>& runs) {
   std::size_t goals = 0;
   for (const ReportRun& run : runs) {
@@ -189,6 +182,12 @@ std::string RunSection(const ReportRun& run) {
 }
 
 }  // namespace
+
+std::string OneCell(std::string text) {
+  std::replace(text.begin(), text.end(), '|', '/');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
 
 std::string ReportMarkdown(const std::vector<ReportRun>& runs,
                            const std::vector<ReportFigure>& figures) {

@@ -13,6 +13,7 @@ Result<ReportRun> ReadRun(const std::filesystem::path& path, bool require_all) {
   ReportRun run;
   run.name =
       path.filename().empty() ? path.parent_path().filename().string() : path.filename().string();
+  run.folder = std::filesystem::is_directory(path) ? path : path.parent_path();
   if (merged->header) {
     run.variant = merged->header->variant;
     run.perception = merged->header->perception;

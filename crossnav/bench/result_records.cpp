@@ -224,4 +224,14 @@ Result<void> ResultWriter::AppendLine(std::string line) {
   return WriteSynced(descriptor_, line, path_.string());
 }
 
+std::string ReplayName(const std::string& episode_id) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+  std::string name = episode_id;
+  for (char& c : name) {
+    if (kPlain.find(c) == std::string_view::npos) c = '_';
+  }
+  return name + ".mcap";
+}
+
 }  // namespace crossnav::bench

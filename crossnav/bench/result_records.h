@@ -103,4 +103,7 @@ class ResultWriter {
   std::filesystem::path path_;
 };
 
+/// Name of the file below RUN/replays in which a run keeps the replay of an episode.
+std::string ReplayName(const std::string& episode_id);
+
 }  // namespace crossnav::bench

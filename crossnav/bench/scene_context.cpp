@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "crossnav/bench/viewpoint_cache.h"
 #include "crossnav/core/categories.h"
-#include "crossnav/sim/scene_info.h"
 
 namespace crossnav::bench {
 namespace {
@@ -100,11 +100,17 @@ void SceneContext::UseGoals(const std::map<std::string, std::vector<GoalObject>>
 const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) const {
   const auto known = targets_.find(goal);
   if (known != targets_.end()) return known->second;
-  std::vector<Target> targets;
+  std::vector<const sim::SceneInstance*> instances;
   for (const sim::SceneInstance& instance : scene_->instances) {
-    if ((IsCategory(goal) ? instance.category : instance.name) != goal) continue;
-    Target target{instance.id, instance.name, instance.box, {}, {}};
-    target.viewpoints_world = sim::Viewpoints(*scene_, *navmesh_, *caster_, instance, sensor_);
+    if ((IsCategory(goal) ? instance.category : instance.name) == goal) {
+      instances.push_back(&instance);
+    }
+  }
+  auto viewpoints = ViewpointsOf({*scene_, *navmesh_, *caster_, sensor_}, instances);
+  std::vector<Target> targets;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const sim::SceneInstance& instance = *instances[i];
+    Target target{instance.id, instance.name, instance.box, std::move(viewpoints[i]), {}};
     target.floors = FloorsUnder(*navmesh_, target.viewpoints_world);
     targets.push_back(std::move(target));
   }
@@ -149,6 +155,11 @@ const std::vector<Vector3d>& SceneContext::WalkablePoints() const {
     }
   }
   return walkable_world_;
+}
+
+const FloorParts& SceneContext::Parts() const {
+  if (!parts_) parts_ = std::make_unique<FloorParts>(*navmesh_);
+  return *parts_;
 }
 
 int SceneContext::FloorUnder(const Vector3d& p_world) const {

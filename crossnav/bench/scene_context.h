@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "crossnav/bench/episodes.h"
+#include "crossnav/bench/floor_parts.h"
 #include "crossnav/bench/run_config.h"
 #include "crossnav/core/box.h"
 #include "crossnav/sim/navmesh.h"
@@ -60,6 +61,9 @@ class SceneContext {
   /// once.
   const std::vector<Vector3d>& WalkablePoints() const;
 
+  /// The walkable surface, cut where the floor changes. Computed once.
+  const FloorParts& Parts() const;
+
   /// Floor under a point that may be up to a room's height above it.
   int FloorUnder(const Vector3d& p_world) const;
 
@@ -74,6 +78,7 @@ class SceneContext {
   SensorConfig sensor_;
   mutable std::map<std::string, std::vector<Target>> targets_;
   mutable std::vector<Vector3d> walkable_world_;
+  mutable std::unique_ptr<FloorParts> parts_;
 };
 
 /// Ids ("<folder>/<file>.glb") of all scenes below `scenes_dir`, sorted.
@@ -86,7 +91,8 @@ Result<void> CheckPlayable(const SceneContext& context, const Episode& episode);
 /// Fills in floors, certificate, cross_floor_required and first_transition_stage.
 void Certify(const SceneContext& context, Episode& episode);
 
-/// Everything in the episode's certificate that does not hold, in words; empty = proven.
+/// Everything in the episode's certificate that does not hold, in words; empty = proven. Tries all
+/// places that can be walked to without a floor change.
 std::vector<std::string> CheckCertificate(const SceneContext& context, const Episode& episode,
                                           const RunConfig& config);
 

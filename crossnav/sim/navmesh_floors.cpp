@@ -9,6 +9,7 @@
 #include <set>
 
 #include "crossnav/sim/navmesh_detail.h"
+#include "crossnav/sim/surface_samples.h"
 
 namespace crossnav::sim {
 namespace {
@@ -17,73 +18,14 @@ constexpr double kGrid_m = 0.1;
 constexpr double kMinFloor_m2 = 4.0;    // chosen: larger than any landing
 constexpr double kMergeHeight_m = 0.5;  // chosen: sunken rooms are not storeys
 constexpr double kStorey_m = 1.5;       // chosen: nobody stands upright in less
-constexpr double kSameStep_m = 0.30;    // neighbours further apart in height are not connected
 constexpr int kSlopeReach = 3;          // samples to each side
 constexpr double kMaxSlope = 0.21;      // tan 12 degrees; flights rise at 20 and more
 constexpr double kOnFloor_m = 0.25;     // chosen: above any threshold, below two risers
 
-struct Sample {
-  int x = 0, y = 0;
-  double z = 0;
-  std::array<int, 4> next{-1, -1, -1, -1};  // +x, +y, -x, -y
-};
-
-/// Grid points covered by triangle `t`, with the height there.
-void SampleTriangle(const WorldTriangle& t, std::vector<Sample>& out) {
-  const double det =
-      (t[1].x() - t[0].x()) * (t[2].y() - t[0].y()) - (t[2].x() - t[0].x()) * (t[1].y() - t[0].y());
-  if (std::abs(det) < 1e-12) return;
-  const auto [x_low, x_high] = std::minmax({t[0].x(), t[1].x(), t[2].x()});
-  const auto [y_low, y_high] = std::minmax({t[0].y(), t[1].y(), t[2].y()});
-  for (int x = static_cast<int>(std::ceil(x_low / kGrid_m)); x * kGrid_m <= x_high; ++x) {
-    for (int y = static_cast<int>(std::ceil(y_low / kGrid_m)); y * kGrid_m <= y_high; ++y) {
-      const double px = x * kGrid_m - t[0].x(), py = y * kGrid_m - t[0].y();
-      const double s = (px * (t[2].y() - t[0].y()) - py * (t[2].x() - t[0].x())) / det;
-      const double r = (py * (t[1].x() - t[0].x()) - px * (t[1].y() - t[0].y())) / det;
-      if (s < -1e-9 || r < -1e-9 || s + r > 1 + 1e-9) continue;
-      out.push_back({x, y, t[0].z() + s * (t[1].z() - t[0].z()) + r * (t[2].z() - t[0].z())});
-    }
-  }
-}
-
-struct ByPlace {
-  bool operator()(const Sample& a, const Sample& b) const {
-    return std::tuple(a.x, a.y, a.z) < std::tuple(b.x, b.y, b.z);
-  }
-};
-
-std::vector<Sample> SampleSurface(const dtNavMesh& mesh) {
-  std::vector<Sample> samples;
-  ForEachDetailTriangle(mesh,
-                        [&](dtPolyRef, const WorldTriangle& t) { SampleTriangle(t, samples); });
-  std::sort(samples.begin(), samples.end(), ByPlace{});
-  const auto same = [](const Sample& a, const Sample& b) {  // shared edges give a point twice
-    return a.x == b.x && a.y == b.y && std::abs(a.z - b.z) < kSameStep_m;
-  };
-  samples.erase(std::unique(samples.begin(), samples.end(), same), samples.end());
-  return samples;
-}
-
-void LinkNeighbours(std::vector<Sample>& samples) {
-  constexpr std::array<std::array<int, 2>, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  for (Sample& s : samples) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Sample low{s.x + kSteps[k][0], s.y + kSteps[k][1], s.z - kSameStep_m};
-      double nearest_m = kSameStep_m;
-      for (auto it = std::lower_bound(samples.begin(), samples.end(), low, ByPlace{});
-           it != samples.end() && it->x == low.x && it->y == low.y; ++it) {
-        if (std::abs(it->z - s.z) > nearest_m) continue;
-        nearest_m = std::abs(it->z - s.z);
-        s.next[k] = static_cast<int>(it - samples.begin());
-      }
-    }
-  }
-}
-
 /// Steepness along both axes over a window that is longer than a tread.
-bool IsFlat(const std::vector<Sample>& samples, const Sample& s) {
+bool IsFlat(const std::vector<SurfaceSample>& samples, const SurfaceSample& s) {
   const auto walk = [&](std::size_t direction, int& steps) {
-    const Sample* at = &s;
+    const SurfaceSample* at = &s;
     for (steps = 0; steps < kSlopeReach && at->next[direction] >= 0; ++steps) {
       at = &samples[static_cast<std::size_t>(at->next[direction])];
     }
@@ -97,38 +39,13 @@ bool IsFlat(const std::vector<Sample>& samples, const Sample& s) {
   return true;
 }
 
-/// Labels connected samples of those for which `in(sample index)`; -1 elsewhere.
-template <class In>
-std::vector<int> Components(const std::vector<Sample>& samples, int& count, In&& in) {
-  std::vector<int> label(samples.size(), -1);
-  count = 0;
-  std::vector<int> open;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (label[i] >= 0 || !in(i)) continue;
-    label[i] = count;
-    open.assign(1, static_cast<int>(i));
-    while (!open.empty()) {
-      const auto at = static_cast<std::size_t>(open.back());
-      open.pop_back();
-      for (const int next : samples[at].next) {
-        if (next < 0 || label[static_cast<std::size_t>(next)] >= 0) continue;
-        if (!in(static_cast<std::size_t>(next))) continue;
-        label[static_cast<std::size_t>(next)] = count;
-        open.push_back(next);
-      }
-    }
-    ++count;
-  }
-  return label;
-}
-
 struct Level {
   double z = 0;  // area-weighted mean of its flat parts
   double area_m2 = 0;
 };
 
 /// Flat components large enough, merged while neighbours in height are within kMergeHeight_m.
-std::vector<Level> FindLevels(const std::vector<Sample>& samples) {
+std::vector<Level> FindLevels(const std::vector<SurfaceSample>& samples) {
   std::vector<char> flat(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) flat[i] = IsFlat(samples, samples[i]) ? 1 : 0;
   int count = 0;
@@ -168,7 +85,7 @@ int NearestLevel(const std::vector<Floor>& floors, double z) {
 
 /// Floors without their areas, from the lowest up. Measured from a floor's lowest level: a house of
 /// half storeys must not become one floor.
-std::vector<Floor> FloorsOf(const std::vector<Sample>& samples) {
+std::vector<Floor> FloorsOf(const std::vector<SurfaceSample>& samples) {
   std::vector<Floor> floors;
   double largest_m2 = 0;  // level of the last floor
   for (const Level& level : FindLevels(samples)) {
@@ -183,14 +100,14 @@ std::vector<Floor> FloorsOf(const std::vector<Sample>& samples) {
   }
   if (!floors.empty() || samples.empty()) return floors;
   double z = 0;  // less walkable ground than a floor needs: all of it is one
-  for (const Sample& s : samples) z += s.z / static_cast<double>(samples.size());
+  for (const SurfaceSample& s : samples) z += s.z / static_cast<double>(samples.size());
   floors.push_back({0, z, 0, {z}});
   return floors;
 }
 
 /// Pairs of floors, the lower first, that meet or that a connected piece of flight touches both.
 /// `on_floor`: of each sample, -1 on a flight.
-std::set<std::pair<int, int>> JoinedFloors(const std::vector<Sample>& samples,
+std::set<std::pair<int, int>> JoinedFloors(const std::vector<SurfaceSample>& samples,
                                            const std::vector<int>& on_floor) {
   int count = 0;
   const auto flight = Components(samples, count, [&](std::size_t i) { return on_floor[i] < 0; });
@@ -214,11 +131,12 @@ std::set<std::pair<int, int>> JoinedFloors(const std::vector<Sample>& samples,
 
 FloorPlan FindFloors(const dtNavMesh& mesh) {
   FloorPlan plan;
+  std::vector<WorldTriangle> triangles;
   ForEachDetailTriangle(mesh, [&](dtPolyRef, const WorldTriangle& t) {
     plan.area_m2 += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    triangles.push_back(t);
   });
-  std::vector<Sample> samples = SampleSurface(mesh);
-  LinkNeighbours(samples);
+  const std::vector<SurfaceSample> samples = SampleSurface(triangles, kGrid_m);
   plan.floors = FloorsOf(samples);
   if (plan.floors.empty()) return plan;
   std::vector<int> on_floor(samples.size(), -1);

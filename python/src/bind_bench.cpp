@@ -3,6 +3,7 @@
 #include <nanobind/stl/map.h>
 
 #include "crossnav/bench/cause.h"
+#include "crossnav/bench/comparison.h"
 #include "crossnav/bench/episode_generator.h"
 #include "crossnav/bench/episodes.h"
 #include "crossnav/bench/metrics_report.h"
@@ -70,14 +71,28 @@ nb::object MetricsOfFiles(const std::vector<std::filesystem::path>& paths) {
 }
 
 /// report.json of the program with the records of each run, and what follows from each record.
+/// Every run against the first, also where that is not fair; runs that share no episode are left
+/// out.
+std::string CompareWithFirst(const std::vector<bench::ReportRun>& runs) {
+  std::vector<bench::Comparison> comparisons;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    auto comparison = bench::CompareRuns(runs[0], runs[i], {}, /*is_forced=*/true);
+    if (comparison) comparisons.push_back(std::move(*comparison));
+  }
+  return bench::ComparisonsJson(comparisons);
+}
+
 nb::object ReportOfRuns(const std::vector<std::filesystem::path>& paths, bool partial) {
   std::vector<bench::ReportRun> runs;
+  std::string comparisons;
   const std::string text = [&] {
     const nb::gil_scoped_release others_run;
     runs = Unwrap(bench::ReadRuns(paths, !partial));
+    comparisons = CompareWithFirst(runs);
     return bench::ReportJson(runs, bench::CollectFigures(runs, {}));
   }();
   nb::object report = FromJson(text);
+  report["comparisons"] = FromJson(comparisons);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     nb::list records;
     for (const bench::EpisodeRecord& episode : runs[i].episodes) {
@@ -180,11 +195,12 @@ void BindBench(nb::module_& m) {
         nb::sig("def metrics_of_files(paths: collections.abc.Sequence[str | os.PathLike[str]]) -> "
                 "dict[str, typing.Any]"),
         "What `crossnav metrics --json` says of result files.");
-  m.def(
-      "report_of_runs", &ReportOfRuns, "paths"_a, "partial"_a = false,
-      nb::sig("def report_of_runs(paths: collections.abc.Sequence[str | os.PathLike[str]], "
-              "partial: bool = False) -> dict[str, typing.Any]"),
-      "report.json of `crossnav report`, with the records of each run and what follows from them.");
+  m.def("report_of_runs", &ReportOfRuns, "paths"_a, "partial"_a = false,
+        nb::sig("def report_of_runs(paths: collections.abc.Sequence[str | os.PathLike[str]], "
+                "partial: bool = False) -> dict[str, typing.Any]"),
+        "report.json of `crossnav report`, with the records of each run and what follows from "
+        "them, and "
+        "every run against the first, as in comparison.json.");
   m.def(
       "export_replay_page",
       [](const PathIn& replay, const PathIn& page) {

@@ -8,8 +8,10 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import crossnav
@@ -83,11 +85,11 @@ def test_every_plot_and_table_is_a_file_too(page: Path) -> None:
     for plot in PLOTS:
         assert (folder / f"{plot}.png").read_bytes().startswith(b"\x89PNG")
         assert (folder / f"{plot}.pdf").read_bytes().startswith(b"%PDF")
-    for table in ("figures", "episodes", "stages", "timing", "causes"):
+    for table in ("figures", "episodes", "stages", "timing", "causes", "differences", "flips"):
         with open(folder / f"{table}.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         assert len(rows) == len(json.loads((folder / f"{table}.json").read_text(encoding="utf-8")))
-        assert rows or table == "causes"
+        assert rows or table in ("causes", "flips")
 
 
 def test_the_figures_are_those_of_the_program(page: Path, runs: list[Path]) -> None:
@@ -101,7 +103,7 @@ def test_the_figures_are_those_of_the_program(page: Path, runs: list[Path]) -> N
 
 
 def test_one_run_is_enough(runs: list[Path], tmp_path: Path) -> None:
-    assert len(write_report(runs[:1], tmp_path / "one.html")) == 1 + 2 * len(PLOTS) + 2 * 5
+    assert len(write_report(runs[:1], tmp_path / "one.html")) == 1 + 2 * len(PLOTS) + 2 * 7
 
 
 def run_module(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -131,21 +133,30 @@ def test_the_page_must_be_one(runs: list[Path]) -> None:
 
 
 def chromium(page: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
-         "--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=5000", *arguments,
-         page.as_uri()], capture_output=True, text=True, check=False, timeout=300)
+    """A browser of its own, without a network."""
+    with tempfile.TemporaryDirectory() as profile:
+        return subprocess.run(
+            [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+             "--host-resolver-rules=MAP * ~NOTFOUND", "--disable-quic", "--no-first-run",
+             "--disable-background-networking", "--disable-component-update", "--disable-sync",
+             f"--user-data-dir={profile}", "--virtual-time-budget=5000", *arguments,
+             page.as_uri()], capture_output=True, text=True, check=False, timeout=300)
+
+
+def screenshot(page: Path, name: str, width: int, height: int, tmp_path: Path) -> np.ndarray:
+    """Pixels of the page; kept in CROSSNAV_SCREENSHOTS, where that is a folder."""
+    picture = Path(os.environ.get("CROSSNAV_SCREENSHOTS", tmp_path)) / f"{name}_{width}.png"
+    chromium(page, f"--window-size={width},{height}", f"--screenshot={picture}")
+    pixels = image.imread(picture)
+    assert pixels.shape[1] == width
+    return pixels[:, :, :3].mean(axis=2)
 
 
 @pytest.mark.skipif(not CHROMIUM, reason="no Chromium here")
 @pytest.mark.parametrize("width", [1400, 800])
 def test_it_opens_in_a_browser_without_a_network(page: Path, width: int, tmp_path: Path) -> None:
-    folder = Path(os.environ.get("CROSSNAV_SCREENSHOTS", tmp_path))
-    picture = folder / f"report_{width}.png"
-    chromium(page, f"--window-size={width},6000", f"--screenshot={picture}")
-    pixels = image.imread(picture)
-    assert pixels.shape[1] == width
-    assert 0.02 < (pixels[:, :, :3].mean(axis=2) < 0.9).mean() < 0.6  # neither empty nor black
+    grey = screenshot(page, "report", width, 6000, tmp_path)
+    assert 0.02 < (grey < 0.9).mean() < 0.6  # neither empty nor black
 
     checked = tmp_path / "checked.html"
     checked.write_text(page.read_text(encoding="utf-8").replace("</body>", CHECKS),
@@ -158,3 +169,56 @@ def test_it_opens_in_a_browser_without_a_network(page: Path, width: int, tmp_pat
     assert 0 < checks["filtered"] < 6 and checks["shown"] == str(checks["filtered"])
     assert checks["pictures"]
     assert checks["width"][0] <= checks["width"][1], "the page is wider than its window"
+
+
+@pytest.fixture(scope="module")
+def evaluated(scenes_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page about two runs of the program, one of which kept the replays of its failures."""
+    program = os.environ.get("CROSSNAV_PROGRAM", "")
+    if not program:
+        pytest.skip("scripts/test_python.sh names the program, where it is built")
+    folder = tmp_path_factory.mktemp("evaluated")
+    small = ["--set", "sensor.width_px=160", "--set", "sensor.height_px=160",
+             "--set", "ground_truth.min_visible_px=20", "--set", "ground_truth.feature_dim=64",
+             "--set", "eval.action_budget=300"]
+
+    def run(*arguments: str) -> None:
+        subprocess.run([program, *arguments, "--quiet"], cwd=folder, check=True,
+                       capture_output=True, text=True)
+
+    run("episodes", "generate", "--scenes", str(scenes_dir), "--count", "3", "--seed", "2",
+        "--cross-floor", "0.67", "--out", "e.json")
+    for variant in ("full", "planar"):  # planar cannot climb
+        run("eval", "--scenes", str(scenes_dir), "--episodes", "e.json", "--out", f"runs/{variant}",
+            "--variant", variant, "--keep-replays", "failures", *small)
+    write_report([folder / "runs/full", folder / "runs/planar"], folder / "report.html")
+    return folder / "report.html"
+
+
+def test_flips_and_episodes_link_to_the_replays_that_a_run_kept(evaluated: Path) -> None:
+    kept = sorted(path.stem for path in (evaluated.parent / "runs").glob("*/replays/*.mcap"))
+    text = evaluated.read_text(encoding="utf-8")
+    links = re.findall(r'<a href="(report_files/replays/[^"]+)">replay</a>', text)
+    assert kept and sorted({Path(link).stem for link in links}) == kept
+    for link in links:
+        assert (evaluated.parent / link).is_file()
+    flips = json.loads((evaluated.parent / "report_files/flips.json").read_text(encoding="utf-8"))
+    assert flips and all(flip["replay"] in links and flip["cause"] for flip in flips)
+    assert "policy.planar: false and true" in text
+
+
+@pytest.mark.skipif(not CHROMIUM, reason="no Chromium here")
+def test_a_click_on_a_link_opens_the_replay_without_a_network(
+        evaluated: Path, tmp_path: Path) -> None:
+    clicked = evaluated.with_name("clicked.html")
+    clicked.write_text(evaluated.read_text(encoding="utf-8").replace(
+        "</body>", '<script>document.querySelector("#episode-table td a").click();</script></body>'),
+        encoding="utf-8")
+    opened = chromium(clicked, "--dump-dom").stdout
+    assert "crossnav report" not in opened and "<canvas" in opened, opened[:300]
+    link = re.search(r'href="(report_files/replays/[^"]+)"', evaluated.read_text("utf-8"))
+    assert link
+    for width in (1400, 800):
+        screenshot(evaluated, "compared", width, 9000, tmp_path)
+        grey = screenshot(evaluated.parent / link.group(1), "replay", width, 1200, tmp_path)
+        assert 0.02 < (grey < 0.9).mean()

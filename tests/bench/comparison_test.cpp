@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/record_builder.h"
+#include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::bench {
 namespace {
@@ -88,7 +90,7 @@ TEST(Comparison, UnfairRunsAreRefusedAndForcedOnesSaySo) {
   }
   const auto forced = CompareRuns(a, b, {100, 1}, /*is_forced=*/true);
   ASSERT_TRUE(forced) << forced.error().Message();
-  EXPECT_NE(ComparisonMarkdown(*forced).find("**Forced"), std::string::npos);
+  EXPECT_NE(ComparisonMarkdown(*forced, {}).find("**Forced"), std::string::npos);
   EXPECT_NE(ComparisonText(*forced).find("FORCED"), std::string::npos);
   EXPECT_NE(ComparisonText(*forced).find("seed: 1 and 9"), std::string::npos);
   b.header.reset();
@@ -106,17 +108,42 @@ TEST(Comparison, FlippedEpisodesAreListedWithTheirOutcomeBeforeAndAfter) {
   EXPECT_EQ(comparison->scenes, 5);
   ASSERT_EQ(comparison->flips.size(), 3u);
   EXPECT_EQ(comparison->flips[0].episode_id, "e0");
-  EXPECT_EQ(comparison->flips[0].after, "failed");
+  EXPECT_EQ(comparison->flips[0].after.outcome, "failed");
+  EXPECT_EQ(comparison->flips[0].after.cause, "signal 6");
   EXPECT_EQ(comparison->flips[1].episode_id, "e4");
-  EXPECT_EQ(comparison->flips[1].before, "misdetection");
-  EXPECT_EQ(comparison->flips[1].after, "success");
+  EXPECT_EQ(comparison->flips[1].before.outcome, "misdetection");
+  EXPECT_EQ(comparison->flips[1].before.cause, "stopped at the wrong object");
+  EXPECT_EQ(comparison->flips[1].after.outcome, "success");
+  EXPECT_EQ(comparison->flips[1].after.cause, "");
   EXPECT_NEAR(comparison->differences.at("SR").difference, 0.1, 1e-12);
   const std::string text = ComparisonText(*comparison);
-  EXPECT_NE(text.find("e4: misdetection (0/1) -> success (1/1)"), std::string::npos) << text;
+  EXPECT_NE(text.find("e4: misdetection (0/1) -> success (1/1): stopped at the wrong object"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("2 completed now and not before, 1 the other way"), std::string::npos);
   const auto json = nlohmann::json::parse(ComparisonsJson(std::vector{*comparison}));
   EXPECT_EQ(json[0]["flips"].size(), 3u);
   EXPECT_EQ(json[0]["flips"][2]["goals_after"], 1);
+}
+
+TEST(Comparison, AFlipLinksToTheReplayOfTheRunThatFailed) {
+  const crossnav::test::TempFolder folder;
+  ReportRun a = MakeRun("before", 4), b = MakeRun("after", 6);
+  a.episodes[4].episode_id = b.episodes[4].episode_id = "House/1:4";
+  a.folder = folder.path() / "runs/before";
+  b.folder = folder.path() / "runs/after";
+  std::filesystem::create_directories(a.folder / "replays");
+  crossnav::test::WriteText(a.folder / "replays/House_1_4.mcap", "x");
+  const auto comparison = CompareRuns(a, b, {100, 1}, false);
+  ASSERT_TRUE(comparison) << comparison.error().Message();
+  ASSERT_EQ(comparison->flips.size(), 2u);
+  const auto report = std::filesystem::proximate(folder.path()) / "report";  // as it is typed
+  const std::string text = ComparisonMarkdown(*comparison, report);
+  EXPECT_NE(text.find("| House/1:4 | misdetection (0/1) | success (1/1) | stopped at the wrong "
+                      "object | [replay](<../runs/before/replays/House_1_4.mcap>) |"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| stopped at the wrong object | - |"), std::string::npos);  // none is kept
 }
 
 TEST(Comparison, WholeScenesAreResampled) {

@@ -32,6 +32,15 @@ TEST_F(EpisodeGenerator, EveryCertificateHoldsAndTheShareIsMet) {
   EXPECT_EQ(first_stages, (std::set<int>{1, 2, 3}));
 }
 
+TEST_F(EpisodeGenerator, SaysHowManyEpisodesThereAreAfterEach) {
+  const GeneratorScene scene{scene_id_, context_.get()};
+  std::vector<int> told;
+  const auto file = GenerateEpisodes({&scene, 1}, test::SmallConfig(),
+                                     {3, 0, 5, {}, [&](int done) { told.push_back(done); }});
+  ASSERT_TRUE(file) << file.error().Message();
+  EXPECT_EQ(told, (std::vector<int>{1, 2, 3}));
+}
+
 TEST_F(EpisodeGenerator, CountsPerStageOfTheFirstTransitionAreExact) {
   const GeneratorScene scene{scene_id_, context_.get()};
   const auto file = GenerateEpisodes({&scene, 1}, test::SmallConfig(), {9, 0.9, 5, {3, 0, 2}});

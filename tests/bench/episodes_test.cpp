@@ -120,6 +120,63 @@ TEST(Episodes, RealObjectNavFilesAreRead) {
       file->goals_by_category.at("wcojb4TFT35.basis.glb_sofa")[0].viewpoints_world.empty());
 }
 
+// Made by hand after the v1 files of Matterport3D: ids of that dataset, a start room, a
+// category outside of ours, shortest paths as action numbers.
+TEST(Episodes, AnObjectNavFileOfVersion1IsRead) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "17DRP5sb8fy.json.gz";
+  ASSERT_TRUE(WriteTextFile(path, R"({
+    "category_to_task_category_id": {"chair": 0, "chest_of_drawers": 6},
+    "category_to_mp3d_category_id": {"chair": 3, "chest_of_drawers": 13},
+    "goals_by_category": {
+      "17DRP5sb8fy.glb_chest_of_drawers": [
+        {"object_id": 42, "object_name": "mp3d/17DRP5sb8fy/object_42", "object_name_id": 7,
+         "object_category": "chest_of_drawers", "room_id": 3, "room_name": "bedroom",
+         "position": [1.0, 0.4, 2.0], "radius": null,
+         "view_points": [{"agent_state": {"position": [1.0, 0.1, 3.0], "rotation": [0, 0, 0, 1]},
+                          "iou": 0.2}]}]},
+    "episodes": [
+      {"episode_id": 0, "scene_id": "mp3d/17DRP5sb8fy/17DRP5sb8fy.glb",
+       "start_position": [-3.0, 0.1, 0.5], "start_rotation": [0, 0, 0, 1], "start_room": "2",
+       "info": {"geodesic_distance": 7.1, "closest_goal_object_id": 42}, "goals": [],
+       "shortest_paths": [[1, 1, 3, null]], "object_category": "chest_of_drawers"}]})"));
+  const auto file = ReadEpisodes(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  EXPECT_EQ(file->format, EpisodeFormat::kObjectNav);
+  ASSERT_EQ(file->episodes.size(), 1u);
+  EXPECT_EQ(file->episodes[0].episode_id, "17DRP5sb8fy-0");
+  EXPECT_EQ(file->episodes[0].goals, std::vector<std::string>{"chest_of_drawers"});
+  EXPECT_EQ(file->episodes[0].start.p_world, Vector3d(-0.5, 3, 0.1));
+  const auto& goals = file->goals_by_category.at("17DRP5sb8fy.glb_chest_of_drawers");
+  ASSERT_EQ(goals.size(), 1u);
+  EXPECT_EQ(goals[0].object_id, 42);
+  EXPECT_EQ(goals[0].viewpoints_world, std::vector<Vector3d>{Vector3d(-3, -1, 0.1)});
+}
+
+// The oldest v1 files have no goals_by_category and name the category at the goals only.
+TEST(Episodes, GoalsInsideTheEpisodesOfAnObjectNavFileAreRead) {
+  const crossnav::test::TempFolder folder;
+  const auto path = folder.path() / "old.json";
+  const auto episode = [](int id, const char* scene, double x) {
+    return R"({"episode_id": ")" + std::to_string(id) + R"(", "scene_id": "mp3d/)" + scene + "/" +
+           scene + R"(.glb", "start_position": [0, 0, 0], "start_rotation": [0, 0, 0, 1],
+           "goals": [{"object_id": 5, "object_name": "bed_5", "object_category": "bed",
+           "position": [)" +
+           std::to_string(x) + R"(, 0, 0], "view_points": [
+           {"agent_state": {"position": [2, 0, 0], "rotation": [0, 0, 0, 1]}, "iou": 0.5}]}]})";
+  };
+  ASSERT_TRUE(WriteTextFile(path, R"({"episodes": [)" + episode(1, "A", 1) + "," +
+                                      episode(2, "A", 9) + "," + episode(1, "B", 3) + "]}"));
+  const auto file = ReadEpisodes(path);
+  ASSERT_TRUE(file) << file.error().Message();
+  ASSERT_EQ(file->episodes.size(), 3u);
+  EXPECT_EQ(file->episodes[2].goals, std::vector<std::string>{"bed"});
+  ASSERT_EQ(file->goals_by_category.size(), 2u);
+  ASSERT_EQ(file->goals_by_category.at("A.glb_bed").size(), 1u);
+  EXPECT_EQ(file->goals_by_category.at("A.glb_bed")[0].p_world, Vector3d(0, -1, 0));
+  EXPECT_EQ(file->goals_by_category.at("B.glb_bed")[0].p_world, Vector3d(0, -3, 0));
+}
+
 TEST(Episodes, EveryGoalOfTheRealFilesHasViewpointsOfItsScene) {
   const std::filesystem::path path =
       std::filesystem::path(CROSSNAV_SHARED_DIR) / "data/objectnav_mini/v2/val_mini.json.gz";

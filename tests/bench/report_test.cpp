@@ -14,7 +14,7 @@ namespace crossnav::bench {
 namespace {
 
 std::vector<ReportRun> TwoRuns() {
-  ReportRun full{"full", "full", "oracle-perception", "aa", "bb", {}, {}};
+  ReportRun full{"full", {}, "full", "oracle-perception", "aa", "bb", {}, {}};
   for (int i = 0; i < 10; ++i) {
     auto episode = test::MakeEpisode(std::to_string(i), 3, {{i < 5, 2.0, 4.0}});
     episode.cross_floor_required = i % 2 == 0;

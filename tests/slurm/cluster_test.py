@@ -7,7 +7,6 @@
 Exit status 77: skipped, since there is no Slurm here. With CROSSNAV_LONG_TESTS set it is installed
 first (scripts/setup.sh slurm).
 """
-import json
 import os
 import pathlib
 import subprocess
@@ -18,29 +17,18 @@ import unittest
 
 from small_cluster import DAEMONS, SmallCluster, path_of
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from program import SMALL, records, run  # noqa: E402
+
 SETUP = pathlib.Path(__file__).resolve().parents[2] / "scripts/setup.sh"
-SMALL = ["--set", "sensor.width_px=160", "--set", "sensor.height_px=160",
-         "--set", "ground_truth.min_visible_px=20", "--set", "ground_truth.feature_dim=64",
-         "--set", "eval.action_budget=60"]
-EVAL = ["--scenes", "scenes", "--episodes", "e.json", "--variant", "no-history-poi", *SMALL]
+EVAL = ["--scenes", "scenes", "--episodes", "e.json", "--variant", "no-history-poi", *SMALL,
+        "--set", "eval.action_budget=60"]
 TASKS = 3
 
 
 def program(*arguments, folder, environment=None):
     """Runs crossnav in `folder`; standard output as a document."""
-    done = subprocess.run([PROGRAM, *arguments, "--json"], cwd=folder, env=environment, check=False,
-                          capture_output=True, text=True)
-    assert done.returncode == 0, f"{arguments}\n{done.stderr}"
-    return json.loads(done.stdout)
-
-
-def records(path):
-    """Header and episodes of a result file, without timings, episodes sorted."""
-    header, *lines = [json.loads(line) for line in path.read_text().splitlines()]
-    for line in lines:
-        line.pop("wall_s")
-        line.pop("timing_ms")
-    return header, sorted(lines, key=lambda line: line["episode_id"])
+    return run(PROGRAM, *arguments, folder=folder, environment=environment)
 
 
 def episodes_in(path):

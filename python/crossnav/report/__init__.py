@@ -42,10 +42,10 @@ def write_report(runs: Sequence[PathLike], out: PathLike, partial: bool = False)
         for suffix, content in (("png", plot.png), ("pdf", plot.pdf)):
             written.append(folder / f"{plot.name}.{suffix}")
             written[-1].write_bytes(content)
+    written += data.export_replays(report, runs, folder / "replays")
     for name, table in report.tables().items():
         written += [folder / f"{name}.csv", folder / f"{name}.json"]
         written[-2].write_text(table.to_csv(index=False), encoding="utf-8")
         written[-1].write_text(table.to_json(orient="records", indent=1) + "\n", encoding="utf-8")
-    written += data.export_replays(report, runs, folder / "replays")
     page.write_text(pages.page(report, drawn), encoding="utf-8")
     return written

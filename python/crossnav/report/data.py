@@ -26,10 +26,14 @@ class Report:
     stages: pd.DataFrame
     timing: pd.DataFrame  # run, stage, p50_ms and p95_ms: medians over episodes, episodes
     causes: pd.DataFrame  # run, cause, outcome, stages
+    differences: pd.DataFrame  # before, after, metric, difference, low, high, episodes, scenes
+    flips: pd.DataFrame  # before, after, episode, goals, outcome_.., goals_.., cause, replay
+    notes: list[str]  # what was compared, and what makes it unfair
 
     def tables(self) -> dict[str, pd.DataFrame]:
         return {"figures": self.figures, "episodes": self.episodes, "stages": self.stages,
-                "timing": self.timing, "causes": self.causes}
+                "timing": self.timing, "causes": self.causes, "differences": self.differences,
+                "flips": self.flips}
 
     def figure(self, run: str, group: str, metric: str) -> dict[str, Any]:
         """value, low, high, paper and episodes of a figure; NaN where there is none."""
@@ -84,6 +88,31 @@ def _causes(run: str, causes: dict[str, Any]) -> list[dict[str, Any]]:
             for cause, row in causes.items() for outcome, stages in row["outcomes"].items()]
 
 
+def _notes(comparison: dict[str, Any]) -> list[str]:
+    pair = f"{comparison['after']} against {comparison['before']}"
+    notes = [f"{pair}: {text}" for text in comparison["compared"]]
+    return notes + [f"{pair} is not fair, they differ in {text}" for text in comparison["unfair"]]
+
+
+def _flip(comparison: dict[str, Any], flip: dict[str, Any]) -> dict[str, Any]:
+    """A row; cause and replay are those of the run that did not complete the episode."""
+    worse = "before" if flip["goals_after"] > flip["goals_before"] else "after"
+    return {"before": comparison["before"], "after": comparison["after"],
+            "episode": flip["episode_id"], "goals": flip["goals"],
+            "outcome_before": flip["before"], "goals_before": flip["goals_before"],
+            "outcome_after": flip["after"], "goals_after": flip["goals_after"],
+            "worse": comparison[worse], "cause": flip[f"cause_{worse}"], "replay": ""}
+
+
+def _compared(comparisons: list[dict[str, Any]]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    differences = [{"before": c["before"], "after": c["after"], "metric": metric, **difference,
+                    "episodes": c["episodes"], "scenes": c["scenes"]}
+                   for c in comparisons for metric, difference in c["differences"].items()]
+    flips = [_flip(c, flip) for c in comparisons for flip in c["flips"]]
+    return (pd.DataFrame(differences, columns=list(_DIFFERENCE_COLUMNS)),
+            pd.DataFrame(flips, columns=list(_FLIP_COLUMNS)))
+
+
 def read(runs: Sequence[Union[str, "os.PathLike[str]"]], partial: bool) -> Report:
     """Reads run folders or result files. Raises crossnav.Error that names the file and line."""
     report = _core.report_of_runs([Path(run) for run in runs], partial)
@@ -103,9 +132,15 @@ def read(runs: Sequence[Union[str, "os.PathLike[str]"]], partial: bool) -> Repor
     return Report(report["runs"], figures, pd.DataFrame(episodes),
                   pd.DataFrame(stages, columns=list(_STAGE_COLUMNS)),
                   pd.concat(timing, ignore_index=True),
-                  pd.DataFrame(causes, columns=["run", "cause", "outcome", "stages"]))
+                  pd.DataFrame(causes, columns=["run", "cause", "outcome", "stages"]),
+                  *_compared(report["comparisons"]),
+                  [note for c in report["comparisons"] for note in _notes(c)])
 
 
+_DIFFERENCE_COLUMNS = ("before", "after", "metric", "difference", "low", "high", "episodes",
+                       "scenes")
+_FLIP_COLUMNS = ("before", "after", "episode", "goals", "outcome_before", "goals_before",
+                 "outcome_after", "goals_after", "worse", "cause", "replay")
 _STAGE_COLUMNS = ("run", "episode", "scene", "number", "goal", "outcome", "success", "spl",
                   "shortest_m", "length_m", "actions", "floor_changes", "cause")
 
@@ -130,4 +165,11 @@ def export_replays(report: Report, runs: Sequence[Union[str, "os.PathLike[str]"]
             _core.export_replay_page(replay, page)
             report.episodes.loc[index, "replay"] = page.relative_to(folder.parents[1]).as_posix()
             written.append(page)
+    _link_flips(report)
     return written
+
+
+def _link_flips(report: Report) -> None:
+    pages = report.episodes.set_index(["run", "episode"]).replay
+    for index, flip in report.flips.iterrows():
+        report.flips.loc[index, "replay"] = pages[(flip.worse, flip.episode)]

@@ -40,6 +40,9 @@ th button { font: inherit; font-weight: 600; border: 0; background: none; paddin
             cursor: pointer; color: inherit; }
 th[aria-sort=ascending] button::after { content: " \\25B2"; }
 th[aria-sort=descending] button::after { content: " \\25BC"; }
+table.narrow { width: auto; margin-bottom: 12px; }
+@media (max-width: 900px) { table { font-size: 12px; } th, td { padding: 3px 4px; } }
+ h3 { font-size: 16px; margin: 18px 0 2px; }
 input { font: inherit; padding: 4px 8px; margin-bottom: 8px; width: min(100%, 340px); }
 @media print { nav, input { display: none; } body { max-width: none; } }
 """
@@ -70,11 +73,11 @@ filter.addEventListener("input", () => {
 });
 """
 
-COLUMNS = (("run", "run", ""), ("episode", "episode", ""), ("floor_change", "floor change", ""),
+COLUMNS = (("run", "run", ""), ("episode", "episode", ""), ("replay", "replay", ""),
+           ("floor_change", "floor change", ""),
            ("goals", "goals", ""), ("outcome", "outcome", ""), ("completed", "goals found", "d"),
            ("spl", "SPL [%]", "%"), ("actions", "actions", "d"), ("length_m", "way [m]", ".1f"),
-           ("floor_changes", "floors changed", "d"), ("cause", "cause", ""),
-           ("replay", "replay", ""))
+           ("floor_changes", "floors changed", "d"), ("cause", "cause", ""))
 
 
 def _text(value: Any) -> str:
@@ -133,6 +136,45 @@ def _figure_table(report: Report) -> str:
             f"</thead><tbody>{rows}</tbody></table></div>")
 
 
+def _difference_text(row: dict[str, Any]) -> str:
+    unit = 1 if row["metric"] == "distance_to_goal_m" else 100
+    return "{:+.1f} [{:+.1f}, {:+.1f}]".format(*(unit * row[k] for k in ("difference", "low",
+                                                                        "high")))
+
+
+def _comparison(report: Report, before: str, after: str) -> str:
+    """One run against the first: differences of the sequence figures, and what flipped."""
+    of = report.differences
+    rows = of[(of.before == before) & (of.after == after)].to_dict("records")
+    shown = "".join(f'<tr><td>{row["metric"]}</td><td class="n">{_difference_text(row)}</td></tr>'
+                    for row in rows if row["metric"] in ("SR", "SPL", "PR", "PPL"))
+    flips = report.flips[(report.flips.before == before) & (report.flips.after == after)]
+    lines = "".join(
+        f"<tr><td>{_text(flip['episode'])}</td><td>{flip['outcome_before']} "
+        f"({flip['goals_before']}/{flip['goals']})</td><td>{flip['outcome_after']} "
+        f"({flip['goals_after']}/{flip['goals']})</td><td>{_text(flip['cause'])}</td>"
+        f"{_cell('replay', '', flip['replay'])}</tr>" for flip in flips.to_dict("records"))
+    table = (f'<div class="scroll"><table><thead><tr><th>episode</th><th>{_text(before)}</th>'
+             f"<th>{_text(after)}</th><th>cause</th><th>replay</th></tr></thead><tbody>{lines}"
+             f"</tbody></table></div>") if lines else ""
+    return (f"<h3>{_text(after)} against {_text(before)}</h3>"
+            f"<p>Of the {rows[0]['episodes']} episodes that both have, {len(flips)} were completed "
+            f"in one of the two only. Differences in points of per cent, 95 % by bootstrap over "
+            f"{'scenes' if rows[0]['scenes'] > 1 else 'episodes'}.</p>"
+            f'<div class="scroll"><table class="narrow"><thead><tr><th>figure</th>'
+            f'<th class="n">difference</th></tr></thead><tbody>{shown}</tbody></table></div>{table}')
+
+
+def _comparisons(report: Report) -> str:
+    pairs = report.differences[["before", "after"]].drop_duplicates().itertuples(index=False)
+    text = "".join(_comparison(report, *pair) for pair in pairs)
+    if not text:
+        return ""
+    notes = "".join(f"<li>{_text(note)}</li>" for note in report.notes)
+    return (f'<section id="compared"><h2>Compared, episode by episode</h2><ul>{notes}</ul>{text}'
+            f"</section>")
+
+
 def _cell(column: str, kind: str, value: Any) -> str:
     if column == "replay":
         link = f'<a href="{_text(value)}">replay</a>' if value else "-"
@@ -178,6 +220,8 @@ def page(report: Report, plots: list[Plot]) -> str:
                      f'<img alt="{_text(plot.title)}" src="data:image/svg+xml;base64,{data}">'
                      f"</figure></section>")
         links += f'<a href="#{plot.name}">{_text(plot.title)}</a> '
+    compared = _comparisons(report)
+    links += '<a href="#compared">Compared</a> ' if compared else ""
     cards = "".join(_card(report, run) for run in report.runs)
     downloads = "".join(_download(name, table) for name, table in report.tables().items())
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
@@ -187,7 +231,7 @@ def page(report: Report, plots: list[Plot]) -> str:
             f"bootstrap 95 %; the paper's values are printed beside, for other scenes and other "
             f"perception.</p><nav>{links}<a href=\"#figures\">Figures</a> "
             f'<a href="#episodes">Episodes</a></nav><div class="cards">{cards}</div>{sections}'
-            f'<section id="figures"><h2>Figures</h2>{_figure_table(report)}</section>'
+            f'{compared}<section id="figures"><h2>Figures</h2>{_figure_table(report)}</section>'
             f'<section id="episodes"><h2>Episodes</h2>{_episode_table(report)}</section>'
             f"<section><h2>Tables</h2><ul>{downloads}</ul></section>"
             f"<script>{SCRIPT}</script></body></html>\n")

@@ -266,12 +266,13 @@ def causes(report: Report) -> Plot:
                        label=outcome.replace("_", " "))
             left += counts[outcome].to_numpy()
         panel.set_yticks(range(len(rows)), list(rows), fontsize=8)
+        panel.set_ylim(-0.5, max(1, len(rows)) - 0.5)
         panel.set_xlabel(f"failed goals [number], n = {int(part.stages.sum())}")
         panel.set_title(run["name"], fontsize=9)
         panel.grid(visible=False, axis="y")
         panel.xaxis.get_major_locator().set_params(integer=True)
         if len(part):
-            panel.legend(fontsize=8, loc="lower right")
+            panel.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
         else:
             panel.text(0.5, 0.5, "no goal failed", ha="center", transform=panel.transAxes)
     return _render("causes", "Causes of failure",
