@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "covering_points.h"
 #include "crossnav/core/category_table.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/query_match.h"
@@ -55,20 +56,6 @@ std::string NameOf(const sim::SceneInstance& instance) {
   return SpacedName(instance.category.empty() ? instance.name : instance.category);
 }
 
-std::vector<Vector3d> Viewpoints(const sim::NavMesh& navmesh) {
-  Rng rng(5);
-  std::vector<Vector3d> kept;
-  for (int misses = 0; misses < 150;) {
-    const auto p = navmesh.RandomPoint(rng);
-    if (!p) break;
-    const bool is_near = std::any_of(
-        kept.begin(), kept.end(), [&](const Vector3d& q) { return (q - *p).norm() < kSpacing_m; });
-    misses = is_near ? misses + 1 : 0;
-    if (!is_near) kept.push_back(*p);
-  }
-  return kept;
-}
-
 /// The encoder of the options, and what it stands on.
 struct Encoder {
   networks::NetworkSet networks;
@@ -102,7 +89,7 @@ Result<void> Open(const Options& options, const sim::Simulator& simulator, Encod
 Result<void> Explore(const sim::NavMesh& navmesh, sim::Simulator& simulator,
                      perception::DenseEncoder& encoder, memory::SemanticMemory& memory) {
   geometry::VoxelMap map;
-  for (const Vector3d& p : Viewpoints(navmesh)) {
+  for (const Vector3d& p : CoveringPoints(navmesh, kSpacing_m, 150)) {
     for (int yaw = 0; yaw < kYaws; ++yaw) {
       if (!simulator.Reset({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)})) continue;
       const Observation obs = simulator.Observe();

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "covering_points.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
@@ -39,21 +40,6 @@ double CpuMs() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return t.tv_sec * 1e3 + t.tv_nsec * 1e-6;
-}
-
-// Points that cover the navmesh, no two nearer than the spacing.
-std::vector<Vector3d> Viewpoints(const sim::NavMesh& navmesh) {
-  Rng rng(5);
-  std::vector<Vector3d> kept;
-  for (int misses = 0; misses < 400;) {
-    const auto p = navmesh.RandomPoint(rng);
-    if (!p) break;
-    const bool is_near = std::any_of(
-        kept.begin(), kept.end(), [&](const Vector3d& q) { return (q - *p).norm() < kSpacing_m; });
-    misses = is_near ? misses + 1 : 0;
-    if (!is_near) kept.push_back(*p);
-  }
-  return kept;
 }
 
 bool IsAt(const memory::MemoryCluster& cluster, const sim::SceneInstance& instance) {
@@ -136,7 +122,7 @@ bool RunScene(const std::filesystem::path& folder, const sim::GroundTruthConfig&
   memory::SemanticMemory memory(fusion);
   int frames = 0;
   double encode_ms = 0, fuse_ms = 0;
-  for (const Vector3d& p : Viewpoints(*navmesh))
+  for (const Vector3d& p : CoveringPoints(*navmesh, kSpacing_m, 400))
     for (int yaw = 0; yaw < kYaws; ++yaw) {
       if (!simulator.Reset({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)})) continue;
       const Observation obs = simulator.Observe();

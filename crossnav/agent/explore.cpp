@@ -149,10 +149,11 @@ class Sweep {
   double OfFlight(const VoxelKey& tread) {
     const double rise_m = RiseOf(tread);
     if (std::abs(rise_m) < voxel_m_) return 0;  // its first edge: where it leads was not seen
-    const bool is_up = rise_m > 0;
-    NoteWayOff(is_up);
-    if (is_up && HasWayDown()) return config_.elsewhere_m;
-    return config_.elsewhere_m + (is_up ? -likelier_above_m_ : likelier_above_m_);
+    if (rise_m < 0) {
+      NoteWayDown();
+      return config_.elsewhere_m + likelier_above_m_;
+    }
+    return config_.elsewhere_m - (HasWayDown() ? 0 : likelier_above_m_);
   }
 
   /// Two steps, or one of double height, as near as on a flight and not on a floor.
@@ -178,23 +179,16 @@ class Sweep {
                        [&](double level_m) { return z_m < level_m; });
   }
 
-  bool IsOfLevel(double z_m) const { return std::abs(z_m - now_.world.level_m) < kSplitLevel_m; }
-
-  void NoteWayOff(bool is_up) {
-    auto& ways = now_.world.ways_off_level;
-    if (std::none_of(ways.begin(), ways.end(), [&](const WayOffLevel& way) {
-          return way.is_up == is_up && IsOfLevel(way.level_m);
-        }))
-      ways.push_back({now_.world.level_m, is_up});
+  void NoteWayDown() {
+    if (!HasWayDown()) now_.world.upper_levels_m.push_back(now_.world.level_m);
   }
 
   bool HasWayDown() const {
-    const auto& world = now_.world;
+    const World& world = now_.world;
     return std::any_of(world.levels_m.begin(), world.levels_m.end(),
                        [&](double m) { return m < world.level_m - config_.storey_m; }) ||
-           std::any_of(
-               world.ways_off_level.begin(), world.ways_off_level.end(),
-               [&](const WayOffLevel& way) { return !way.is_up && IsOfLevel(way.level_m); });
+           std::any_of(world.upper_levels_m.begin(), world.upper_levels_m.end(),
+                       [&](double m) { return std::abs(m - world.level_m) < kSplitLevel_m; });
   }
 
   void OfferUninspected(const VoxelKey& key) {
@@ -282,7 +276,7 @@ class Sweep {
     if (is_moving && activity.candidate.kind == candidate.kind &&
         (activity.candidate.p_focus_world - candidate.p_focus_world).norm() <
             2 * config_.same_place_m)
-      offered.spared_m = config_.commit_m + class_m;
+      offered.spared_m = config_.commit_m + std::max(0.0, class_m);
     target.score_m -= offered.spared_m;
     candidate.score = -target.score_m;
     target.candidate = std::move(candidate);

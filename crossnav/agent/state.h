@@ -34,12 +34,6 @@ struct StairLink {
   Vector3d p_to_world = Vector3d::Zero();
 };
 
-/// Stairs were seen that leave a level.
-struct WayOffLevel {
-  double level_m = 0;
-  bool is_up = false;
-};
-
 /// Survives a change of goal.
 struct World {
   geometry::VoxelMap map;
@@ -55,11 +49,11 @@ struct World {
   int step = 0;
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
   int flat_frames = 0;     ///< consecutive frames on flat ground off the exploration level
-  double confirmed_similarity = -1;  ///< lowest of an object that was found and its goal's text
-  std::vector<double> levels_m;      ///< heights of the levels that were stood on
-  std::vector<WayOffLevel> ways_off_level;  ///< known so far, each once
-  policy::LookedAlong looked_along;
-  std::vector<double> looked_around_m;      ///< heights at which a look around was made
+  double confirmed_similarity = -1;     ///< lowest of an object that was found and its goal's text
+  std::vector<double> levels_m;         ///< heights of the levels that were stood on
+  std::vector<double> upper_levels_m;   ///< heights of the levels from which stairs down were seen
+  policy::LookedAlong looked_along;     ///< pictures so far
+  std::vector<double> looked_around_m;  ///< heights at which a look around was made
   std::optional<AgentPose> before_forward;  ///< pose before the last forward step
   policy::BumpMonitor bumps;                ///< policy.profile = paper
 

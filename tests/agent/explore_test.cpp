@@ -2,6 +2,7 @@
 // Which of the places to look next comes first, on ground that was set by hand.
 #include "crossnav/agent/explore.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,9 @@ struct Choice {
   bool is_flight = false;
 };
 
-Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart) {
+/// Of an agent at `start` that looks west, and is on its way to `committed`.
+Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart,
+              const policy::Candidate* committed = nullptr) {
   Config config;
   config.policy.explore.uninspected_m = 1000;  // all of it was seen from near
   World world(config);
@@ -68,7 +71,12 @@ Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
   world.level_m = 0.1;
   GoalState goal;
   goal.goal = goal_name;
+  if (committed) {
+    goal.activity.kind = ActivityKind::kClimb;
+    goal.activity.candidate = *committed;
+  }
   AgentPose agent;
+  agent.yaw_rad = M_PI;
   agent.p_world = CenterOf(start, config.map.voxel_m) - Vector3d(0, 0, 0.05);
   const Observation obs;
   const std::vector<policy::Sighting> sightings;
@@ -98,6 +106,17 @@ TEST(Explore, AFlightDownComesFirstForASofaAndLastForABed) {
   EXPECT_TRUE(Choose(map, "sofa").is_flight);
   EXPECT_FALSE(Choose(map, "bed").is_flight);
   EXPECT_FALSE(Choose(map, "chair").is_flight);
+}
+
+// The price of the flight is negative there, and "its class was paid for" took that away: at every
+// second look the door was nearer than what was left of the way.
+TEST(Explore, TheWayToALikelierStoreyIsKeptTo) {
+  VoxelMap map = Room();
+  AddTreads(map, 6, 2);
+  const VoxelKey at_door{3, 15, 1};
+  const Choice first = Choose(map, "bed", at_door);
+  ASSERT_TRUE(first.is_flight);
+  EXPECT_TRUE(Choose(map, "bed", at_door, &first.target.candidate).is_flight);
 }
 
 // Two treads bordering on a few unseen columns were worth a tenth of their way, like what is left

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Places from which a scene is seen whole, for programs that explore without a policy.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "crossnav/core/rng.h"
+#include "crossnav/sim/navmesh.h"
+
+namespace crossnav {
+
+/// Points that cover the navmesh, no two nearer than `spacing_m`; it ends when `misses` points in a
+/// row lie nearer than that to one there is.
+inline std::vector<Vector3d> CoveringPoints(const sim::NavMesh& navmesh, double spacing_m,
+                                            int misses) {
+  Rng rng(5);
+  std::vector<Vector3d> kept;
+  for (int missed = 0; missed < misses;) {
+    const auto p = navmesh.RandomPoint(rng);
+    if (!p) break;
+    const bool is_near = std::any_of(
+        kept.begin(), kept.end(), [&](const Vector3d& q) { return (q - *p).norm() < spacing_m; });
+    missed = is_near ? missed + 1 : 0;
+    if (!is_near) kept.push_back(*p);
+  }
+  return kept;
+}
+
+}  // namespace crossnav
