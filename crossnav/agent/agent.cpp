@@ -87,9 +87,10 @@ struct Seen {
   perception::Percept percept;
 };
 
-/// What counts as a hint of the goal: every sighting, however small.
-policy::ObjectConfig HintConfig(policy::ObjectConfig config) {
-  config.detector_confidence = config.secondary_confidence;
+/// What counts as a hint of the goal: every sighting, however small or doubtful.
+policy::ObjectConfig HintConfig(const policy::PolicyConfig& policy) {
+  policy::ObjectConfig config = policy.object;
+  config.detector_confidence = policy.explore.hint_confidence;
   config.min_box_area_fraction = 0;
   return config;
 }
@@ -227,13 +228,16 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
     world.stairs.Update(percept->stair_probability, end_voxels, world.map, config.policy.stair,
                         world.step);
   }
+  const double least_confidence = config.policy.object.secondary_confidence;
+  const policy::ObjectConfig hint = HintConfig(config.policy);
   auto sightings =
       policy::LiftDetections(percept->detections, obs, config.map, config.policy.object,
-                             config.policy.object.secondary_confidence);
+                             std::min(least_confidence, hint.detector_confidence));
   const Vector3d p_camera_world = obs.T_world_camera.translation();
   sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
+  goal.hints.Update(sightings, hint, config.map.voxel_m, world.step);
+  std::erase_if(sightings, [&](const auto& seen) { return seen.confidence < least_confidence; });
   goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
-  goal.hints.Update(sightings, HintConfig(config.policy.object), config.map.voxel_m, world.step);
   if (DoubtsClaims(config))
     NoteViews(goal.live.all(), sightings, p_camera_world, config.policy.object, config.verify,
               &goal.claims);

@@ -8,6 +8,7 @@
 
 #include "crossnav/agent/hooks.h"
 #include "crossnav/core/check.h"
+#include "crossnav/policy/approach.h"
 #include "crossnav/policy/flights.h"
 #include "crossnav/policy/ground_frontiers.h"
 #include "crossnav/policy/stair_geometry.h"
@@ -34,7 +35,13 @@ class Sweep {
         voxel_m_(now.config.map.voxel_m),
         search_(now.world.ground, now.config.planner, start, RulesOf(now)),
         shown_(shown),
-        likelier_above_m_(config_.storey_bit_m * policy::UpperStoreyBits(now.goal.goal)) {}
+        likelier_above_m_(config_.storey_bit_m * policy::UpperStoreyBits(now.goal.goal)) {
+    for (const policy::LivePoi& poi : now.goal.hints.all())
+      if (!poi.is_discarded && !IsSpentHere(SightingOf(poi)))
+        hints_.push_back({poi,
+                          {now.world.map, poi.voxels, now.config.policy.approach.range_m,
+                           now.config.policy.approach, now.config.sensor.camera_height_m}});
+  }
 
   std::optional<GroundTarget> Run() {
     while (const auto key = search_.Next()) {
@@ -54,6 +61,13 @@ class Sweep {
     double rise_m = 0;    ///< over the level
     double spared_m = 0;  ///< by the commitment
     bool is_flight = false;
+  };
+
+  /// The goal was seen there, too weakly or where it cannot be approached yet.
+  struct Hint {
+    const policy::LivePoi& poi;
+    policy::ViewTest view;
+    bool is_offered = false;
   };
 
   std::optional<GroundTarget> Best() {
@@ -82,7 +96,8 @@ class Sweep {
 
   /// What the class and the commitment take from the way at most.
   double LeastClass() const {
-    return std::min(0.0, config_.elsewhere_m - std::abs(likelier_above_m_)) - config_.commit_m;
+    return std::min({0.0, config_.sighting_m, config_.elsewhere_m - std::abs(likelier_above_m_)}) -
+           config_.commit_m;
   }
 
   std::optional<GroundTarget> AskHooks() {
@@ -104,7 +119,7 @@ class Sweep {
     } else if (!now_.world.coverage.IsInspected(key)) {
       OfferUninspected(key);
     }
-    for (const policy::LivePoi& hint : now_.goal.hints.all()) OfferSighting(key, hint);
+    for (Hint& hint : hints_) OfferSighting(key, hint);
   }
 
   /// A frontier is about its nearest member that was not looked at in vain.
@@ -126,8 +141,15 @@ class Sweep {
     for (const VoxelKey& member : candidate.standing)
       if (LeadsToStorey(member)) clustered_.erase(member);
     const bool is_crumb = candidate.size < config_.min_cluster;
-    Offer(std::move(candidate), key, level_m + (is_crumb ? config_.crumb_m : 0),
-          policy::FrontierWorth(now_.world.ground, key, now_.goal.resemblance, config_));
+    double class_m = level_m + (is_crumb ? config_.crumb_m : 0);
+    double worth = policy::FrontierWorth(now_.world.ground, key, now_.goal.resemblance, config_);
+    const double way_m = search_.cost() * voxel_m_ + config_.start_m;
+    if (const auto to_hint_m = ToHint(key);
+        to_hint_m && *to_hint_m + config_.sighting_m < class_m + way_m * (1 / worth - 1)) {
+      class_m = *to_hint_m + config_.sighting_m;
+      worth = 1;
+    }
+    Offer(std::move(candidate), key, class_m, worth);
   }
 
   /// On a flight that was not walked yet, the next tread stands for a storey: stair evidence names
@@ -212,22 +234,33 @@ class Sweep {
     Offer(std::move(candidate), key, config_.uninspected_m + (is_local ? 0 : config_.elsewhere_m));
   }
 
-  void OfferSighting(const VoxelKey& key, const policy::LivePoi& hint) {
-    if (hint.is_discarded || offered_.contains(hint.id)) return;
-    const Vector3d d = hint.p_center_world - CenterOf(key, voxel_m_);
-    if (std::hypot(d.x(), d.y()) > now_.config.policy.approach.range_m || d.z() < -0.5 ||
-        d.z() > config_.storey_m)
-      return;
+  /// The first place from which it is seen from near is the nearest.
+  void OfferSighting(const VoxelKey& key, Hint& hint) {
+    if (hint.is_offered || !hint.view.IsView(key)) return;
+    hint.is_offered = true;
+    Candidate candidate = SightingOf(hint.poi);
+    candidate.standing = {key};
+    Offer(std::move(candidate), key, config_.sighting_m);
+  }
+
+  static Candidate SightingOf(const policy::LivePoi& poi) {
     Candidate candidate;
     candidate.kind = CandidateKind::kSighting;
-    candidate.id = hint.id;
-    candidate.p_focus_world = hint.p_center_world;
-    candidate.standing = {key};
-    candidate.score = hint.confidence;
-    candidate.size = static_cast<int>(hint.voxels.size());
-    if (IsSpentHere(candidate)) return;
-    offered_.insert(hint.id);  // the first place is the nearest
-    Offer(std::move(candidate), key, config_.sighting_m);
+    candidate.id = poi.id;
+    candidate.p_focus_world = poi.p_center_world;
+    candidate.size = static_cast<int>(poi.voxels.size());
+    return candidate;
+  }
+
+  /// The straight line to the nearest hint of the storey that no known ground leads to.
+  std::optional<double> ToHint(const VoxelKey& key) const {
+    std::optional<double> least_m;
+    for (const Hint& hint : hints_) {
+      const Vector3d d = hint.poi.p_center_world - CenterOf(key, voxel_m_);
+      if (hint.is_offered || d.z() < -0.5 || d.z() > config_.storey_m) continue;
+      least_m = std::min(least_m.value_or(1e9), std::hypot(d.x(), d.y()));
+    }
+    return least_m;
   }
 
   bool IsSpentHere(const Candidate& candidate) const {
@@ -294,7 +327,7 @@ class Sweep {
   std::vector<Candidate>* shown_;
   double likelier_above_m_;  // what the goal's odds of an upper storey are worth; negative: below
   std::set<VoxelKey> clustered_;
-  std::set<int> offered_;           // sightings
+  std::vector<Hint> hints_;
   std::set<VoxelKey> uninspected_;  // coarse cells that were offered
   double best_score_m_ = std::numeric_limits<double>::infinity();
   std::vector<Offered> all_;

@@ -97,23 +97,6 @@ void Explore(Situation& now, const VoxelKey& start, Decision& decision) {
   Begin(now, kind, std::move(*target));
 }
 
-/// A live POI that cannot be approached yet is gone nearer to, while that helps.
-bool GoNearer(Situation& now, const VoxelKey& start) {
-  const auto& explore = now.config.policy.explore;
-  for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
-    if (IsSpent(now.goal.attempts, CandidateKind::kSighting, poi->p_center_world,
-                explore.same_place_m, explore.max_choices))
-      continue;
-    auto target = NearestTo(now, start, poi->p_center_world);
-    if (!target) continue;
-    target->candidate.kind = CandidateKind::kSighting;
-    target->candidate.id = poi->id;
-    Begin(now, ActivityKind::kGoTo, std::move(*target));
-    return true;
-  }
-  return false;
-}
-
 // --- Acting ------------------------------------------------------------------------------------
 
 /// On arrival at an exploration target: look at what it is about, then give it up.
@@ -300,7 +283,6 @@ void ChooseActivity(Situation& now, Decision& decision) {
     return;
   }
   if (activity.kind == ActivityKind::kVisit) End(now, Ending::kUnreachable);
-  if (GoNearer(now, *start)) return;
   if (IsOnLevel(now, now.agent.p_world) && QueueGlance(now, *start)) return;
   Explore(now, *start, decision);
 }

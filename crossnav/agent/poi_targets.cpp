@@ -60,32 +60,6 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
   return std::nullopt;
 }
 
-std::optional<GroundTarget> NearestTo(const Situation& now, const VoxelKey& start,
-                                      const Vector3d& p_world) {
-  const double voxel_m = now.config.map.voxel_m;
-  const auto distance_m = [&](const VoxelKey& key) {
-    const Vector3d d = p_world - FootOf(key, voxel_m);
-    const bool is_on_storey = d.z() > -0.5 && d.z() < now.config.policy.explore.storey_m;
-    return is_on_storey ? std::hypot(d.x(), d.y()) : 1e9;
-  };
-  GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
-  std::optional<VoxelKey> best;
-  double best_m = std::min(distance_m(start), 1e8) - policy::kSameView_m;
-  while (const auto key = search.Next()) {
-    const double d = distance_m(*key);
-    if (d >= best_m) continue;
-    best = key;
-    best_m = d;
-  }
-  if (!best) return std::nullopt;
-  GroundTarget target;
-  target.path = search.PathTo(*best);
-  target.cost_m = *search.CostOf(*best) * voxel_m;
-  target.candidate.standing = {*best};
-  target.candidate.p_focus_world = p_world;
-  return target;
-}
-
 std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const policy::LivePoi& poi) {
   const bool is_active = poi.id == now.goal.active_live;

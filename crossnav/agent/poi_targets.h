@@ -34,10 +34,6 @@ struct ViewWish {
 std::optional<GroundTarget> NearestView(const Situation& now, const geometry::VoxelKey& start,
                                         const ViewWish& wish);
 
-/// The reachable place nearest to `p_world` on its own storey, if it is nearer than `start`.
-std::optional<GroundTarget> NearestTo(const Situation& now, const geometry::VoxelKey& start,
-                                      const Vector3d& p_world);
-
 /// The nearest place to see `poi` from, out of those that were not tried and, where a second view
 /// of it is wanted, that are on another side.
 std::optional<GroundTarget> ViewOf(const Situation& now, const geometry::VoxelKey& start,

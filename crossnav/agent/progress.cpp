@@ -19,6 +19,18 @@ namespace {
 constexpr double kStray_m = 0.6;     // chosen: two steps off the way, and it is planned anew
 constexpr double kProgress_m = 0.1;  // chosen: one voxel
 constexpr int kMaxReplans = 5;       // chosen: longer ways that what was seen may explain
+constexpr double kWalls_m = 1.0;     // chosen: bumps that may wall the agent in
+
+/// Two ways in a row could not be begun from here. Whoever got here is not walled in: the places
+/// where it was stopped are wider in the map than they are.
+bool IsWalledIn(const Situation& now) {
+  const auto& attempts = now.goal.attempts;
+  return attempts.size() >= 2 &&
+         std::all_of(attempts.end() - 2, attempts.end(), [&](const Attempt& attempt) {
+           return attempt.ending == Ending::kNoProgress &&
+                  (attempt.p_from_world - now.agent.p_world).norm() < kProgress_m;
+         });
+}
 
 }  // namespace
 
@@ -119,6 +131,8 @@ void End(Situation& now, Ending ending) {
     now.goal.events.push_back(std::string(NameOf(activity.kind)) + ": " +
                               std::string(NameOf(ending)));
   activity = Activity{};
+  if (IsWalledIn(now) && now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalls_m))
+    now.goal.events.push_back("walled in by bumps: they are forgotten here");
 }
 
 double RemainingOf(const Situation& now, const std::vector<VoxelKey>& path) {

@@ -288,4 +288,12 @@ void GroundMap::ForgetBlocked() {
   ++revision_;
 }
 
+bool GroundMap::ForgetBlockedAround(const Vector3d& p_world, double radius_m) {
+  const auto forgotten = std::erase_if(blocked_, [&](const VoxelKey& key) {
+    return (geometry::CenterOf(key, voxel_m_) - p_world).norm() <= radius_m;
+  });
+  if (forgotten > 0) ++revision_;
+  return forgotten > 0;
+}
+
 }  // namespace crossnav::planner

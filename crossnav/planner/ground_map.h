@@ -69,6 +69,8 @@ class GroundMap {
   /// ForgetBlocked. False if it was one already.
   bool Block(const Vector3d& p_world);
   void ForgetBlocked();
+  /// Of those within `radius_m`. False if there were none.
+  bool ForgetBlockedAround(const Vector3d& p_world, double radius_m);
   bool HasBlocked() const { return !blocked_.empty(); }
 
   int climb() const { return climb_; }

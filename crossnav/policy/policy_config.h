@@ -75,7 +75,8 @@ struct ExploreConfig {
   double room_m2 = 8;            // chosen: unseen ground that makes a frontier worth its whole way
   double least_share = 0.1;      // chosen: what hardly any unseen ground is worth of it
   double start_m = 1;            // chosen: what setting out costs, however near
-  double sighting_m = 0;         // chosen: a weak detection is as good as a frontier
+  double hint_confidence = 0.4;  // chosen: what is worth going nearer to, however small
+  double sighting_m = -8;        // chosen: the goal, perhaps: worth passing a frontier by
   double uninspected_m = 10;     // chosen: ground seen from too far for the detector
   double turn_back_m = 20;       // chosen: on a flight, what lies the other way
   double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
@@ -173,7 +174,8 @@ void Visit(V& visit, ExploreConfig& c) {
   visit("room_m2", c.room_m2, 0.01, 10000.0);
   visit("least_share", c.least_share, 0.001, 1.0);
   visit("start_m", c.start_m, 0.0, 1000.0);
-  visit("sighting_m", c.sighting_m, 0.0, 100000.0);
+  visit("hint_confidence", c.hint_confidence, 0.0, 1.0);
+  visit("sighting_m", c.sighting_m, -100000.0, 100000.0);
   visit("uninspected_m", c.uninspected_m, 0.0, 100000.0);
   visit("turn_back_m", c.turn_back_m, 0.0, 100000.0);
   visit("commit_m", c.commit_m, 0.0, 1000.0);

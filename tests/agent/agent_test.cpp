@@ -79,6 +79,25 @@ TEST(Agent, NeverStopsAtWhatItWasNotAskedFor) {
   EXPECT_NE(walk.last_action, Action::kStop);
 }
 
+// A chair seen from 5 m fills too little of the picture to be claimed; it was passed by.
+TEST(Agent, ADoubtfulSightingIsGoneNearerToAndNeverClaimed) {
+  FakeSight sight = CouchSight();
+  const auto detect = sight.detect;
+  sight.detect = [detect](const Observation& obs, std::string_view goal) {
+    auto found = detect(obs, goal);
+    for (auto& detection : found) detection.confidence = 0.45F;
+    return found;
+  };
+  Agent agent(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  BoxWalker walker = TwoRooms();
+  const Walk walk = RunAgent(agent, walker, 400);
+  EXPECT_FALSE(walk.p_claimed_world.has_value());
+  EXPECT_TRUE(std::any_of(walk.traces.begin(), walk.traces.end(), [](const std::string& trace) {
+    return trace.find("\"sighting\"") != std::string::npos;
+  }));
+}
+
 TEST(Agent, AMalformedObservationIsAnErrorThatNamesItsField) {
   Agent agent(SmallConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());

@@ -56,9 +56,10 @@ struct Choice {
   bool is_flight = false;
 };
 
-/// Of an agent at `start` that looks west, and is on its way to `committed`.
+/// Of an agent at `start` that looks west, is on its way to `committed` and saw `hints`.
 Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart,
-              const policy::Candidate* committed = nullptr) {
+              const policy::Candidate* committed = nullptr,
+              const std::vector<policy::Sighting>& hints = {}) {
   Config config;
   config.policy.explore.uninspected_m = 1000;  // all of it was seen from near
   World world(config);
@@ -75,6 +76,9 @@ Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
     goal.activity.kind = ActivityKind::kClimb;
     goal.activity.candidate = *committed;
   }
+  policy::ObjectConfig any;
+  any.detector_confidence = any.min_box_area_fraction = 0;
+  goal.hints.Update(hints, any, config.map.voxel_m, 0);
   AgentPose agent;
   agent.yaw_rad = M_PI;
   agent.p_world = CenterOf(start, config.map.voxel_m) - Vector3d(0, 0, 0.05);
@@ -89,6 +93,15 @@ Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
   }
   const bool is_flight = target->candidate.p_focus_world.x() > 0.1 * kSide;
   return {std::move(*target), is_flight};
+}
+
+/// Of something as large as a stool that stands at column `x`, `y`.
+policy::Sighting HintAt(int x, int y) {
+  policy::Sighting hint;
+  for (int i = 0; i < 27; ++i) hint.voxels.push_back({x + i / 9, y + i / 3 % 3, 1 + i % 3});
+  hint.p_center_world = geometry::CenterOf({x + 1, y + 1, 2}, 0.1);
+  hint.confidence = 0.5;
+  return hint;
 }
 
 // A door on one side, a flight up on the other, as far away: where the goal is likelier decides.
@@ -117,6 +130,23 @@ TEST(Explore, TheWayToALikelierStoreyIsKeptTo) {
   const Choice first = Choose(map, "bed", at_door);
   ASSERT_TRUE(first.is_flight);
   EXPECT_TRUE(Choose(map, "bed", at_door, &first.target.candidate).is_flight);
+}
+
+TEST(Explore, AHintIsGoneToPastANearerDoor) {
+  const VoxelMap map = Room();
+  const Choice choice = Choose(map, "chair", {5, 15, 1}, nullptr, {HintAt(24, 4)});
+  EXPECT_EQ(choice.target.candidate.kind, policy::CandidateKind::kSighting);
+}
+
+// The nearest place within reach of it was this side of the wall: nothing was seen from there, and
+// the hint was settled.
+TEST(Explore, AHintBehindAWallIsGoneToThroughTheDoorThatLeadsThere) {
+  const VoxelMap map = Room();
+  for (const int x : {kSide + 3, -6}) {
+    const Choice choice = Choose(map, "chair", kStart, nullptr, {HintAt(x, 0)});
+    EXPECT_EQ(choice.target.candidate.kind, policy::CandidateKind::kTraversableFrontier);
+    EXPECT_EQ(choice.target.candidate.p_focus_world.x() > 1.5, x > 0);
+  }
 }
 
 // Two treads bordering on a few unseen columns were worth a tenth of their way, like what is left

@@ -9,7 +9,9 @@
 #include <tuple>
 
 #include "agent/two_rooms.h"
+#include "crossnav/agent/progress.h"
 #include "crossnav/core/rng.h"
+#include "support/map_of_states.h"
 
 namespace crossnav::agent {
 namespace {
@@ -72,6 +74,36 @@ Outcome Explore(std::uint64_t seed, int budget) {
     walker.Do(step->action);
   }
   return outcome;
+}
+
+// Marks of bumps on all sides of a narrow place closed every way out of it, to the end of the
+// budget.
+TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
+  const Config config = SmallConfig();
+  World world(config);
+  test::AddGround(world.map, 0, 0, 30, 30, 0);
+  world.ground.Rebuild(world.map);
+  GoalState goal;
+  AgentPose agent;
+  agent.p_world = Vector3d(1.55, 1.55, 0);
+  const Observation obs;
+  const std::vector<policy::Sighting> sightings;
+  Situation now{config, world, goal, agent, obs, sightings};
+  for (int i = -3; i <= 3; ++i)
+    for (const int edge : {-3, 3}) {
+      world.ground.Block(agent.p_world + Vector3d(0.1 * i, 0.1 * edge, 0.1));
+      world.ground.Block(agent.p_world + Vector3d(0.1 * edge, 0.1 * i, 0.1));
+    }
+  const auto fail = [&](double x_m) {
+    GroundTarget target;
+    target.candidate.p_focus_world = Vector3d(x_m, 0, 0);
+    Begin(now, ActivityKind::kGoTo, std::move(target));
+    End(now, Ending::kNoProgress);
+  };
+  fail(10);
+  EXPECT_TRUE(world.ground.HasBlocked()) << "one way may be closed";
+  fail(20);
+  EXPECT_FALSE(world.ground.HasBlocked());
 }
 
 TEST(Progress, NoStateRecursAndEverySearchEnds) {

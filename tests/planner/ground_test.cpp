@@ -168,6 +168,18 @@ TEST(GroundMap, WhatWasBumpedIntoIsNoGroundUntilForgotten) {
   EXPECT_TRUE(ground.IsStanding({2, 2, 1}));
 }
 
+TEST(GroundMap, OnlyBumpsNearByAreForgotten) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 30, 5, 0);
+  GroundMap ground = GroundOf(map);
+  ground.Block({0.25, 0.25, 0.1});
+  ground.Block({2.25, 0.25, 0.1});
+  EXPECT_TRUE(ground.ForgetBlockedAround({0.5, 0.25, 0.1}, 1));
+  EXPECT_TRUE(ground.IsStanding({2, 2, 1}));
+  EXPECT_FALSE(ground.IsStanding({22, 2, 1}));
+  EXPECT_FALSE(ground.ForgetBlockedAround({0.5, 0.25, 0.1}, 1));
+}
+
 TEST(GroundMap, ChangesGiveWhatARebuildGives) {
   Rng rng(3);
   VoxelMap map;
