@@ -40,7 +40,8 @@ class Sweep {
       if (!poi.is_discarded && !IsSpentHere(SightingOf(poi)))
         hints_.push_back({poi,
                           {now.world.map, poi.voxels, now.config.policy.approach.range_m,
-                           now.config.policy.approach, now.config.sensor.camera_height_m}});
+                           now.config.policy.approach, now.config.sensor.camera_height_m},
+                          WasApproached(poi)});
   }
 
   std::optional<GroundTarget> Run() {
@@ -67,6 +68,7 @@ class Sweep {
   struct Hint {
     const policy::LivePoi& poi;
     policy::ViewTest view;
+    bool was_approached = false;  ///< in vain: no way was found
     bool is_offered = false;
   };
 
@@ -243,6 +245,14 @@ class Sweep {
     Offer(std::move(candidate), key, config_.sighting_m);
   }
 
+  bool WasApproached(const policy::LivePoi& poi) const {
+    return std::any_of(
+        now_.goal.attempts.begin(), now_.goal.attempts.end(), [&](const Attempt& attempt) {
+          return attempt.kind == CandidateKind::kLivePoi &&
+                 (attempt.p_focus_world - poi.p_center_world).norm() < config_.same_place_m;
+        });
+  }
+
   static Candidate SightingOf(const policy::LivePoi& poi) {
     Candidate candidate;
     candidate.kind = CandidateKind::kSighting;
@@ -257,7 +267,8 @@ class Sweep {
     std::optional<double> least_m;
     for (const Hint& hint : hints_) {
       const Vector3d d = hint.poi.p_center_world - CenterOf(key, voxel_m_);
-      if (hint.is_offered || d.z() < -0.5 || d.z() > config_.storey_m) continue;
+      if (hint.is_offered || hint.was_approached || d.z() < -0.5 || d.z() > config_.storey_m)
+        continue;
       least_m = std::min(least_m.value_or(1e9), std::hypot(d.x(), d.y()));
     }
     return least_m;

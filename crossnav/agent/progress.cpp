@@ -37,10 +37,14 @@ bool IsWalledIn(const Situation& now) {
 void NoteBump(Situation& now) {
   if (!now.world.before_forward) return;
   const AgentPose before = *std::exchange(now.world.before_forward, std::nullopt);
-  const double moved_m = (now.agent.p_world - before.p_world).head<2>().norm();
-  if (moved_m >= now.config.policy.motion.bump_m) return;
-  const Vector3d ahead(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0),
-      left(-ahead.y(), ahead.x(), 0);
+  const Vector3d moved = now.agent.p_world - before.p_world;
+  if (moved.head<2>().norm() >= now.config.policy.motion.bump_m) return;
+  // What is missing of the step points at what stopped it: a body that slides along a wall has it
+  // beside itself, and nothing ahead.
+  Vector3d missing =
+      now.config.action.forward_m * Vector3d(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0);
+  missing -= Vector3d(moved.x(), moved.y(), 0);
+  const Vector3d ahead = missing.normalized(), left(-ahead.y(), ahead.x(), 0);
   const double voxel_m = now.config.map.voxel_m;
   const Vector3d p_contact =
       now.agent.p_world + (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead;

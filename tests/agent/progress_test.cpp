@@ -16,6 +16,7 @@
 namespace crossnav::agent {
 namespace {
 
+using geometry::VoxelKey;
 using testing::BoxWalker;
 using testing::FakeSuite;
 using testing::SmallConfig;
@@ -76,34 +77,60 @@ Outcome Explore(std::uint64_t seed, int budget) {
   return outcome;
 }
 
+/// An agent at (1.52, 1.52) on empty ground.
+struct Ground {
+  const Config config = SmallConfig();
+  World world{config};
+  GoalState goal;
+  const Observation obs;
+  const std::vector<policy::Sighting> sightings;
+  Situation now{config, world, goal, {}, obs, sightings};
+
+  Ground() {
+    test::AddGround(world.map, 0, 0, 30, 30, 0);
+    world.ground.Rebuild(world.map);
+    now.agent.p_world = Vector3d(1.52, 1.52, 0);
+  }
+};
+
 // Marks of bumps on all sides of a narrow place closed every way out of it, to the end of the
 // budget.
 TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
-  const Config config = SmallConfig();
-  World world(config);
-  test::AddGround(world.map, 0, 0, 30, 30, 0);
-  world.ground.Rebuild(world.map);
-  GoalState goal;
-  AgentPose agent;
-  agent.p_world = Vector3d(1.55, 1.55, 0);
-  const Observation obs;
-  const std::vector<policy::Sighting> sightings;
-  Situation now{config, world, goal, agent, obs, sightings};
+  Ground given;
+  planner::GroundMap& ground = given.world.ground;
   for (int i = -3; i <= 3; ++i)
     for (const int edge : {-3, 3}) {
-      world.ground.Block(agent.p_world + Vector3d(0.1 * i, 0.1 * edge, 0.1));
-      world.ground.Block(agent.p_world + Vector3d(0.1 * edge, 0.1 * i, 0.1));
+      ground.Block(given.now.agent.p_world + Vector3d(0.1 * i, 0.1 * edge, 0.1));
+      ground.Block(given.now.agent.p_world + Vector3d(0.1 * edge, 0.1 * i, 0.1));
     }
   const auto fail = [&](double x_m) {
     GroundTarget target;
     target.candidate.p_focus_world = Vector3d(x_m, 0, 0);
-    Begin(now, ActivityKind::kGoTo, std::move(target));
-    End(now, Ending::kNoProgress);
+    Begin(given.now, ActivityKind::kGoTo, std::move(target));
+    End(given.now, Ending::kNoProgress);
   };
   fail(10);
-  EXPECT_TRUE(world.ground.HasBlocked()) << "one way may be closed";
+  EXPECT_TRUE(ground.HasBlocked()) << "one way may be closed";
   fail(20);
-  EXPECT_FALSE(world.ground.HasBlocked());
+  EXPECT_FALSE(ground.HasBlocked());
+}
+
+// A body that slid along a door frame marked the middle of the door.
+TEST(Progress, AStepThatSlidMarksWhatLiesBesideIt) {
+  const auto is_open = [](const Vector3d& moved, const VoxelKey& key) {
+    Ground given;
+    AgentPose before = given.now.agent;  // heads east
+    before.p_world -= moved;
+    given.world.before_forward = before;
+    NoteBump(given.now);
+    return given.world.ground.IsStanding(key);
+  };
+  const VoxelKey ahead{16, 15, 1}, aslant{16, 16, 1};
+  const Vector3d stopped(0.02, 0, 0), slid(0.12, -0.12, 0);
+  EXPECT_FALSE(is_open(stopped, ahead));
+  EXPECT_TRUE(is_open(stopped, aslant));
+  EXPECT_TRUE(is_open(slid, ahead));
+  EXPECT_FALSE(is_open(slid, aslant));
 }
 
 TEST(Progress, NoStateRecursAndEverySearchEnds) {
