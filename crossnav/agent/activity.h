@@ -17,7 +17,7 @@ enum class ActivityKind {
   kNone,
   kLookAround,  ///< a turn on the spot
   kGoTo,        ///< to a frontier, a sighting or uninspected ground
-  kClimb,       ///< the same over a flight, to another level
+  kClimb,       ///< the same over stairs, towards another level
   kVisit,       ///< a remembered place
   kApproach,    ///< a live POI, with verification
 };
@@ -56,6 +56,10 @@ struct Attempt {
   Ending ending = Ending::kReached;
   int step = 0;
 };
+
+inline bool IsExploring(const Activity& activity) {
+  return activity.kind == ActivityKind::kGoTo || activity.kind == ActivityKind::kClimb;
+}
 
 /// Whether a target of `kind` about `p_focus_world` is not to be chosen again: it failed there, or
 /// was chosen `max_choices` times without ever being settled.

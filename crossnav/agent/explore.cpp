@@ -291,8 +291,9 @@ class Sweep {
   /// On a flight, what lies the way one came from must be much nearer.
   double TurningBack(const Candidate& candidate) const {
     const Activity& activity = now_.goal.activity;
-    if (activity.kind != ActivityKind::kClimb || now_.world.flat_frames > 0) return 0;
+    if (!IsExploring(activity) || now_.world.flat_frames > 0) return 0;
     const double ahead_m = activity.candidate.p_focus_world.z() - now_.world.level_m;
+    if (std::abs(ahead_m) < now_.config.policy.frontier.level_band_m) return 0;
     const double there_m = candidate.p_focus_world.z() - now_.agent.p_world.z();
     return ahead_m * there_m < 0 && std::abs(there_m) > 0.3 ? config_.turn_back_m : 0;
   }
@@ -314,10 +315,8 @@ class Sweep {
     target.cost_m = search_.cost() * voxel_m_ + SettingOut(target.path);
     target.score_m = (target.cost_m + config_.start_m) / worth + class_m + TurningBack(candidate);
     const Activity& activity = now_.goal.activity;
-    const bool is_moving =
-        activity.kind == ActivityKind::kGoTo || activity.kind == ActivityKind::kClimb;
     // What was chosen is weighed by what is left of the way: its class was paid for.
-    if (is_moving && activity.candidate.kind == candidate.kind &&
+    if (IsExploring(activity) && activity.candidate.kind == candidate.kind &&
         (activity.candidate.p_focus_world - candidate.p_focus_world).norm() <
             2 * config_.same_place_m)
       offered.spared_m = config_.commit_m + std::max(0.0, class_m);
@@ -345,6 +344,15 @@ class Sweep {
 };
 
 }  // namespace
+
+bool IsOverStairs(const Situation& now, const Vector3d& p_world) {
+  if (IsOnLevel(now, p_world)) return false;
+  const double voxel_m = now.config.map.voxel_m;
+  const double rise_m = p_world.z() - 0.5 * voxel_m - now.world.level_m;
+  // A height is known to a voxel.
+  return std::abs(rise_m) - voxel_m > now.config.policy.explore.storey_m ||
+         policy::EvidenceShare({p_world}, now.world.stairs, voxel_m) > 0;
+}
 
 bool IsOnLevel(const Situation& now, const Vector3d& p_world) {
   const double off_m = std::abs(p_world.z() - now.world.level_m);

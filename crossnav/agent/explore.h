@@ -18,6 +18,10 @@ std::optional<GroundTarget> ChooseExploration(Situation& now, const geometry::Vo
 /// Whether what made `candidate` a target still holds.
 bool IsStillOpen(const Situation& now, const policy::Candidate& candidate);
 
+/// Whether the way there is one over stairs, for all the agent knows: to a place where stairs were
+/// seen, or a storey away. What merely rises may be a seat or a slope.
+bool IsOverStairs(const Situation& now, const Vector3d& p_world);
+
 /// Whether a place at this height belongs to the level that is being explored.
 bool IsOnLevel(const Situation& now, const Vector3d& p_world);
 

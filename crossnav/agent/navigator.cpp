@@ -68,12 +68,8 @@ std::optional<Action> LookAt(Situation& now, const Vector3d& p_world, int max_lo
 // --- Choosing ----------------------------------------------------------------------------------
 
 ActivityKind KindFor(const Situation& now, const VoxelKey& destination) {
-  const bool is_local = IsOnLevel(now, CenterOf(destination, now.config.map.voxel_m));
-  return is_local ? ActivityKind::kGoTo : ActivityKind::kClimb;
-}
-
-bool IsExploring(const Activity& activity) {
-  return activity.kind == ActivityKind::kGoTo || activity.kind == ActivityKind::kClimb;
+  const bool is_climb = IsOverStairs(now, CenterOf(destination, now.config.map.voxel_m));
+  return is_climb ? ActivityKind::kClimb : ActivityKind::kGoTo;
 }
 
 /// Goes on with the exploration target while it is open and its way holds; chooses again after the

@@ -149,6 +149,23 @@ TEST(Explore, AHintBehindAWallIsGoneToThroughTheDoorThatLeadsThere) {
   }
 }
 
+// The top of a slope to nowhere, 1.2 m up, was taken for a flight of stairs.
+TEST(Explore, WhatMerelyRisesIsNoStair) {
+  const Config config;
+  World world(config);
+  world.has_level = true;
+  GoalState goal;
+  const Observation obs;
+  const std::vector<policy::Sighting> sightings;
+  const Situation now{config, world, goal, {}, obs, sightings};
+  const Vector3d p_top(2.05, 0.05, 1.25);
+  EXPECT_FALSE(IsOverStairs(now, {2.05, 0.05, 0.05})) << "the floor";
+  EXPECT_FALSE(IsOverStairs(now, p_top));
+  EXPECT_TRUE(IsOverStairs(now, {2.05, 0.05, -2.75})) << "a storey away";
+  world.stairs.Import({{geometry::KeyOf(p_top - Vector3d(0, 0, 0.1), config.map.voxel_m), 1, 1}});
+  EXPECT_TRUE(IsOverStairs(now, p_top)) << "stairs were seen there";
+}
+
 // Two treads bordering on a few unseen columns were worth a tenth of their way, like what is left
 // behind a bed, and the flight came after everything else on two floors.
 TEST(Explore, TheFirstTreadsDownAreAWayToAStorey) {
