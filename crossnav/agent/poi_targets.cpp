@@ -25,6 +25,16 @@ bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
                      [&](const Vector3d& t) { return (t - p).norm() < policy::kSameView_m; });
 }
 
+template <class Test>
+bool IsAnyStanding(const planner::GroundMap& ground, const VoxelKey& lo, const VoxelKey& hi,
+                   const Test& test) {
+  for (int x = lo.x; x <= hi.x; ++x)
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int z = lo.z; z <= hi.z; ++z)
+        if (const VoxelKey key{x, y, z}; ground.IsStanding(key) && test(key)) return true;
+  return false;
+}
+
 Vector3d FootOf(const VoxelKey& key, double voxel_m) {
   return CenterOf(key, voxel_m) - Vector3d(0, 0, 0.5 * voxel_m);
 }
@@ -43,14 +53,20 @@ planner::GroundRules RulesOf(const Situation& now) {
 std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& start,
                                         const ViewWish& wish) {
   if (wish.object.empty()) return std::nullopt;
+  const planner::GroundMap& ground = now.world.ground;
   const double voxel_m = now.config.map.voxel_m;
   const policy::ViewTest view(now.world.map, wish.object, wish.range_m, now.config.policy.approach,
                               now.config.sensor.camera_height_m);
-  GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  const auto is_wanted = [&](const VoxelKey& key) {
+    const Vector3d p_foot = FootOf(key, voxel_m);
+    return IsNewView(wish.p_center_world, p_foot, wish.other_sides, now.config.verify) &&
+           view.IsView(key) && !IsNearTried(wish.tried, p_foot);
+  };
+  // A search that finds nothing visits the whole house.
+  if (!IsAnyStanding(ground, view.lo(), view.hi(), is_wanted)) return std::nullopt;
+  GroundSearch search(ground, now.config.planner, start, RulesOf(now));
   while (const auto key = search.Next()) {
-    const Vector3d p_foot = FootOf(*key, voxel_m);
-    if (!IsNewView(wish.p_center_world, p_foot, wish.other_sides, now.config.verify)) continue;
-    if (!view.IsView(*key) || IsNearTried(wish.tried, p_foot)) continue;
+    if (!is_wanted(*key)) continue;
     GroundTarget target;
     target.path = search.PathTo(*key);
     target.cost_m = search.cost() * voxel_m;

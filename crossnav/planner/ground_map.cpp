@@ -71,7 +71,16 @@ void GroundMap::Clear() {
   index_.clear();
   tiles_.clear();
   columns_ = rows_ = 0;
+  places_ = {};
   ++revision_;
+}
+
+void GroundMap::Touch(int x, int y) {
+  const int reach = std::max(kPlaceReach_vox, inflation_);
+  for (int ty = (y - reach) >> 3; ty <= (y + reach) >> 3; ++ty)
+    for (int tx = (x - reach) >> 3; tx <= (x + reach) >> 3; ++tx)
+      if (const std::int32_t tile = TileAt(tx * kSide, ty * kSide); tile >= 0)
+        tiles_[static_cast<std::size_t>(tile)].changed_at = revision_ + 1;
 }
 
 void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
@@ -80,7 +89,7 @@ void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
   const int lo = tile.words ? std::min(tile.first_word, word) : word;
   const int hi = tile.words ? std::max(tile.first_word + tile.words - 1, word) : word;
   if (hi - lo + 1 != tile.words) {
-    Tile grown{lo, hi - lo + 1, {}, {}};
+    Tile grown{lo, hi - lo + 1, {}, {}, tile.changed_at};
     grown.surface.resize(static_cast<std::size_t>(kSide * kSide * grown.words));
     grown.air.resize(grown.surface.size());
     for (int column = 0; column < kSide * kSide; ++column)
@@ -95,8 +104,12 @@ void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
   const auto at =
       static_cast<std::size_t>(ColumnOf(key.x, key.y) * tile.words + word - tile.first_word);
   const std::uint64_t bit = std::uint64_t{1} << (key.z & 63);
-  tile.surface[at] = is_surface ? tile.surface[at] | bit : tile.surface[at] & ~bit;
-  tile.air[at] = is_air ? tile.air[at] | bit : tile.air[at] & ~bit;
+  const std::uint64_t surface = is_surface ? tile.surface[at] | bit : tile.surface[at] & ~bit;
+  const std::uint64_t air = is_air ? tile.air[at] | bit : tile.air[at] & ~bit;
+  if (surface == tile.surface[at] && air == tile.air[at]) return;
+  tile.surface[at] = surface;
+  tile.air[at] = air;
+  Touch(key.x, key.y);
 }
 
 void GroundMap::Update(const std::vector<geometry::StateChange>& changes) {
@@ -113,6 +126,7 @@ void GroundMap::Rebuild(const geometry::VoxelMap& map) {
   map.ForEach([&](const VoxelKey& key, const geometry::Voxel& voxel) {
     Set(key, IsSurface(voxel.state), !IsSurface(voxel.state));
   });
+  ++revision_;
 }
 
 std::uint64_t GroundMap::Window(const Tile& tile, const std::vector<std::uint64_t>& bits,
@@ -279,18 +293,23 @@ bool GroundMap::Block(const Vector3d& p_world) {
   bool is_new = false;
   for (int dz = -climb_; dz <= 2 * climb_ + 1; ++dz)
     is_new = blocked_.insert({key.x, key.y, key.z + dz}).second || is_new;
-  if (is_new) ++revision_;
-  return is_new;
+  if (!is_new) return false;
+  Touch(key.x, key.y);
+  ++revision_;
+  return true;
 }
 
 void GroundMap::ForgetBlocked() {
+  for (const VoxelKey& key : blocked_) Touch(key.x, key.y);
   blocked_.clear();
   ++revision_;
 }
 
 bool GroundMap::ForgetBlockedAround(const Vector3d& p_world, double radius_m) {
   const auto forgotten = std::erase_if(blocked_, [&](const VoxelKey& key) {
-    return (geometry::CenterOf(key, voxel_m_) - p_world).norm() <= radius_m;
+    const bool is_near = (geometry::CenterOf(key, voxel_m_) - p_world).norm() <= radius_m;
+    if (is_near) Touch(key.x, key.y);
+    return is_near;
   });
   if (forgotten > 0) ++revision_;
   return forgotten > 0;

@@ -14,10 +14,9 @@
 #include <vector>
 
 #include "crossnav/geometry/voxel_map.h"
+#include "crossnav/planner/ground_places.h"
 
 namespace crossnav::planner {
-
-using geometry::VoxelKey;
 
 /// What a step from a place to stand to a neighbouring column meets.
 enum class Side : std::uint8_t {
@@ -25,14 +24,6 @@ enum class Side : std::uint8_t {
   kBlocked,  ///< something that stops the body
   kUnknown,  ///< ground may be there: it was not seen yet
   kDrop,     ///< air, seen deeper than one can step
-};
-
-/// How much room the body has around its axis.
-enum class Clearance : std::uint8_t {
-  kFree,   ///< nothing within the inflation radius
-  kTight,  ///< something within the inflation radius
-  kTouch,  ///< something in a neighbouring column
-  kPinch,  ///< something in neighbouring columns on opposite sides: less than a body's width
 };
 
 class GroundMap {
@@ -77,6 +68,13 @@ class GroundMap {
   double voxel_m() const { return voxel_m_; }
   /// Grows with every change of the ground.
   std::uint64_t revision() const { return revision_; }
+  /// The revision of the last change that the places of column (x, y) may depend on.
+  std::uint64_t ChangedAt(int x, int y) const {
+    const Tile* tile = FindTile(x, y);
+    return tile ? tile->changed_at : revision_;
+  }
+  /// Filled by searches; what it answers depends on the ground alone. One thread at a time.
+  GroundPlaces& places() const { return places_; }
 
  private:
   static constexpr int kSide = 8;
@@ -85,19 +83,25 @@ class GroundMap {
     int first_word = 0;
     int words = 0;
     std::vector<std::uint64_t> surface, air;  // [column][word]
+    std::uint64_t changed_at = 0;             // revision
   };
 
-  const Tile* FindTile(int x, int y) const {
+  /// -1 = none.
+  std::int32_t TileAt(int x, int y) const {
     const int column = (x >> 3) - first_x_, row = (y >> 3) - first_y_;
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
-    const std::int32_t tile =
-        index_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-               static_cast<std::size_t>(column)];
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return -1;
+    return index_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                  static_cast<std::size_t>(column)];
+  }
+  const Tile* FindTile(int x, int y) const {
+    const std::int32_t tile = TileAt(x, y);
     return tile < 0 ? nullptr : &tiles_[static_cast<std::size_t>(tile)];
   }
   Tile& TouchTile(int x, int y);
   void Set(const VoxelKey& key, bool is_surface, bool is_air);
   void Clear();
+  /// Notes a change of column (x, y), for the next revision.
+  void Touch(int x, int y);
   /// Bits z_lo .. z_lo + 63 of the column.
   static std::uint64_t Window(const Tile& tile, const std::vector<std::uint64_t>& bits, int column,
                               int z_lo);
@@ -114,6 +118,7 @@ class GroundMap {
   std::vector<Tile> tiles_;
   std::set<VoxelKey> blocked_;
   std::uint64_t revision_ = 0;
+  mutable GroundPlaces places_;
 };
 
 }  // namespace crossnav::planner

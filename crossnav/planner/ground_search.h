@@ -5,6 +5,7 @@
 // (the paper's price of inflated space) or takes a high step. Lengths and costs in voxels.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -39,35 +40,39 @@ class GroundSearch {
 
  private:
   struct Node {
-    VoxelKey key;
-    double cost;
-    std::int32_t parent;
-    std::int8_t clearance;  // -1 = not looked up yet
-    bool is_closed;
+    double cost = 1e18;
+    std::int32_t parent = -1;
+    bool is_closed = false;
   };
   struct Open {
     double cost;
     VoxelKey key;
-    std::int32_t node;
+    std::int32_t place;
     friend bool operator<(const Open& a, const Open& b) {
       return a.cost != b.cost ? a.cost > b.cost : a.key > b.key;
     }
   };
 
-  std::int32_t NodeOf(const VoxelKey& key);
-  std::int32_t Find(const VoxelKey& key) const;
-  void Grow();
-  void Expand(std::int32_t from);
-  bool IsEdge(const VoxelKey& from, const VoxelKey& to) const;
-  void Relax(std::int32_t from, const VoxelKey& to, double factor);
-  void LookUpRoom(Node& node) const;
+  struct From {
+    std::int32_t place;
+    VoxelKey key;
+    double cost;
+    bool is_in_pinch;
+  };
+
+  Node& At(std::int32_t place) {
+    const auto index = static_cast<std::size_t>(place);
+    if (index >= nodes_.size()) nodes_.resize(std::max(index + 1, ground_.places().size()));
+    return nodes_[index];
+  }
+  void Expand(std::int32_t from_place);
+  void Relax(const From& from, std::int32_t to, double factor);
 
   const GroundMap& ground_;
   const PlannerConfig& config_;
   GroundRules rules_;
-  std::vector<Node> nodes_;
-  std::vector<std::int32_t> table_;  // open addressing, -1 = empty
-  std::vector<Open> queue_;          // heap
+  std::vector<Node> nodes_;  // by index of the place
+  std::vector<Open> queue_;  // heap
   double last_cost_ = 0;
 };
 

@@ -25,6 +25,9 @@ class ViewTest {
            const ApproachConfig& config, double camera_height_m);
   /// Standing at `key`: the object is within range and in free line of sight.
   bool IsView(const VoxelKey& key) const;
+  /// Views lie within this box, both corners included.
+  const VoxelKey& lo() const { return lo_; }
+  const VoxelKey& hi() const { return hi_; }
 
  private:
   const VoxelMap& map_;

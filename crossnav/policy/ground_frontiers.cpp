@@ -10,15 +10,17 @@
 namespace crossnav::policy {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 4> kSides = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+constexpr std::array<std::size_t, 4> kSides = {6, 1, 4, 3};  // of kStepSides: +x, -x, +y, -y
 
 }  // namespace
 
 bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, VoxelKey* beyond) {
-  for (const auto& side : kSides) {
-    int z = 0;
-    if (ground.SideOf(key, side[0], side[1], &z) != planner::Side::kUnknown) continue;
-    *beyond = {key.x + side[0], key.y + side[1], key.z};
+  planner::GroundPlaces& places = ground.places();
+  const unsigned unseen = places.StepsFrom(ground, places.IndexOf(key)).unseen;
+  for (const std::size_t side : kSides) {
+    if ((unseen >> side & 1) == 0) continue;
+    const auto& [dx, dy] = planner::kStepSides[side];
+    *beyond = {key.x + dx, key.y + dy, key.z};
     return true;
   }
   return false;

@@ -277,6 +277,40 @@ TEST(GroundSearch, CostsAreThoseOfPlainRelaxationOnRandomGround) {
   }
 }
 
+// Searches keep what they asked of a place until something near it changes.
+TEST(GroundSearch, AfterEachChangeTheCostsAreThoseOfAGroundThatIsNew) {
+  Rng rng(11);
+  VoxelMap map;
+  AddGround(map, 0, 0, 40, 40, 0);
+  GroundMap ground = GroundOf(map);
+  const VoxelKey start{20, 20, 1};
+  std::vector<Vector3d> bumps;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<geometry::StateChange> changes;
+    for (int i = 0; i < 12; ++i) {
+      const VoxelKey key{rng.Int(0, 39), rng.Int(0, 39), rng.Int(0, 6)};
+      if (std::abs(key.x - start.x) < 2 && std::abs(key.y - start.y) < 2) continue;
+      const auto state = rng.Chance(0.4)   ? VoxelState::kOccupied
+                         : rng.Chance(0.7) ? VoxelState::kTraversable
+                                           : VoxelState::kUnknown;
+      SetState(map, key, state);
+      changes.push_back({key, {state, false}});
+    }
+    ground.Update(changes);
+    if (round % 7 == 3) {
+      bumps.emplace_back(rng.Uniform(0, 4), rng.Uniform(0, 4), 0.1);
+      ground.Block(bumps.back());
+    }
+    if (round % 20 == 19) {
+      bumps.clear();
+      ground.ForgetBlocked();
+    }
+    GroundMap fresh = GroundOf(map);
+    for (const Vector3d& p : bumps) fresh.Block(p);
+    ASSERT_EQ(CostsFrom(ground, start), CostsFrom(fresh, start)) << round;
+  }
+}
+
 TEST(GroundSearch, AWayStartsWhereItBeginsAndTakesNeighbouringPlaces) {
   VoxelMap map;
   AddGround(map, 0, 0, 20, 3, 0);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// What searches ask of places to stand: where one can step from there, and how much room there is.
+// Each is worked out from the ground once, and again only after something near it changed: a search
+// over a whole house follows indices. The answers are those of the ground itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "crossnav/geometry/voxel_key.h"
+
+namespace crossnav::planner {
+
+using geometry::VoxelKey;
+
+class GroundMap;
+
+/// How much room the body has around its axis.
+enum class Clearance : std::uint8_t {
+  kFree,   ///< nothing within the inflation radius
+  kTight,  ///< something within the inflation radius
+  kTouch,  ///< something in a neighbouring column
+  kPinch,  ///< something in neighbouring columns on opposite sides: less than a body's width
+};
+
+/// The neighbouring columns, in the order of steps.
+inline constexpr std::array<std::array<int, 2>, 8> kStepSides = {
+    {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
+
+/// Columns away that what is asked of a place may depend on, the inflation radius apart.
+inline constexpr int kPlaceReach_vox = 4;
+
+class GroundPlaces {
+ public:
+  struct Steps {
+    std::array<std::int32_t, 8> to{};  ///< index of the place; -1 = no way
+    std::uint8_t bridges = 0;          ///< bit i: `to[i]` lies beyond ground that was not seen
+    std::uint8_t unseen = 0;           ///< bit i: it was not seen what lies there
+  };
+
+  /// -1 where nothing was asked of `key` yet.
+  std::int32_t Find(const VoxelKey& key) const;
+  std::int32_t IndexOf(const VoxelKey& key);
+  const VoxelKey& KeyAt(std::int32_t place) const { return At(place).key; }
+  std::size_t size() const { return places_.size(); }
+
+  const Steps& StepsFrom(const GroundMap& ground, std::int32_t place);
+  Clearance RoomAt(const GroundMap& ground, std::int32_t place);
+
+ private:
+  struct Place {
+    VoxelKey key;
+    std::uint64_t steps_until = 0, room_until = 0;  // hold for changes of a revision before that
+    Steps steps;
+    Clearance room = Clearance::kFree;
+  };
+  Place& At(std::int32_t place) { return places_[static_cast<std::size_t>(place)]; }
+  const Place& At(std::int32_t place) const { return places_[static_cast<std::size_t>(place)]; }
+  void Grow();
+
+  std::vector<Place> places_;
+  std::vector<std::int32_t> table_;  // open addressing, -1 = empty
+};
+
+}  // namespace crossnav::planner
