@@ -6,9 +6,9 @@
 #include <limits>
 #include <set>
 
+#include "crossnav/agent/hints.h"
 #include "crossnav/agent/hooks.h"
 #include "crossnav/core/check.h"
-#include "crossnav/policy/approach.h"
 #include "crossnav/policy/flights.h"
 #include "crossnav/policy/ground_frontiers.h"
 #include "crossnav/policy/stair_geometry.h"
@@ -35,14 +35,8 @@ class Sweep {
         voxel_m_(now.config.map.voxel_m),
         search_(now.world.ground, now.config.planner, start, RulesOf(now)),
         shown_(shown),
-        likelier_above_m_(config_.storey_bit_m * policy::UpperStoreyBits(now.goal.goal)) {
-    for (const policy::LivePoi& poi : now.goal.hints.all())
-      if (!poi.is_discarded && !IsSpentHere(SightingOf(poi)))
-        hints_.push_back({poi,
-                          {now.world.map, poi.voxels, now.config.policy.approach.range_m,
-                           now.config.policy.approach, now.config.sensor.camera_height_m},
-                          WasApproached(poi)});
-  }
+        hints_(now),
+        likelier_above_m_(config_.storey_bit_m * policy::UpperStoreyBits(now.goal.goal)) {}
 
   std::optional<GroundTarget> Run() {
     while (const auto key = search_.Next()) {
@@ -62,14 +56,6 @@ class Sweep {
     double rise_m = 0;    ///< over the level
     double spared_m = 0;  ///< by the commitment
     bool is_flight = false;
-  };
-
-  /// The goal was seen there, too weakly or where it cannot be approached yet.
-  struct Hint {
-    const policy::LivePoi& poi;
-    policy::ViewTest view;
-    bool was_approached = false;  ///< in vain: no way was found
-    bool is_offered = false;
   };
 
   std::optional<GroundTarget> Best() {
@@ -121,7 +107,7 @@ class Sweep {
     } else if (!now_.world.coverage.IsInspected(key)) {
       OfferUninspected(key);
     }
-    for (Hint& hint : hints_) OfferSighting(key, hint);
+    for (Candidate& hint : hints_.SeenFrom(key)) Offer(std::move(hint), key, config_.sighting_m);
   }
 
   /// A frontier is about its nearest member that was not looked at in vain.
@@ -146,7 +132,7 @@ class Sweep {
     double class_m = level_m + (is_crumb ? config_.crumb_m : 0);
     double worth = policy::FrontierWorth(now_.world.ground, key, now_.goal.resemblance, config_);
     const double way_m = search_.cost() * voxel_m_ + config_.start_m;
-    if (const auto to_hint_m = ToHint(key);
+    if (const auto to_hint_m = hints_.StraightTo(key);
         to_hint_m && *to_hint_m + config_.sighting_m < class_m + way_m * (1 / worth - 1)) {
       class_m = *to_hint_m + config_.sighting_m;
       worth = 1;
@@ -236,44 +222,6 @@ class Sweep {
     Offer(std::move(candidate), key, config_.uninspected_m + (is_local ? 0 : config_.elsewhere_m));
   }
 
-  /// The first place from which it is seen from near is the nearest.
-  void OfferSighting(const VoxelKey& key, Hint& hint) {
-    if (hint.is_offered || !hint.view.IsView(key)) return;
-    hint.is_offered = true;
-    Candidate candidate = SightingOf(hint.poi);
-    candidate.standing = {key};
-    Offer(std::move(candidate), key, config_.sighting_m);
-  }
-
-  bool WasApproached(const policy::LivePoi& poi) const {
-    return std::any_of(
-        now_.goal.attempts.begin(), now_.goal.attempts.end(), [&](const Attempt& attempt) {
-          return attempt.kind == CandidateKind::kLivePoi &&
-                 (attempt.p_focus_world - poi.p_center_world).norm() < config_.same_place_m;
-        });
-  }
-
-  static Candidate SightingOf(const policy::LivePoi& poi) {
-    Candidate candidate;
-    candidate.kind = CandidateKind::kSighting;
-    candidate.id = poi.id;
-    candidate.p_focus_world = poi.p_center_world;
-    candidate.size = static_cast<int>(poi.voxels.size());
-    return candidate;
-  }
-
-  /// The straight line to the nearest hint of the storey that no known ground leads to.
-  std::optional<double> ToHint(const VoxelKey& key) const {
-    std::optional<double> least_m;
-    for (const Hint& hint : hints_) {
-      const Vector3d d = hint.poi.p_center_world - CenterOf(key, voxel_m_);
-      if (hint.is_offered || hint.was_approached || d.z() < -0.5 || d.z() > config_.storey_m)
-        continue;
-      least_m = std::min(least_m.value_or(1e9), std::hypot(d.x(), d.y()));
-    }
-    return least_m;
-  }
-
   bool IsSpentHere(const Candidate& candidate) const {
     // A frontier is the same one whatever level it counts to.
     const bool is_frontier = candidate.kind == CandidateKind::kTraversableFrontier ||
@@ -335,9 +283,9 @@ class Sweep {
   double voxel_m_;
   GroundSearch search_;
   std::vector<Candidate>* shown_;
+  Hints hints_;
   double likelier_above_m_;  // what the goal's odds of an upper storey are worth; negative: below
   std::set<VoxelKey> clustered_;
-  std::vector<Hint> hints_;
   std::set<VoxelKey> uninspected_;  // coarse cells that were offered
   double best_score_m_ = std::numeric_limits<double>::infinity();
   std::vector<Offered> all_;
