@@ -67,11 +67,17 @@ void StairEvidence::Update(const Image<float>& probability,
   const auto labels =
       LabelComponents(probability, config.pixel_threshold, config.min_component_px, &count);
   std::vector<Lifted> components(static_cast<std::size_t>(count));
+  std::int32_t last_label = 0;
+  VoxelKey last_key;
+  double* best = nullptr;  // of the last pixel's voxel, which is mostly this one's
   for (const PixelVoxel& pixel : end_voxels) {
     const std::int32_t label = labels.data[pixel.pixel];
     if (label <= 0) continue;
-    double& best = components[label - 1].probability[pixel.key];
-    best = std::max(best, static_cast<double>(probability.data[pixel.pixel]));
+    if (label != last_label || pixel.key != last_key)
+      best = &components[label - 1].probability[pixel.key];
+    last_label = label;
+    last_key = pixel.key;
+    *best = std::max(*best, static_cast<double>(probability.data[pixel.pixel]));
   }
   for (const Lifted& component : components) {
     std::vector<VoxelKey> keys;
