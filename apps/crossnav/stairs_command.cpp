@@ -153,8 +153,8 @@ Result<void> TryFalse(const bench::RunConfig& config, bench::FalseEntrance kind,
   return {};
 }
 
-/// Seeds whose world has no start that sees the entrance are passed over, up to this many a wanted
-/// attempt.
+/// Seeds whose world has no start that sees the entrance, or no ground to walk on, are passed over,
+/// up to this many a wanted attempt.
 constexpr int kSeedsPerAttempt = 4;  // chosen: most worlds have one
 
 /// Both directions of one kind, in the same worlds.
@@ -181,6 +181,9 @@ Result<std::vector<Row>> TryKind(const StairsOptions& options, const bench::RunC
       last = ok.error();
     }
   }
+  for (const Row& row : rows)
+    console.Log(fmt::format("{} {}: the other floor reached in {}, goal found in {}", row.kind,
+                            row.way, ShareText(row.reached, row.attempts), row.found));
   return rows;
 }
 
@@ -195,6 +198,8 @@ Result<Row> TryFalseKind(const StairsOptions& options, const bench::RunConfig& c
     const bool is_last = i + 1 >= kSeedsPerAttempt * options.count;
     if (ok.error().code != ErrorCode::kNotFound || is_last) return tl::unexpected(ok.error());
   }
+  console.Log(
+      fmt::format("{}: began to climb in {}", row.kind, ShareText(row.reached, row.attempts)));
   return row;
 }
 

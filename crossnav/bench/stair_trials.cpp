@@ -129,7 +129,8 @@ Result<FalseAttempt> TryFalseEntrance(FalseEntrance kind, std::uint64_t seed,
                                       const RunConfig& config) {
   const FalseWorld world = MakeFalseWorld(kind, seed);
   const auto context = SceneContext::Of(world::BuildHouse(world.plan), config);
-  if (!context) return tl::unexpected(context.error());
+  // Furniture may leave no ground to walk on.
+  if (!context) return Fail(ErrorCode::kNotFound, context.error().what, context.error().where);
   const auto start = DrawStart(**context, {world.start_m, world.p_seen_world}, seed, config);
   if (!start) return tl::unexpected(start.error());
   sim::Simulator simulator((*context)->scene(), (*context)->navmesh(), (*context)->caster(),

@@ -53,7 +53,7 @@ struct FalseAttempt {
 
 /// Looks for what is not there until everything is explored or the budget is used up. A stair is
 /// started by an activity `climb`, or under `policy.profile = paper` by a stair session. Error
-/// kNotFound: no start sees it.
+/// kNotFound: no start sees it, or there is nothing to walk on.
 Result<FalseAttempt> TryFalseEntrance(FalseEntrance kind, std::uint64_t seed,
                                       const RunConfig& config);
 

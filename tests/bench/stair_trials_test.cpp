@@ -100,6 +100,15 @@ TEST(StairTrials, AnAttemptAtWhatIsNoStairEnds) {
   EXPECT_LE(attempt->actions, 20);
 }
 
+// A whole `bench stairs` ended there, and what it had measured was lost.
+TEST(StairTrials, AWorldWithoutGroundToWalkOnIsPassedOver) {
+  RunConfig config = test::SmallConfig();
+  config.navmesh.min_island_m2 = 1000;
+  const auto attempt = TryFalseEntrance(FalseEntrance::kFurniture, 1, config);
+  ASSERT_FALSE(attempt);
+  EXPECT_EQ(attempt.error().code, ErrorCode::kNotFound);
+}
+
 TEST(WilsonInterval, IsTheTextbooks) {
   const Interval most = WilsonInterval(38, 40), all = WilsonInterval(40, 40);
   EXPECT_NEAR(most.low, 0.8350, 1e-3);
