@@ -212,6 +212,7 @@ bool IsWanted(const StairsOptions& options, std::string_view kind) {
 
 std::vector<std::string> StairTrialKinds() {
   std::vector<std::string> names;
+  names.reserve(std::size(bench::kStairKinds) + std::size(bench::kFalseEntrances));
   for (const auto kind : bench::kStairKinds) names.emplace_back(world::NameOf(kind));
   for (const auto kind : bench::kFalseEntrances) names.emplace_back(bench::NameOf(kind));
   return names;

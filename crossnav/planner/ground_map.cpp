@@ -90,14 +90,14 @@ void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
   const int hi = tile.words ? std::max(tile.first_word + tile.words - 1, word) : word;
   if (hi - lo + 1 != tile.words) {
     Tile grown{lo, hi - lo + 1, {}, {}, tile.changed_at};
-    grown.surface.resize(static_cast<std::size_t>(kSide * kSide * grown.words));
+    grown.surface.resize(std::size_t{kSide * kSide} * static_cast<std::size_t>(grown.words));
     grown.air.resize(grown.surface.size());
     for (int column = 0; column < kSide * kSide; ++column)
       for (int w = 0; w < tile.words; ++w) {
-        const auto to = static_cast<std::size_t>(column * grown.words + w + tile.first_word - lo);
-        const auto from = static_cast<std::size_t>(column * tile.words + w);
-        grown.surface[to] = tile.surface[from];
-        grown.air[to] = tile.air[from];
+        const int to = column * grown.words + w + tile.first_word - lo;
+        const int from = column * tile.words + w;
+        grown.surface[static_cast<std::size_t>(to)] = tile.surface[static_cast<std::size_t>(from)];
+        grown.air[static_cast<std::size_t>(to)] = tile.air[static_cast<std::size_t>(from)];
       }
     tile = std::move(grown);
   }
@@ -133,7 +133,8 @@ std::uint64_t GroundMap::Window(const Tile& tile, const std::vector<std::uint64_
                                 int column, int z_lo) {
   const int word = (z_lo >> 6) - tile.first_word, shift = z_lo & 63;
   const auto at = [&](int w) {
-    return w < 0 || w >= tile.words ? 0 : bits[static_cast<std::size_t>(column * tile.words + w)];
+    const int index = column * tile.words + w;
+    return w < 0 || w >= tile.words ? 0 : bits[static_cast<std::size_t>(index)];
   };
   return shift == 0 ? at(word) : at(word) >> shift | at(word + 1) << (64 - shift);
 }
