@@ -176,6 +176,7 @@ class Soak {
 
  private:
   void Reconnect() {
+    client_.Close();  // or the server, which serves one, may find the new one too many
     client_ = server_.Connect();
     const auto hello = client_.Ask(HelloRequest(walker_.sensor.Intrinsics()));
     ASSERT_TRUE(hello && hello->has_welcome()) << (hello ? hello->error().text() : "no reply");
