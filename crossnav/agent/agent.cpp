@@ -121,6 +121,8 @@ struct Agent::Impl {
       : config(c), perception(std::move(p)), hooks(h), world(c) {}
 
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
+  std::vector<policy::Sighting> NoteSightings(const std::vector<perception::Detection>& detections,
+                                              const Observation& obs);
   void Record(StepResult& result, const Decision& decision);
 };
 
@@ -199,6 +201,27 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   return {};
 }
 
+/// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; what is too doubtful for
+/// anything but a hint is not given back.
+std::vector<policy::Sighting> Agent::Impl::NoteSightings(
+    const std::vector<perception::Detection>& detections, const Observation& obs) {
+  const policy::ObjectConfig& object = config.policy.object;
+  const policy::ObjectConfig hint = HintConfig(config.policy);
+  const Vector3d p_camera_world = obs.T_world_camera.translation();
+  auto sightings =
+      policy::LiftDetections(detections, obs, config.map, object,
+                             std::min(object.secondary_confidence, hint.detector_confidence));
+  sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
+  goal.hints.Update(sightings, hint, config.map.voxel_m, world.step);
+  std::erase_if(sightings, [&](const policy::Sighting& sighting) {
+    return sighting.confidence < object.secondary_confidence;
+  });
+  goal.live.Update(sightings, object, config.map.voxel_m, world.step);
+  if (DoubtsClaims(config))
+    NoteViews(goal.live.all(), sightings, p_camera_world, object, config.verify, &goal.claims);
+  return sightings;
+}
+
 /// Everything that one frame adds to the world, in the paper's order.
 Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, StageClock& clock) {
   auto percept = perception.Look(obs, goal.goal);  // boxes, masks, stair pixels, dense features
@@ -228,19 +251,8 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
     world.stairs.Update(percept->stair_probability, end_voxels, world.map, config.policy.stair,
                         world.step);
   }
-  const double least_confidence = config.policy.object.secondary_confidence;
-  const policy::ObjectConfig hint = HintConfig(config.policy);
-  auto sightings =
-      policy::LiftDetections(percept->detections, obs, config.map, config.policy.object,
-                             std::min(least_confidence, hint.detector_confidence));
+  auto sightings = NoteSightings(percept->detections, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
-  sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
-  goal.hints.Update(sightings, hint, config.map.voxel_m, world.step);
-  std::erase_if(sightings, [&](const auto& seen) { return seen.confidence < least_confidence; });
-  goal.live.Update(sightings, config.policy.object, config.map.voxel_m, world.step);
-  if (DoubtsClaims(config))
-    NoteViews(goal.live.all(), sightings, p_camera_world, config.policy.object, config.verify,
-              &goal.claims);
   world.coverage.Add(end_voxels, p_camera_world, goal.inspect_range_m, config.map.voxel_m);
   clock.Stop("evidence");
   return Seen{std::move(sightings), std::move(*percept)};

@@ -100,6 +100,7 @@ void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
         grown.air[static_cast<std::size_t>(to)] = tile.air[static_cast<std::size_t>(from)];
       }
     tile = std::move(grown);
+    Touch(key.x, key.y);
   }
   const auto at =
       static_cast<std::size_t>(ColumnOf(key.x, key.y) * tile.words + word - tile.first_word);

@@ -11,6 +11,8 @@ namespace crossnav::policy {
 namespace {
 
 constexpr std::array<std::size_t, 4> kSides = {6, 1, 4, 3};  // of kStepSides: +x, -x, +y, -y
+static_assert(planner::kStepSides[6][0] == 1 && planner::kStepSides[1][0] == -1 &&
+              planner::kStepSides[4][1] == 1 && planner::kStepSides[3][1] == -1);
 
 }  // namespace
 
