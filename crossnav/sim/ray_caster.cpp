@@ -193,6 +193,13 @@ void MarkInside(int columns, int rows, std::array<int, kLanes>& valid) {
   }
 }
 
+/// Embree 3 without AVX-512 reports hits of lanes that are not valid, too.
+void DropOutside(const std::array<int, kLanes>& valid, RTCRayHit16& packet) {
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (valid[static_cast<std::size_t>(lane)] == 0)
+      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+}
+
 }  // namespace
 
 /// Place of a packet's lane in the picture.
@@ -245,6 +252,7 @@ Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_came
       const bool is_whole = u0 + kTileWidth <= width && v0 + kTileHeight <= height;
       if (!is_whole) MarkInside(width - u0, height - v0, valid);
       IntersectPacket(impl_->rays.get(), valid.data(), &packet);
+      if (!is_whole) DropOutside(valid, packet);
       impl_->StoreGeometry(packet, u0, v0, frame);
       if (channels == Channels::kAll) impl_->StoreColour(packet, u0, v0, frame.rgb);
       if (!is_whole) valid = AllLanes();
