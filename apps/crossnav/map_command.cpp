@@ -145,6 +145,32 @@ Json ClusterJson(const memory::MemoryCluster& cluster, double match,
   return json;
 }
 
+/// "  flight 0: from 0.00 m up to 2.80 m, walked 1 up, 0 down"
+std::string FlightText(const geometry::StairFlight& flight) {
+  const std::string how =
+      flight.IsWalked() ? fmt::format("walked {} up, {} down", flight.walked_up, flight.walked_down)
+                        : fmt::format("seen from {} places, tried {} times",
+                                      flight.seen_from_world.size(), flight.tries.size());
+  return fmt::format("  flight {}: from {:.2f} m up to {:.2f} m, {}", flight.id,
+                     flight.p_foot_world.z(), flight.p_top_world.z(), how);
+}
+
+Json FlightsJson(const std::vector<geometry::StairFlight>& flights) {
+  Json all = Json::array();
+  for (const geometry::StairFlight& flight : flights)
+    all.push_back({{"id", flight.id},
+                   {"foot", PointJson(flight.p_foot_world)},
+                   {"top", PointJson(flight.p_top_world)},
+                   {"direction_up", PointJson(flight.DirectionUp())},
+                   {"steps", flight.steps_world.size()},
+                   {"confidence", flight.confidence},
+                   {"walked_up", flight.walked_up},
+                   {"walked_down", flight.walked_down},
+                   {"seen_from", flight.seen_from_world.size()},
+                   {"tries", flight.tries.size()}});
+  return all;
+}
+
 /// The first line of an answer.
 std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
                         const std::string& encoder, bool is_nowhere) {
@@ -182,6 +208,8 @@ Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Con
       header.feature_rows, header.feature_dim,
       header.encoder_name.empty() ? "unknown encoder" : header.encoder_name, header.compacted_rows,
       header.dropped_rows, static_cast<double>(loaded->memory.Bytes()) / 1e6, header.frame));
+  for (const geometry::StairFlight& flight : loaded->flights)
+    console.Print(FlightText(flight) + "\n");
   console.Document(Json({{"file", options.file},
                          {"format", header.format},
                          {"revision", header.revision},
@@ -197,6 +225,7 @@ Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Con
                          {"encoder_name", header.encoder_name},
                          {"encoder_hash", bench::HexHash(header.encoder_hash)},
                          {"frame", header.frame},
+                         {"flights", FlightsJson(loaded->flights)},
                          {"damaged", loaded->damaged}}));
   return {};
 }

@@ -116,6 +116,7 @@ struct Agent::Impl {
   Hooks* hooks;
   World world;
   GoalState goal;
+  std::vector<geometry::StairFlight> traced_flights;  // as in the last record that has them
 
   Impl(const Config& c, perception::PerceptionSuite p, Hooks* h)
       : config(c), perception(std::move(p)), hooks(h), world(c) {}
@@ -195,9 +196,11 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   world.memory = std::move(memory);
   world.flights = std::move(flights);
   world.stairs.Import(seen_stairs);
-  for (const geometry::StairFlight& flight : world.flights)
+  for (const geometry::StairFlight& flight : world.flights) {
+    if (!flight.IsWalked()) continue;
     for (const Vector3d& p_end : {flight.p_foot_world, flight.p_top_world})
       world.levels_m.push_back(p_end.z());
+  }
   return {};
 }
 
@@ -250,6 +253,8 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   if (!config.policy.planar) {
     world.stairs.Update(percept->stair_probability, end_voxels, world.map, config.policy.stair,
                         world.step);
+    world.flight_survey.Update(world.stairs, world.levels_m, agent.p_world, config.map.voxel_m,
+                               &world.flights);
   }
   auto sightings = NoteSightings(percept->detections, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
@@ -321,6 +326,7 @@ void Agent::Impl::Record(StepResult& result, const Decision& decision) {
                     verification.distance_m,
                     is_live ? verification.failed_check : ""};
   t.events = std::exchange(goal.events, {});
+  if (world.flights != traced_flights) t.flights = traced_flights = world.flights;
   const memory::MemoryCounters counters = world.memory.Counters();
   t.memory = {world.memory.Size(), counters.compacted_rows, counters.dropped_rows};
   t.voxel_changes = std::move(world.changes);

@@ -63,7 +63,7 @@ class Agent {
   std::span<const float> goal_text() const;
   const geometry::VoxelMap& map() const;
   const memory::SemanticMemory& memory() const;
-  /// The flights that were walked, in order of their first walk.
+  /// The flights that are known: those that were walked, then those that were only seen.
   const std::vector<geometry::StairFlight>& flights() const;
   /// Voxels that were seen as stairs, walked or not; sorted.
   std::vector<geometry::SeenStair> seen_stairs() const;

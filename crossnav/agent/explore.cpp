@@ -146,7 +146,7 @@ class Sweep {
   bool LeadsToStorey(const VoxelKey& key) const {
     const Vector3d p_world = CenterOf(key, voxel_m_);
     for (const geometry::StairFlight& flight : now_.world.flights)
-      if (policy::IsBeside(flight, p_world)) return false;
+      if (flight.IsWalked() && policy::IsBeside(flight, p_world)) return false;
     if (policy::EvidenceShare({p_world}, now_.world.stairs, voxel_m_) > 0) return true;
     if (RiseOf(key) < -1.5 * voxel_m_ && IsLowest(p_world.z())) return true;
     return std::all_of(now_.world.levels_m.begin(), now_.world.levels_m.end(), [&](double level_m) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/policy/flights.h"
 
 namespace crossnav::agent::paper {
 
@@ -84,6 +85,7 @@ void StartSession(Situation& now, const policy::Flight& flight) {
       policy::BeginSession(flight.direction, now.world.level_m, now.agent.p_world, first);
   policy::PromoteStairs(*now.goal.session, now.world.stairs, now.world.map,
                         now.config.policy.stair);
+  now.world.way_off_level_world.assign(1, now.agent.p_world);
   now.goal.steps_without_stair_target = 0;
   now.goal.scanned_landing_m = -1e9;
   now.goal.commitment.reset();
@@ -98,8 +100,11 @@ void EndSession(Situation& now, bool is_success) {
   now.goal.session.reset();
   now.goal.script.clear();
   if (is_success) {
-    now.world.links.push_back({session.p_entrance_world, now.agent.p_world});
+    now.world.way_off_level_world.push_back(now.agent.p_world);
+    policy::NoteWalk(now.world.way_off_level_world, now.world.stairs, now.config.map.voxel_m,
+                     &now.world.flights);
     now.world.level_m = now.agent.p_world.z();
+    now.world.levels_m.push_back(now.world.level_m);
     now.world.last_direction = session.direction;
     now.goal.events.push_back(session.direction > 0 ? "new level above" : "new level below");
     return;
@@ -107,6 +112,9 @@ void EndSession(Situation& now, bool is_success) {
   const auto& poi = now.config.policy.poi;
   now.goal.set_aside.push_back(
       {session.p_entrance_world, 2 * poi.blacklist_xy_m, poi.blacklist_z_m});
+  policy::NoteTry(session.p_entrance_world,
+                  {now.agent.p_world, session.direction > 0, geometry::TryEnding::kGivenUp},
+                  &now.world.flights);
   now.goal.events.push_back("stairs given up");
 }
 
@@ -172,6 +180,9 @@ SessionVerdict CheckSession(Situation& now) {
   if (!now.goal.session) return SessionVerdict::kNone;
   GoalState& goal = now.goal;
   policy::StairSession& session = *goal.session;
+  auto& way = now.world.way_off_level_world;
+  if ((way.back() - now.agent.p_world).norm() > 0.5 * now.config.map.voxel_m)
+    way.push_back(now.agent.p_world);
   policy::PromoteStairs(session, now.world.stairs, now.world.map, now.config.policy.stair);
   const auto status =
       policy::AdvanceSession(session, now.world.map, now.agent.p_world, now.config.policy.stair);

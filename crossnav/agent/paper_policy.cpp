@@ -71,6 +71,7 @@ void UpdateLevel(Situation& now) {
   if (!world.has_level) {
     world.has_level = true;
     world.level_m = now.agent.p_world.z();
+    world.levels_m.push_back(world.level_m);
     goal.p_looked_around_world = now.agent.p_world;
     QueueLookAround(goal, now.agent, now.config.action);
     return;

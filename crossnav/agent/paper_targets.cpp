@@ -82,10 +82,14 @@ int FindCommitted(const std::vector<Candidate>& candidates, const Commitment& co
   return -1;
 }
 
+bool IsNear(const Vector3d& p_end_world, const Candidate& candidate) {
+  return (candidate.p_focus_world - p_end_world).norm() < kLinkReach_m;
+}
+
 bool IsWalkedEntrance(const World& world, const Candidate& candidate) {
-  return std::any_of(world.links.begin(), world.links.end(), [&](const StairLink& link) {
-    return (candidate.p_focus_world - link.p_from_world).norm() < kLinkReach_m ||
-           (candidate.p_focus_world - link.p_to_world).norm() < kLinkReach_m;
+  return std::any_of(world.flights.begin(), world.flights.end(), [&](const auto& flight) {
+    return flight.IsWalked() &&
+           (IsNear(flight.p_foot_world, candidate) || IsNear(flight.p_top_world, candidate));
   });
 }
 
@@ -102,12 +106,13 @@ bool LevelHasWork(const Situation& now, double level_m) {
 std::vector<Candidate> WayBackEntrances(const Situation& now) {
   std::vector<Candidate> back;
   for (Candidate& candidate : OpenEntrances(now, now.world.level_m, true)) {
+    const auto& flights = now.world.flights;
     const bool leads_to_work =
-        std::any_of(now.world.links.begin(), now.world.links.end(), [&](const StairLink& link) {
-          const bool at_from = (candidate.p_focus_world - link.p_from_world).norm() < kLinkReach_m;
-          const bool at_to = (candidate.p_focus_world - link.p_to_world).norm() < kLinkReach_m;
-          const double other_m = at_from ? link.p_to_world.z() : link.p_from_world.z();
-          return (at_from || at_to) && LevelHasWork(now, other_m);
+        std::any_of(flights.begin(), flights.end(), [&](const geometry::StairFlight& flight) {
+          const bool at_foot = IsNear(flight.p_foot_world, candidate);
+          const bool at_top = IsNear(flight.p_top_world, candidate);
+          const double other_m = at_foot ? flight.p_top_world.z() : flight.p_foot_world.z();
+          return flight.IsWalked() && (at_foot || at_top) && LevelHasWork(now, other_m);
         });
     if (leads_to_work) back.push_back(std::move(candidate));
   }

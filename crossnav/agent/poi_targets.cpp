@@ -108,8 +108,11 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
   for (const double share : {kBestShare, 0.0}) {
     std::optional<GroundTarget> nearest;
     for (std::size_t i = 0; i < now.goal.history.size(); ++i) {
-      const HistoryPoi& poi = now.goal.history[i];
+      HistoryPoi& poi = now.goal.history[i];
       if (poi.is_exhausted || poi.score < share * best_score) continue;
+      // A search in vain visits the whole house, and a step does not open it.
+      if (now.world.step - poi.unreachable_step < now.config.policy.explore.reconsider_steps)
+        continue;
       if (poi.similarity <
               now.world.confirmed_similarity - now.config.policy.poi.similarity_slack &&
           now.goal.last_resorts == 0)
@@ -118,9 +121,11 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
       if (IsSpent(now.goal.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
                   now.config.policy.poi.blacklist_xy_m, now.config.policy.explore.max_choices))
         continue;
+      poi.unreachable_step = now.world.step;
       for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
         auto target = NearestView(now, start, {poi.voxels, range_m});
         if (!target) continue;
+        poi.unreachable_step = -1000;
         if (nearest && nearest->cost_m <= target->cost_m) break;
         target->candidate.kind = CandidateKind::kHistoryPoi;
         target->candidate.id = static_cast<int>(i);

@@ -32,6 +32,28 @@ bool IsWalledIn(const Situation& now) {
          });
 }
 
+/// A climb that ended on the way is a try of the flight it was about.
+void NoteFlightTry(Situation& now, Ending ending) {
+  geometry::FlightTry attempt;
+  switch (ending) {
+    case Ending::kNotOpened:
+      attempt.ending = geometry::TryEnding::kNotOpened;
+      break;
+    case Ending::kNoProgress:
+      attempt.ending = geometry::TryEnding::kNoProgress;
+      break;
+    case Ending::kUnreachable:
+      attempt.ending = geometry::TryEnding::kUnreachable;
+      break;
+    default:
+      return;
+  }
+  const Vector3d& p_target_world = now.goal.activity.candidate.p_focus_world;
+  attempt.p_from_world = now.agent.p_world;
+  attempt.is_up = p_target_world.z() > now.world.level_m;
+  policy::NoteTry(p_target_world, attempt, &now.world.flights);
+}
+
 }  // namespace
 
 void NoteBump(Situation& now) {
@@ -134,6 +156,7 @@ void End(Situation& now, Ending ending) {
   if (ending != Ending::kSuperseded && ending != Ending::kGone)
     now.goal.events.push_back(std::string(NameOf(activity.kind)) + ": " +
                               std::string(NameOf(ending)));
+  if (activity.kind == ActivityKind::kClimb) NoteFlightTry(now, ending);
   activity = Activity{};
   if (IsWalledIn(now) && now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalls_m))
     now.goal.events.push_back("walled in by bumps: they are forgotten here");

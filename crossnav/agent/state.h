@@ -18,6 +18,7 @@
 #include "crossnav/policy/candidates.h"
 #include "crossnav/policy/claim.h"
 #include "crossnav/policy/coverage.h"
+#include "crossnav/policy/flight_survey.h"
 #include "crossnav/policy/frontier_worth.h"
 #include "crossnav/policy/glance.h"
 #include "crossnav/policy/live_poi.h"
@@ -28,12 +29,6 @@
 
 namespace crossnav::agent {
 
-/// A flight that was walked: its two ends.
-struct StairLink {
-  Vector3d p_from_world = Vector3d::Zero();
-  Vector3d p_to_world = Vector3d::Zero();
-};
-
 /// Survives a change of goal.
 struct World {
   geometry::VoxelMap map;
@@ -41,10 +36,10 @@ struct World {
   memory::SemanticMemory memory;
   policy::StairEvidence stairs;
   policy::Coverage coverage;  ///< what was seen from near; without history POIs, for this goal
-  std::vector<geometry::StairFlight> flights;  ///< that were walked
-  std::vector<Vector3d> way_off_level_world;   ///< foot positions since the level was left
-  std::vector<StairLink> links;
-  double level_m = 0;  ///< height of the exploration level
+  std::vector<geometry::StairFlight> flights;  ///< walked ones first
+  policy::FlightSurvey flight_survey;
+  std::vector<Vector3d> way_off_level_world;  ///< foot positions since the level was left
+  double level_m = 0;                         ///< height of the exploration level
   bool has_level = false;
   int step = 0;
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
@@ -78,6 +73,7 @@ struct HistoryPoi {
   double score = 0;
   double similarity = 0;  ///< mean cosine of its best quarter [-1, 1]
   bool is_exhausted = false;
+  int unreachable_step = -1000;  ///< in which no way to a place that sees it was found last
   int looked = 0;  ///< frames spent looking at it on arrival
 };
 

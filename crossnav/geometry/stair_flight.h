@@ -3,6 +3,7 @@
 // links two floors, and the voxels that were seen as stairs. World frame, metres.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "crossnav/core/pose.h"
@@ -10,13 +11,45 @@
 
 namespace crossnav::geometry {
 
+/// Why an attempt to take a flight ended before its other end. Reaches disk as a number.
+enum class TryEnding {
+  kNotOpened,    ///< there, and looking at it showed no way on
+  kNoProgress,   ///< the way did not get shorter for too long
+  kUnreachable,  ///< no way any more
+  kGivenUp,      ///< the paper's session failed
+};
+inline constexpr int kTryEndings = 4;
+std::string_view NameOf(TryEnding ending);
+
+struct FlightTry {
+  Vector3d p_from_world = Vector3d::Zero();  ///< foot of the agent when it gave up
+  bool is_up = true;
+  TryEnding ending = TryEnding::kGivenUp;
+
+  friend bool operator==(const FlightTry&, const FlightTry&) = default;
+};
+
+/// A flight that was walked, or that stair evidence alone tells of.
 struct StairFlight {
-  Vector3d p_foot_world = Vector3d::Zero();  ///< flat ground at its lower end
-  Vector3d p_top_world = Vector3d::Zero();   ///< flat ground at its upper end
-  std::vector<Vector3d> steps_world;         ///< where a foot was put, from foot to top
-  double confidence = 0;  ///< share of the steps at which stair evidence was seen [0, 1]
+  int id = -1;                               ///< from 0, in order of discovery; kept for good
+  Vector3d p_foot_world = Vector3d::Zero();  ///< lower end: flat ground, or the lowest tread seen
+  Vector3d p_top_world = Vector3d::Zero();   ///< upper end: flat ground, or the highest tread seen
+  /// From foot to top: where a foot was put or, not walked yet, the treads that were seen.
+  std::vector<Vector3d> steps_world;
+  /// Walked: share of the steps at which stair evidence was seen. Else: mean probability of the
+  /// mask on its treads. [0, 1]
+  double confidence = 0;
   int walked_up = 0;
   int walked_down = 0;
+  std::vector<Vector3d> seen_from_world;  ///< feet of the agent, at least a metre apart
+  std::vector<FlightTry> tries;           ///< in order
+
+  bool IsWalked() const { return walked_up + walked_down > 0; }
+  /// Unit vector in the plane, from the foot towards the steps within the first metre and a half;
+  /// zero where there are none.
+  Vector3d DirectionUp() const;
+
+  friend bool operator==(const StairFlight&, const StairFlight&) = default;
 };
 
 /// A surface voxel that stair pixels fell on: what policy::StairVoxel keeps of it.

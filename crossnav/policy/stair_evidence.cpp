@@ -60,6 +60,7 @@ struct Lifted {
 void StairEvidence::Update(const Image<float>& probability,
                            const std::vector<PixelVoxel>& end_voxels, const VoxelMap& map,
                            const StairConfig& config, int step) {
+  last_seen_.clear();
   const bool has_any = std::any_of(probability.data.begin(), probability.data.end(),
                                    [&](float p) { return p >= config.pixel_threshold; });
   if (!has_any) return;
@@ -84,15 +85,22 @@ void StairEvidence::Update(const Image<float>& probability,
     for (const auto& [key, p] : component.probability) keys.push_back(key);
     const double score = ScoreStairGeometry(map, keys).Score();
     for (const auto& [key, p] : component.probability) {
-      StairVoxel& voxel = voxels_[key];
+      const auto [it, is_new] = voxels_.try_emplace(key);
+      StairVoxel& voxel = it->second;
       const int age = step - voxel.last_step;
       voxel.recent = age < 32 ? voxel.recent << age : 0;
       voxel.last_step = step;
       voxel.probability = std::max(voxel.probability, p);
       voxel.geometry_score = std::max(voxel.geometry_score, score);
-      if (score >= config.geometry_threshold) voxel.recent |= 1;
+      if (score >= config.geometry_threshold) {
+        voxel.recent |= 1;
+        last_seen_.push_back(key);
+      }
       const std::uint32_t window = (1u << std::min(config.evidence_window, 31)) - 1;
-      if (std::popcount(voxel.recent & window) >= config.evidence_frames) voxel.is_confirmed = true;
+      const bool is_confirmed =
+          voxel.is_confirmed || std::popcount(voxel.recent & window) >= config.evidence_frames;
+      revision_ += is_new || is_confirmed != voxel.is_confirmed;
+      voxel.is_confirmed = is_confirmed;
     }
   }
 }
@@ -108,6 +116,7 @@ std::vector<geometry::SeenStair> StairEvidence::Export() const {
 
 void StairEvidence::Import(const std::vector<geometry::SeenStair>& seen) {
   voxels_.clear();
+  ++revision_;
   for (const geometry::SeenStair& stair : seen)
     voxels_[stair.key] = {stair.probability, stair.geometry_score, 0, 0, stair.is_confirmed};
 }
@@ -118,6 +127,7 @@ std::vector<VoxelKey> StairEvidence::Reject(const Vector3d& p_world, double radi
   for (auto it = voxels_.begin(); it != voxels_.end();) {
     if ((CenterOf(it->first, voxel_m) - p_world).norm() <= radius_m) {
       rejected.push_back(it->first);
+      ++revision_;
       it = voxels_.erase(it);
     } else {
       ++it;

@@ -34,6 +34,11 @@ class StairEvidence {
 
   const std::map<VoxelKey, StairVoxel>& voxels() const { return voxels_; }
 
+  /// Grows when a voxel is new, newly confirmed or rejected.
+  std::uint64_t revision() const { return revision_; }
+  /// What the last frame showed as stairs, where its shape is that of stairs.
+  const std::vector<VoxelKey>& last_seen() const { return last_seen_; }
+
   /// For a file: what does not depend on the step count, in order of key; and back.
   std::vector<geometry::SeenStair> Export() const;
   void Import(const std::vector<geometry::SeenStair>& seen);
@@ -43,6 +48,8 @@ class StairEvidence {
 
  private:
   std::map<VoxelKey, StairVoxel> voxels_;
+  std::vector<VoxelKey> last_seen_;
+  std::uint64_t revision_ = 0;
 };
 
 /// A flight as seen from one level: the part of the evidence that leads away from it.

@@ -184,7 +184,7 @@ std::vector<std::int32_t> TransferInstances(const TriangleMesh& source, const Tr
       continue;
     }
     if (!scene) {  // built only where the meshes differ
-      device.reset(rtcNewDevice("threads=1"));
+      device.reset(rtcNewDevice(kEmbreeConfig));
       CROSSNAV_CHECK(device != nullptr, "Embree gives no device");
       scene = MakeQueryScene(device.get(), source);
     }

@@ -20,6 +20,28 @@ constexpr std::array<int, kLanes> AllLanes() {
   return lanes;
 }
 
+/// n . p = offset for p on the triangle. World frame, metres.
+struct Plane {
+  Vector3d normal = Vector3d::Zero();  ///< not of unit length
+  double offset = 0;
+};
+
+Plane PlaneOf(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+  const Vector3d p = a.cast<double>();
+  const Vector3d normal = (b.cast<double>() - p).cross(c.cast<double>() - p);
+  return {normal, normal.dot(p)};
+}
+
+/// Where the ray meets the plane of the triangle that Embree found, worked out here: Embree divides
+/// by an estimate of the processor, which differs from maker to maker. `otherwise`, Embree's
+/// answer, where the ray only grazes the plane.
+float MeetingWith(const Plane& plane, const Vector3d& origin, const Vector3d& direction,
+                  float otherwise) {
+  const double across = plane.normal.dot(direction);
+  if (std::abs(across) < 1e-6 * plane.normal.norm()) return otherwise;
+  return static_cast<float>((plane.offset - plane.normal.dot(origin)) / across);
+}
+
 }  // namespace
 
 struct RayCaster::Impl {
@@ -29,6 +51,7 @@ struct RayCaster::Impl {
   // Geometry 0 is opaque; geometry 1 holds the triangles with holes and pays for the filter.
   std::array<std::vector<std::uint32_t>, 2> triangles;  // Embree's primitive -> scene triangle
   std::array<std::vector<TriangleLook>, 2> looks;
+  std::array<std::vector<Plane>, 2> planes;
 
   explicit Impl(const Scene& s) : scene(s) {}
 
@@ -86,6 +109,9 @@ struct RayCaster::Impl {
     for (const std::uint32_t t : chosen) {
       indices = std::copy_n(mesh.triangles[t].data(), 3, indices);
       looks[id].push_back(LookOf(t));
+      const auto& corner = mesh.triangles[t];
+      planes[id].push_back(
+          PlaneOf(mesh.vertices[corner[0]], mesh.vertices[corner[1]], mesh.vertices[corner[2]]));
     }
     if (id == 1) {
       rtcSetGeometryUserData(geometry, this);
@@ -97,7 +123,7 @@ struct RayCaster::Impl {
   }
 
   void Build() {
-    device.reset(rtcNewDevice("threads=1"));
+    device.reset(rtcNewDevice(kEmbreeConfig));
     CROSSNAV_CHECK(device != nullptr, "Embree gives no device");
     rays.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(rays.get(), RTC_SCENE_FLAG_ROBUST);  // no cracks between neighbours
@@ -231,8 +257,13 @@ void RayCaster::Impl::StoreGeometry(const RTCRayHit16& packet, int u0, int v0, F
     const unsigned geometry = packet.hit.geomID[lane];
     if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
     const std::size_t pixel = PixelOf(u0, v0, lane, frame.depth_m.width);
-    frame.depth_m.data[pixel] = packet.ray.tfar[lane];
-    frame.instance.data[pixel] = looks[geometry][packet.hit.primID[lane]].instance;
+    const unsigned primitive = packet.hit.primID[lane];
+    frame.depth_m.data[pixel] =
+        MeetingWith(planes[geometry][primitive],
+                    {packet.ray.org_x[lane], packet.ray.org_y[lane], packet.ray.org_z[lane]},
+                    {packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]},
+                    packet.ray.tfar[lane]);
+    frame.instance.data[pixel] = looks[geometry][primitive].instance;
   }
 }
 
@@ -280,7 +311,9 @@ std::optional<RayHit> RayCaster::Cast(const Vector3d& p_world, const Vector3d& d
   IntersectOne(impl_->rays.get(), &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   RayHit hit;
-  hit.distance_m = ray.ray.tfar;
+  hit.distance_m =
+      MeetingWith(impl_->planes[ray.hit.geomID][ray.hit.primID],
+                  {ray.ray.org_x, ray.ray.org_y, ray.ray.org_z}, d.cast<double>(), ray.ray.tfar);
   hit.instance = impl_->looks[ray.hit.geomID][ray.hit.primID].instance;
   hit.p_world = p_world + direction / length * hit.distance_m;
   hit.triangle = impl_->triangles[ray.hit.geomID][ray.hit.primID];

@@ -188,7 +188,6 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
   if (auto done = ReadFeatures(*db, header, memory, damaged); !done)
     return tl::unexpected(done.error());
   auto flights = ReadFlights(*db, damaged);
-  if (!flights) return tl::unexpected(flights.error());
   auto seen_stairs = ReadSeenStairs(*db, damaged);
   if (!damaged.empty() && !options.skip_damaged)
     return tl::unexpected(DamageError(db->file(), damaged));
@@ -201,7 +200,7 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
   return LoadedMemory{header,
                       std::move(*map),
                       std::move(memory),
-                      std::move(*flights),
+                      std::move(flights),
                       std::move(seen_stairs),
                       std::move(damaged)};
 }

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "crossnav/store/sealed_blob.h"
 
@@ -18,36 +20,98 @@ constexpr std::size_t kMaxSeenBytes = 1 << 26;  // chosen: three million voxels
 constexpr std::size_t kSeenBytes = 21;          // of one voxel
 constexpr std::size_t kFixed = 9;               // numbers before the steps
 
-/// Little-endian doubles: foot, top, confidence, walks up and down, then the steps.
-Bytes Encode(const geometry::StairFlight& flight) {
-  std::vector<double> numbers;
-  const auto put = [&](const Vector3d& p) { numbers.insert(numbers.end(), {p.x(), p.y(), p.z()}); };
-  put(flight.p_foot_world);
-  put(flight.p_top_world);
-  numbers.insert(numbers.end(), {flight.confidence, static_cast<double>(flight.walked_up),
-                                 static_cast<double>(flight.walked_down)});
-  for (const Vector3d& step : flight.steps_world) put(step);
+constexpr const char* kPlacesTable = "flight_places";
+
+/// Little-endian doubles.
+Bytes Encode(const std::vector<double>& numbers) {
   Bytes bytes(numbers.size() * sizeof(double));
   std::memcpy(bytes.data(), numbers.data(), bytes.size());
   return bytes;
 }
 
-std::optional<geometry::StairFlight> Decode(const Bytes& bytes) {
+/// Back; nullopt where that is no list of sane numbers.
+std::optional<std::vector<double>> DecodeNumbers(const Bytes& bytes) {
   if (bytes.size() % sizeof(double) != 0) return std::nullopt;
   std::vector<double> numbers(bytes.size() / sizeof(double));
   std::memcpy(numbers.data(), bytes.data(), bytes.size());
-  if (numbers.size() < kFixed || (numbers.size() - kFixed) % 3 != 0) return std::nullopt;
   for (const double number : numbers)
     if (!std::isfinite(number) || std::abs(number) > 1e9) return std::nullopt;
+  return numbers;
+}
+
+void Put(const Vector3d& p, std::vector<double>* numbers) {
+  numbers->insert(numbers->end(), {p.x(), p.y(), p.z()});
+}
+
+/// Foot, top, confidence, walks up and down, then the steps.
+Bytes Encode(const geometry::StairFlight& flight) {
+  std::vector<double> numbers;
+  Put(flight.p_foot_world, &numbers);
+  Put(flight.p_top_world, &numbers);
+  numbers.insert(numbers.end(), {flight.confidence, static_cast<double>(flight.walked_up),
+                                 static_cast<double>(flight.walked_down)});
+  for (const Vector3d& step : flight.steps_world) Put(step, &numbers);
+  return Encode(numbers);
+}
+
+std::optional<geometry::StairFlight> DecodeFlight(const Bytes& bytes) {
+  const auto numbers = DecodeNumbers(bytes);
+  if (!numbers || numbers->size() < kFixed || (numbers->size() - kFixed) % 3 != 0)
+    return std::nullopt;
+  const auto& n = *numbers;
   geometry::StairFlight flight;
-  flight.p_foot_world = Vector3d(numbers[0], numbers[1], numbers[2]);
-  flight.p_top_world = Vector3d(numbers[3], numbers[4], numbers[5]);
-  flight.confidence = numbers[6];
-  flight.walked_up = static_cast<int>(numbers[7]);
-  flight.walked_down = static_cast<int>(numbers[8]);
-  for (std::size_t i = kFixed; i < numbers.size(); i += 3)
-    flight.steps_world.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  flight.p_foot_world = Vector3d(n[0], n[1], n[2]);
+  flight.p_top_world = Vector3d(n[3], n[4], n[5]);
+  flight.confidence = n[6];
+  flight.walked_up = static_cast<int>(n[7]);
+  flight.walked_down = static_cast<int>(n[8]);
+  for (std::size_t i = kFixed; i < n.size(); i += 3)
+    flight.steps_world.emplace_back(n[i], n[i + 1], n[i + 2]);
   return flight;
+}
+
+/// Id, number of places from which it was seen, these, then per try place, 1 for up, ending.
+Bytes EncodePlaces(const geometry::StairFlight& flight) {
+  std::vector<double> numbers{static_cast<double>(flight.id),
+                              static_cast<double>(flight.seen_from_world.size())};
+  for (const Vector3d& place : flight.seen_from_world) Put(place, &numbers);
+  for (const geometry::FlightTry& attempt : flight.tries) {
+    Put(attempt.p_from_world, &numbers);
+    numbers.push_back(attempt.is_up ? 1 : 0);
+    numbers.push_back(static_cast<double>(attempt.ending));
+  }
+  return Encode(numbers);
+}
+
+/// False, and `flight` as it was, where that is no such list.
+bool DecodePlaces(const Bytes& bytes, geometry::StairFlight* flight) {
+  const auto numbers = DecodeNumbers(bytes);
+  if (!numbers || numbers->size() < 2) return false;
+  geometry::StairFlight read = *flight;
+  std::size_t at = 0;
+  const auto left = [&] { return numbers->size() - at; };
+  const auto next = [&] { return (*numbers)[at++]; };
+  const auto point = [&] {
+    const double x = next(), y = next(), z = next();
+    return Vector3d(x, y, z);
+  };
+  read.id = static_cast<int>(next());
+  const double places = next();
+  if (read.id < 0 || !(places >= 0 && 3 * places <= static_cast<double>(left()))) return false;
+  for (int i = 0; i < static_cast<int>(places); ++i) read.seen_from_world.push_back(point());
+  constexpr std::size_t kTry = 5;  // numbers of one
+  if (left() % kTry != 0) return false;
+  while (left() > 0) {
+    geometry::FlightTry attempt;
+    attempt.p_from_world = point();
+    attempt.is_up = next() == 1;
+    const double ending = next();
+    if (!(ending >= 0 && ending < geometry::kTryEndings)) return false;
+    attempt.ending = static_cast<geometry::TryEnding>(static_cast<int>(ending));
+    read.tries.push_back(attempt);
+  }
+  *flight = std::move(read);
+  return true;
 }
 
 /// Each voxel: key (3 x i32), probability and geometry score (f32), confirmed (u8); little-endian.
@@ -101,37 +165,67 @@ Result<void> Insert(Database& db, const char* table, std::int64_t id, const Byte
 
 }  // namespace
 
-Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>& flights) {
-  if (auto done = Replace(db, kFlightTable, flights.empty()); !done) return done;
-  std::int64_t id = 0;
-  for (const geometry::StairFlight& flight : flights)
-    if (auto done = Insert(db, kFlightTable, id++, Encode(flight)); !done) return done;
-  return {};
+namespace {
+
+/// The whole bytes of the row; nullopt where its checksum differs.
+std::optional<Bytes> Unsealed(Statement& row, const char* table, std::int64_t id) {
+  const ByteView data = row.Blob(2);
+  if (row.Int(1) != HashBlock({table, id, {}, 0}, data)) return std::nullopt;
+  auto raw = Decompress(data, kMaxBytes);
+  if (!raw) return std::nullopt;
+  return std::move(*raw);
 }
 
-Result<std::vector<geometry::StairFlight>> ReadFlights(Database& db,
-                                                       std::vector<std::string>& damaged) {
-  std::vector<geometry::StairFlight> flights;
-  auto select =
-      db.Prepare(std::string("SELECT id, hash, data FROM ") + kFlightTable + " ORDER BY id");
-  if (!select) return flights;  // no such table
+/// Every row of `table`, in order; `take(id, bytes)` says whether they are a record. A table that
+/// is not there has none.
+template <class Take>
+void ForEachRow(Database& db, const char* table, std::vector<std::string>& damaged, Take take) {
+  auto select = db.Prepare(std::string("SELECT id, hash, data FROM ") + table + " ORDER BY id");
+  if (!select) return;
   for (;;) {
     const auto row = select->Step();
     if (!row) {
-      damaged.push_back("flights: " + row.error().what);
-      return flights;
+      damaged.push_back(std::string(table) + ": " + row.error().what);
+      return;
     }
-    if (!*row) return flights;
+    if (!*row) return;
     const std::int64_t id = select->Int(0);
-    const ByteView data = select->Blob(2);
-    std::optional<geometry::StairFlight> flight;
-    if (select->Int(1) == HashBlock({kFlightTable, id, {}, 0}, data))
-      if (const auto raw = Decompress(data, kMaxBytes)) flight = Decode(*raw);
-    if (flight)
-      flights.push_back(std::move(*flight));
-    else
-      damaged.push_back("flight " + std::to_string(id) + ": checksum differs");
+    const auto bytes = Unsealed(*select, table, id);
+    if (!bytes || !take(id, *bytes))
+      damaged.push_back(std::string(table) + " " + std::to_string(id) + ": checksum differs");
   }
+}
+
+}  // namespace
+
+Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>& flights) {
+  for (const char* table : {kFlightTable, kPlacesTable})
+    if (auto done = Replace(db, table, flights.empty()); !done) return done;
+  std::int64_t row = 0;
+  for (const geometry::StairFlight& flight : flights) {
+    if (auto done = Insert(db, kFlightTable, row, Encode(flight)); !done) return done;
+    if (auto done = Insert(db, kPlacesTable, row, EncodePlaces(flight)); !done) return done;
+    ++row;
+  }
+  return {};
+}
+
+std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::string>& damaged) {
+  std::map<std::int64_t, geometry::StairFlight> flights;
+  ForEachRow(db, kFlightTable, damaged, [&](std::int64_t row, const Bytes& bytes) {
+    auto flight = DecodeFlight(bytes);
+    if (!flight) return false;
+    flight->id = static_cast<int>(row);  // files of before have no other
+    flights.emplace(row, std::move(*flight));
+    return true;
+  });
+  ForEachRow(db, kPlacesTable, damaged, [&](std::int64_t row, const Bytes& bytes) {
+    const auto it = flights.find(row);
+    return it == flights.end() || DecodePlaces(bytes, &it->second);
+  });
+  std::vector<geometry::StairFlight> out;
+  for (auto& [row, flight] : flights) out.push_back(std::move(flight));
+  return out;
 }
 
 Result<void> WriteSeenStairs(Database& db, const std::vector<geometry::SeenStair>& seen) {

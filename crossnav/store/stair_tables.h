@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of walked flights and of voxels seen as stairs in a map file; absent where there was
+// The tables of known flights and of voxels seen as stairs in a map file; absent where there was
 // nothing to save, as in files of before.
 #pragma once
 
@@ -16,8 +16,7 @@ namespace crossnav::store {
 Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>& flights);
 
 /// Empty where there is no table. A record that is damaged is left out and named in `damaged`.
-Result<std::vector<geometry::StairFlight>> ReadFlights(Database& db,
-                                                       std::vector<std::string>& damaged);
+std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::string>& damaged);
 
 /// The same for what was seen as stairs, walked or not: one record.
 Result<void> WriteSeenStairs(Database& db, const std::vector<geometry::SeenStair>& seen);

@@ -221,6 +221,24 @@ std::string EncodePlan(std::uint64_t time_ns, const StepTrace& trace) {
   return ProtoMessage().Message(2, plan).Take();
 }
 
+std::string EncodeFlights(std::uint64_t time_ns,
+                          const std::vector<geometry::StairFlight>& flights) {
+  ProtoMessage entity = Entity(time_ns, "flights");
+  const Rgb8 orange{232, 89, 12};
+  for (const geometry::StairFlight& flight : flights) {
+    const bool is_walked = flight.IsWalked();
+    entity.Message(
+        11, Line(flight.steps_world, is_walked ? 0.06 : 0.02, Colour(orange, is_walked ? 1 : 0.7)));
+  }
+  for (const geometry::StairFlight& flight : flights) {
+    const std::string text =
+        "flight " + std::to_string(flight.id) + (flight.IsWalked() ? ", walked" : ", seen");
+    entity.Message(
+        13, Label(flight.p_top_world + Vector3d(0, 0, 0.4), text, Colour({255, 255, 255}, 1)));
+  }
+  return ProtoMessage().Message(2, entity).Take();
+}
+
 std::string EncodeGoals(std::uint64_t time_ns, const std::vector<GoalInstance>& goals) {
   ProtoMessage entity = Entity(time_ns, "goals");
   const auto colour = Colour({47, 158, 68}, 0.25);

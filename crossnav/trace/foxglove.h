@@ -41,6 +41,8 @@ std::string EncodeCloud(std::uint64_t time_ns, const std::vector<ColouredVoxel>&
 
 /// The plan: path, candidates with labels, target. Replaces the one before it.
 std::string EncodePlan(std::uint64_t time_ns, const StepTrace& trace);
+/// Every flight that is known, as a line with a label: walked ones strong, others thin.
+std::string EncodeFlights(std::uint64_t time_ns, const std::vector<geometry::StairFlight>& flights);
 /// Boxes around the true instances of the goals.
 std::string EncodeGoals(std::uint64_t time_ns, const std::vector<GoalInstance>& goals);
 

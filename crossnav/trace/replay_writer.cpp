@@ -22,7 +22,7 @@ using geometry::VoxelState;
 struct Channels {
   std::uint16_t tf = 0, pose = 0, image = 0, calibration = 0, depth = 0;
   std::uint16_t step = 0, changes = 0, cloud = 0, plan = 0, goals = 0, log = 0, stage = 0;
-  std::uint16_t boxes = 0, maps = 0;
+  std::uint16_t boxes = 0, maps = 0, flights = 0;
 };
 
 Channels AddChannels(McapWriter& mcap) {
@@ -43,6 +43,7 @@ Channels AddChannels(McapWriter& mcap) {
   c.changes = proto("/map/voxel_changes", "crossnav.VoxelChanges");
   c.cloud = proto("/map/voxels", "foxglove.PointCloud");
   c.plan = proto("/agent/plan", "foxglove.SceneUpdate");
+  c.flights = proto("/map/flights", "foxglove.SceneUpdate");
   c.goals = proto("/episode/goals", "foxglove.SceneUpdate");
   c.log = proto("/log", "foxglove.Log");
   c.stage = json("/episode/stage", "crossnav.Stage", StageJsonSchema());
@@ -172,6 +173,7 @@ Result<void> ReplayWriter::Write(const ReplayFrame& frame) {
   w.Put(w.channels.step, t, ToJson(trace, VoxelText::kOmit));
   w.PutMap(t, trace);
   w.Put(w.channels.plan, t, EncodePlan(t, trace));
+  if (trace.flights) w.Put(w.channels.flights, t, EncodeFlights(t, *trace.flights));
   w.PutLog(t, trace);
   return w.mcap.EndGroup();
 }

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "crossnav/core/action.h"
 #include "crossnav/core/box.h"
 #include "crossnav/core/pose.h"
+#include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 
 namespace crossnav::trace {
@@ -54,6 +56,8 @@ struct StepTrace {
   std::vector<CandidateTrace> candidates;  ///< best first within each class
   std::vector<Vector3d> path_world;        ///< planned, from the agent to the target
   VerificationTrace verification;
+  /// Every flight that is known, in steps in which one of them changed; else none.
+  std::optional<std::vector<geometry::StairFlight>> flights;
   std::vector<std::string> events;  ///< e.g. "goal activated: bed", "entrance rejected"
   double level_m = 0;               ///< height of the current exploration level
   std::vector<geometry::StateChange> voxel_changes;  ///< sorted by key

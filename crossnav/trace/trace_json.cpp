@@ -70,6 +70,29 @@ void Append(JsonText& json, const std::string& text) {
 }
 
 template <class T>
+void AppendAll(JsonText& json, std::string_view key, const std::vector<T>& values);
+
+void Append(JsonText& json, const geometry::FlightTry& t) {
+  json.BeginObject()
+      .Field("p_from_world", t.p_from_world)
+      .Field("is_up", t.is_up)
+      .Field("ending", NameOf(t.ending))
+      .EndObject();
+}
+
+void Append(JsonText& json, const geometry::StairFlight& f) {
+  json.BeginObject().Field("id", f.id).Field("p_foot_world", f.p_foot_world);
+  json.Field("p_top_world", f.p_top_world).Field("direction_up", f.DirectionUp());
+  AppendAll(json, "steps_world", f.steps_world);
+  json.Field("confidence", f.confidence)
+      .Field("walked_up", f.walked_up)
+      .Field("walked_down", f.walked_down);
+  AppendAll(json, "seen_from_world", f.seen_from_world);
+  AppendAll(json, "tries", f.tries);
+  json.EndObject();
+}
+
+template <class T>
 void AppendAll(JsonText& json, std::string_view key, const std::vector<T>& values) {
   json.Key(key).BeginArray();
   for (const T& value : values) Append(json, value);
@@ -93,6 +116,7 @@ std::string ToJson(const StepTrace& step, VoxelText voxels) {
   AppendAll(json, "candidates", step.candidates);
   AppendAll(json, "path_world", step.path_world);
   Append(json.Key("verification"), step.verification);
+  if (step.flights) AppendAll(json, "flights", *step.flights);
   AppendAll(json, "events", step.events);
   json.Field("level_m", step.level_m)
       .Field("all_explored", step.all_explored)

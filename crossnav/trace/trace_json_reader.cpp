@@ -56,6 +56,34 @@ void ReadAction(JsonReader in, const Element& e, Action& action) {
   in.Complain("", "no such action: " + name);
 }
 
+void ReadPoint(JsonReader& in, const Element& e, Vector3d& p) {
+  in.Read(e, p);
+}
+
+void ReadTry(JsonReader& in, const Element& e, geometry::FlightTry& attempt) {
+  in.Field(e, "p_from_world", attempt.p_from_world);
+  in.Field(e, "is_up", attempt.is_up);
+  std::string name;
+  in.Field(e, "ending", name);
+  for (int i = 0; i < geometry::kTryEndings; ++i) {
+    attempt.ending = static_cast<geometry::TryEnding>(i);
+    if (NameOf(attempt.ending) == name) return;
+  }
+  in.Complain("ending", "no such ending: " + name);
+}
+
+void ReadFlight(JsonReader& in, const Element& e, geometry::StairFlight& flight) {
+  in.Field(e, "id", flight.id);
+  in.Field(e, "p_foot_world", flight.p_foot_world);
+  in.Field(e, "p_top_world", flight.p_top_world);
+  in.ListField(e, "steps_world", flight.steps_world, ReadPoint);
+  in.Field(e, "confidence", flight.confidence);
+  in.Field(e, "walked_up", flight.walked_up);
+  in.Field(e, "walked_down", flight.walked_down);
+  in.ListField(e, "seen_from_world", flight.seen_from_world, ReadPoint);
+  in.ListField(e, "tries", flight.tries, ReadTry);
+}
+
 void ReadChange(JsonReader& in, const Element& e, geometry::StateChange& change) {
   std::array<double, 5> n{};
   in.Numbers(e, n.data(), n.size());
@@ -89,11 +117,12 @@ void ReadStep(JsonReader& in, const Element& e, StepTrace& step) {
   // Records written before there were activities lack it.
   if (e["activity"].error() == simdjson::SUCCESS) in.Field(e, "activity", step.activity);
   in.ListField(e, "candidates", step.candidates, ReadCandidate);
-  in.ListField(e, "path_world", step.path_world,
-               [](JsonReader& r, const Element& item, Vector3d& p) { r.Read(item, p); });
+  in.ListField(e, "path_world", step.path_world, ReadPoint);
   if (const auto v = in.Find(e, "verification")) {
     ReadVerification(in.Below("verification"), *v, step.verification);
   }
+  if (e["flights"].error() == simdjson::SUCCESS)
+    in.ListField(e, "flights", step.flights.emplace(), ReadFlight);
   in.ListField(e, "events", step.events,
                [](JsonReader& r, const Element& item, std::string& text) { r.Read(item, text); });
   in.Field(e, "level_m", step.level_m);

@@ -90,20 +90,36 @@ nb::dict Stats(const MapHandle& self) {
   return out;
 }
 
-/// Each flight as a dict of its ends, its steps and how often it was walked.
+Array<double, nb::ndim<2>> ToRows(const std::vector<Vector3d>& points) {
+  std::vector<double> rows;
+  for (const Vector3d& p : points) rows.insert(rows.end(), p.data(), p.data() + 3);
+  return ToArray<Array<double, nb::ndim<2>>>(std::move(rows), {points.size(), 3});
+}
+
+/// Each flight as a dict of its ends, its steps, how often it was walked, and from where it was
+/// seen and tried.
 nb::list Flights(const MapHandle& self) {
   nb::list out;
   for (const geometry::StairFlight& flight : self.Flights()) {
-    std::vector<double> steps;
-    for (const Vector3d& p : flight.steps_world) steps.insert(steps.end(), p.data(), p.data() + 3);
+    nb::list tries;
+    for (const geometry::FlightTry& attempt : flight.tries) {
+      nb::dict one;
+      one["p_from_world"] = nb::cast(ToArray(attempt.p_from_world));
+      one["is_up"] = attempt.is_up;
+      one["ending"] = std::string(NameOf(attempt.ending));
+      tries.append(one);
+    }
     nb::dict one;
+    one["id"] = flight.id;
     one["p_foot_world"] = nb::cast(ToArray(flight.p_foot_world));
     one["p_top_world"] = nb::cast(ToArray(flight.p_top_world));
-    one["steps_world"] = nb::cast(
-        ToArray<Array<double, nb::ndim<2>>>(std::move(steps), {flight.steps_world.size(), 3}));
+    one["direction_up"] = nb::cast(ToArray(flight.DirectionUp()));
+    one["steps_world"] = nb::cast(ToRows(flight.steps_world));
     one["confidence"] = flight.confidence;
     one["walked_up"] = flight.walked_up;
     one["walked_down"] = flight.walked_down;
+    one["seen_from_world"] = nb::cast(ToRows(flight.seen_from_world));
+    one["tries"] = tries;
     out.append(one);
   }
   return out;

@@ -44,6 +44,10 @@ geometry::StairFlight SomeFlight() {
   flight.confidence = 0.75;
   flight.walked_up = 2;
   flight.walked_down = 1;
+  flight.id = 7;
+  flight.seen_from_world = {{0, 2, 0.1}, {-1.5, 2, 0.1}};
+  flight.tries = {{{0.5, 2, 0.1}, true, geometry::TryEnding::kNoProgress},
+                  {{4, 3, 2.8}, false, geometry::TryEnding::kGivenUp}};
   return flight;
 }
 
@@ -57,13 +61,8 @@ TEST(MapFileTest, FlightsAreSavedWithTheMemory) {
   const auto loaded = LoadMemory(file.path());
   ASSERT_TRUE(loaded) << loaded.error().Message();
   ASSERT_EQ(loaded->flights.size(), 2u);
-  const geometry::StairFlight flight = loaded->flights[1], saved = SomeFlight();
-  EXPECT_EQ(flight.p_foot_world, saved.p_foot_world);
-  EXPECT_EQ(flight.p_top_world, saved.p_top_world);
-  EXPECT_EQ(flight.steps_world, saved.steps_world);
-  EXPECT_EQ(flight.confidence, 0.75);
-  EXPECT_EQ(flight.walked_up, 2);
-  EXPECT_EQ(flight.walked_down, 1);
+  EXPECT_EQ(loaded->flights[0], SomeFlight());
+  EXPECT_EQ(loaded->flights[1], SomeFlight());
   // A later save without any takes them out.
   ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, kInfo));
   EXPECT_TRUE(LoadMemory(file.path())->flights.empty());
@@ -98,6 +97,44 @@ TEST(MapFileTest, WhatWasSeenAsStairsIsSavedWithTheMemory) {
   ASSERT_TRUE(rest);
   EXPECT_EQ(rest->damaged, std::vector<std::string>{"seen stairs: checksum differs"});
   EXPECT_TRUE(rest->seen_stairs.empty());
+}
+
+// Files of before have no such table.
+TEST(MapFileTest, FlightsWithoutTheirPlacesLoad) {
+  const TempFile file("flights_of_before.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  SaveInfo info = kInfo;
+  info.flights = {SomeFlight(), SomeFlight()};
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db, "DROP TABLE flight_places", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(db);
+  const auto loaded = LoadMemory(file.path());
+  ASSERT_TRUE(loaded) << loaded.error().Message();
+  ASSERT_EQ(loaded->flights.size(), 2u);
+  EXPECT_EQ(loaded->flights[1].id, 1);
+  EXPECT_EQ(loaded->flights[1].walked_up, 2);
+  EXPECT_TRUE(loaded->flights[1].seen_from_world.empty());
+}
+
+TEST(MapFileTest, DamagedPlacesOfAFlightAreNamed) {
+  const TempFile file("damaged_places.map");
+  SmallWorld world;
+  world.AddFrame(0);
+  SaveInfo info = kInfo;
+  info.flights = {SomeFlight()};
+  ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(db, "UPDATE flight_places SET data = zeroblob(64)", nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(db);
+  const auto refused = LoadMemory(file.path());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("flight_places 0"), std::string::npos);
 }
 
 TEST(MapFileTest, ADamagedFlightIsNamedAndTheRestLoads) {

@@ -27,6 +27,15 @@ StepTrace SmallStep() {
   step.candidates.push_back({"live_poi", {1, 2, 3}, {4, 5, 6}, 0.25, -1, 7, true, false});
   step.path_world = {{0, 0, 0}, {1, 0.30000000000000004, 0}};
   step.verification = {true, false, 0.7, 0, 0, 0, 1.5, "distance"};
+  geometry::StairFlight flight;
+  flight.id = 3;
+  flight.p_top_world = {1, 0, 0.5};
+  flight.steps_world = {{0, 0, 0}, {1, 0, 0.5}};
+  flight.confidence = 0.5;
+  flight.walked_up = 1;
+  flight.seen_from_world = {{-1, 0, 0}};
+  flight.tries = {{{-2, 0, 0}, true, geometry::TryEnding::kNoProgress}};
+  step.flights = {flight};
   step.events = {"goal activated: tv_monitor"};
   step.level_m = 2.8;
   step.voxel_changes = {{{-1, 2, 3}, {geometry::VoxelState::kStair, false}},
@@ -47,6 +56,10 @@ TEST(TraceJson, IsOneCanonicalLine) {
             R"("path_world":[[0,0,0],[1,0.30000000000000004,0]],)"
             R"("verification":{"is_active":true,"passed":false,"confidence":0.7,"mask_quality":0,)"
             R"("visibility":0,"view_angle_deg":0,"distance_m":1.5,"failed_check":"distance"},)"
+            R"("flights":[{"id":3,"p_foot_world":[0,0,0],"p_top_world":[1,0,0.5],)"
+            R"("direction_up":[1,0,0],"steps_world":[[0,0,0],[1,0,0.5]],"confidence":0.5,)"
+            R"("walked_up":1,"walked_down":0,"seen_from_world":[[-1,0,0]],)"
+            R"("tries":[{"p_from_world":[-2,0,0],"is_up":true,"ending":"no progress"}]}],)"
             R"("events":["goal activated: tv_monitor"],"level_m":2.8,"all_explored":false,)"
             R"("detections":2,"memory":{"rows":900,"compacted_rows":80,"dropped_rows":7},)"
             R"("voxel_changes":[[-1,2,3,5,0],[4,5,6,2,1]]})");
@@ -72,6 +85,7 @@ TEST(TraceJson, ReadsEveryFieldBack) {
   EXPECT_EQ(back->path_world[1].y(), 0.1 + 0.2);
   EXPECT_EQ(back->candidates[0].size, 7);
   EXPECT_EQ(back->verification.failed_check, "distance");
+  EXPECT_EQ(back->flights, SmallStep().flights);
   ASSERT_EQ(back->voxel_changes.size(), 2U);
   EXPECT_EQ(back->voxel_changes[0].key, (geometry::VoxelKey{-1, 2, 3}));
   EXPECT_TRUE(back->voxel_changes[1].voxel.is_inflated);

@@ -63,6 +63,12 @@ export function floorOf(levels, z) {
   return floor;
 }
 
+/// The flights of stairs that are known after a step: a record has them only where one changed.
+export function flightsAt(steps, index) {
+  for (let i = index; i >= 0; --i) if (steps[i].flights) return steps[i].flights;
+  return [];
+}
+
 /// Consecutive steps for which key(step) is equal: [{from, to, key}], both ends included.
 export function segments(steps, key) {
   const out = [];

@@ -7,7 +7,7 @@ import {
   CameraPanel, CandidatesPanel, GoalsHead, LogPanel, StatusPanel, VerificationPanel, byId, make,
 } from "./panels.js";
 import { Renderer } from "./renderer.js";
-import { KINDS, PATH_COLOUR, SceneBuilder, kindOf, rgbOf } from "./scene.js";
+import { FLIGHT_COLOUR, KINDS, PATH_COLOUR, SceneBuilder, kindOf, rgbOf } from "./scene.js";
 import { SightLayer } from "./sight.js";
 import { Timeline } from "./timeline.js";
 import { VoxelHistory, blockFaces } from "./voxels.js";
@@ -16,6 +16,7 @@ const WALKABLE = "#b9dcc0", INFLATED = "#dccfb8";
 const LAYERS = [
   ["trajectory", "trajectory, by goal", "#1c7ed6"],
   ["path", "planned path", PATH_COLOUR],
+  ["flights", "flights of stairs", FLIGHT_COLOUR],
   ["candidates", "candidates and target", "#e64980"],
   ["goals", "true goals (agent unaware)", "#2f9e44"],
 ];
@@ -28,7 +29,7 @@ class ReplayApp {
     this.view = {
       levels: this.levels, spread: 0, cut: 1.5, floors: "auto", isFollowing: false,
       lowFloor: 0, highFloor: 7,
-      layers: { trajectory: true, path: true, candidates: true, goals: true },
+      layers: { trajectory: true, path: true, flights: true, candidates: true, goals: true },
       isShown: replay.states.map((s) => s.is_surface),
     };
     this.camera = new OrbitCamera();

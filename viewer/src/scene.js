@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the 3D view shows at a step, as lines and triangles in world metres. Floors moved apart are
 // moved here too, by the same rule as in the renderer's shader.
-import { floorOf } from "./data.js";
+import { flightsAt, floorOf } from "./data.js";
 
 export const GOAL_COLOURS = ["#1c7ed6", "#e8590c", "#9c36b5", "#2b8a3e", "#c2255c", "#0b7285"];
 export const MODE_COLOURS = {
@@ -22,6 +22,7 @@ export const KINDS = {
 };
 const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";
+export const FLIGHT_COLOUR = "#e8590c";
 export const GOAL_COLOUR = "#2f9e44";
 export const OTHER_GOAL_COLOUR = "#5c6773";
 const AGENT_HEIGHT_M = 0.88;
@@ -57,6 +58,7 @@ export class SceneBuilder {
     const layers = this.view.layers;
     if (layers.goals) this.addGoals(out, step);
     if (layers.trajectory) this.addTrajectory(out, index);
+    if (layers.flights) this.addFlights(out, index);
     if (layers.path) this.addPath(out, step);
     this.addAgent(out, step);
     return out;
@@ -84,6 +86,17 @@ export class SceneBuilder {
     const path = step.path_world;
     for (let i = 1; i < path.length; ++i) {
       this.addAnyLine(out, above(path[i - 1], 0.02), above(path[i], 0.02), rgbOf(PATH_COLOUR), 1, 4);
+    }
+  }
+
+  /// Walked ones strong; those that were only seen thin.
+  addFlights(out, index) {
+    for (const flight of flightsAt(this.replay.steps, index)) {
+      const isWalked = flight.walked_up + flight.walked_down > 0, p = flight.steps_world;
+      for (let i = 1; i < p.length; ++i) {
+        this.addLine(out, above(p[i - 1], 0.06), above(p[i], 0.06), rgbOf(FLIGHT_COLOUR),
+          isWalked ? 1 : 0.7, isWalked ? 5 : 2);
+      }
     }
   }
 

@@ -5,11 +5,16 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { OrbitCamera, projectPoint } from "../src/camera.js";
-import { floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
+import { flightsAt, floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
 
 // The same bytes as in tests/trace/voxel_codec_test.cpp.
 const RUNS = [0x02, 0x01, 0x04, 0x02, 0x01, 0x00, 0x02, 0x03, 0x01, 0x0a];
+
+test("flights hold until a record has others", () => {
+  const steps = [{}, { flights: [{ id: 0 }] }, {}, { flights: [{ id: 0 }, { id: 1 }] }, {}];
+  assert.deepEqual([0, 1, 2, 3, 4].map((i) => flightsAt(steps, i).length), [0, 1, 1, 2, 2]);
+});
 
 test("runs decode to the voxels that the C++ side encoded", () => {
   const got = [];

@@ -85,6 +85,7 @@ def step_record(recording: rr.RecordingStream, record: dict[str, Any],
     path = record["path_world"]
     recording.log("world/plan/path", rr.LineStrips3D([path] if len(path) > 1 else [],
                                                      colors=(20, 120, 220), radii=0.03))
+    _flights(recording, record.get("flights"))
     _candidates(recording, record["candidates"])
     _scores(recording, record)
     number = record["goal_index"] + 1
@@ -108,6 +109,18 @@ def trail(recording: rr.RecordingStream, before: Sequence[float] | None,
 
 def _finite(value: Any) -> bool:
     return value is not None and math.isfinite(value)
+
+
+def _flights(recording: rr.RecordingStream, flights: list[dict[str, Any]] | None) -> None:
+    """Only where one changed; the view keeps the last."""
+    if flights is None:
+        return
+    walked = [flight["walked_up"] + flight["walked_down"] > 0 for flight in flights]
+    recording.log("world/flights", rr.LineStrips3D(
+        [flight["steps_world"] for flight in flights], colors=(232, 89, 12),
+        radii=[0.03 if is_walked else 0.01 for is_walked in walked],
+        labels=[f"flight {flight['id']}, {'walked' if is_walked else 'seen'}"
+                for flight, is_walked in zip(flights, walked, strict=True)]))
 
 
 def _candidates(recording: rr.RecordingStream, candidates: list[dict[str, Any]]) -> None:
