@@ -311,9 +311,9 @@ std::optional<RayHit> RayCaster::Cast(const Vector3d& p_world, const Vector3d& d
   IntersectOne(impl_->rays.get(), &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   RayHit hit;
-  hit.distance_m =
-      MeetingWith(impl_->planes[ray.hit.geomID][ray.hit.primID],
-                  {ray.ray.org_x, ray.ray.org_y, ray.ray.org_z}, d.cast<double>(), ray.ray.tfar);
+  hit.distance_m = MeetingWith(impl_->planes[ray.hit.geomID][ray.hit.primID],
+                               {ray.ray.org_x, ray.ray.org_y, ray.ray.org_z},
+                               {ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z}, ray.ray.tfar);
   hit.instance = impl_->looks[ray.hit.geomID][ray.hit.primID].instance;
   hit.p_world = p_world + direction / length * hit.distance_m;
   hit.triangle = impl_->triangles[ray.hit.geomID][ray.hit.primID];

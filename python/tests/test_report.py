@@ -180,7 +180,7 @@ def evaluated(scenes_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Pat
     folder = tmp_path_factory.mktemp("evaluated")
     small = ["--set", "sensor.width_px=160", "--set", "sensor.height_px=160",
              "--set", "ground_truth.min_visible_px=20", "--set", "ground_truth.feature_dim=64",
-             "--set", "eval.action_budget=300"]
+             "--set", "eval.action_budget=600"]
 
     def run(*arguments: str) -> None:
         subprocess.run([program, *arguments, "--quiet"], cwd=folder, check=True,
