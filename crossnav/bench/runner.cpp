@@ -141,7 +141,7 @@ Result<StageRecord> EpisodeRun::RunStage(const std::string& goal) {
   stage.record.start_world = simulator_.agent().p_world;
   stage.record.floor_start = floors_->floor();
   floors_->StartStage();
-  const auto shortest_m = context_.DistanceToGoal(stage.record.start_world, goal);
+  const auto shortest_m = context_.DistanceToGoalFromAbout(stage.record.start_world, goal);
   if (!shortest_m) {
     return Fail(ErrorCode::kInvalid,
                 "goal \"" + goal + "\" cannot be reached from where its stage starts",
@@ -254,7 +254,7 @@ void EpisodeRun::FinishStage(const StageEnd& end, StageState& stage) const {
   if (!record.success && needs_stairs) {
     record.extra.stairs = stage.stairs.Verdict(record.transitions);
   }
-  record.extra.distance_to_goal_m = context_.DistanceToGoal(record.end_world, record.goal);
+  record.extra.distance_to_goal_m = context_.DistanceToGoalFromAbout(record.end_world, record.goal);
   if (!record.success) {
     record.extra.cause = JudgeCause(stage.cause, context_, agent_.map(), record);
   }

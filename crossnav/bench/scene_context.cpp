@@ -136,6 +136,30 @@ std::optional<double> SceneContext::DistanceToGoal(const Vector3d& p_world,
   return navmesh_->Geodesic(p_world, viewpoints);
 }
 
+std::optional<double> SceneContext::DistanceToGoalFromAbout(const Vector3d& p_world,
+                                                            const std::string& goal) const {
+  constexpr double kReach_m = 1.0, kRing_m = 0.1, kRise_m = 0.5;  // chosen: a body's size or two
+  constexpr int kDirections = 16;
+  if (const auto distance_m = DistanceToGoal(p_world, goal)) return distance_m;
+  for (double off_m = 0; off_m <= kReach_m; off_m += kRing_m) {
+    std::optional<double> nearest_m;
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle_rad = DegToRad(360.0 * i / kDirections);
+      const double x_m = p_world.x() + off_m * std::cos(angle_rad);
+      const double y_m = p_world.y() + off_m * std::sin(angle_rad);
+      for (const double z_m :
+           navmesh_->HeightsAt(x_m, y_m, p_world.z() - kRise_m, p_world.z() + kRise_m)) {
+        const Vector3d p_about(x_m, y_m, z_m);
+        const auto rest_m = DistanceToGoal(p_about, goal);
+        if (rest_m)
+          nearest_m = std::min(nearest_m.value_or(1e9), *rest_m + (p_about - p_world).norm());
+      }
+    }
+    if (nearest_m) return nearest_m;
+  }
+  return std::nullopt;
+}
+
 const std::vector<Vector3d>& SceneContext::WalkablePoints() const {
   if (!walkable_world_.empty()) return walkable_world_;
   constexpr double kGrid_m = 0.2;  // chosen: a fifth of a flight's width

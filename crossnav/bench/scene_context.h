@@ -56,6 +56,11 @@ class SceneContext {
 
   /// d*: shortest path from `p_world` to a viewpoint of `goal`; empty where there is none.
   std::optional<double> DistanceToGoal(const Vector3d& p_world, const std::string& goal) const;
+  /// The same for a foot that may have walked onto a sliver which nothing leads away from (a mesh
+  /// overlaps itself in some stacked stairs): from the nearest place about it that has a way, and
+  /// the straight line there.
+  std::optional<double> DistanceToGoalFromAbout(const Vector3d& p_world,
+                                                const std::string& goal) const;
 
   /// Points of the walkable surface on a 0.2 m grid, by x, y, z: a measure of its area. Computed
   /// once.

@@ -89,6 +89,22 @@ TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
   EXPECT_GT((*context)->TargetsOf("bed").front().viewpoints_world.size(), 1u);  // of another scene
 }
 
+// A stage that began where the agent had walked onto a sliver of the mesh ended the whole episode
+// as failed: "cannot be reached from where its stage starts".
+TEST_F(Runner, AStageOffTheMeshStartsFromTheNearestWay) {
+  const Vector3d p_floor = context_->TargetsOf("sofa").front().viewpoints_world.front();
+  const auto from_floor_m = context_->DistanceToGoal(p_floor, "toilet");
+  ASSERT_TRUE(from_floor_m);
+  EXPECT_EQ(context_->DistanceToGoalFromAbout(p_floor, "toilet"), from_floor_m);
+  // Outwards, until the mesh does not reach there any more.
+  Vector3d p_off = p_floor;
+  while (context_->DistanceToGoal(p_off, "toilet")) p_off.x() -= 0.1;
+  const auto from_off_m = context_->DistanceToGoalFromAbout(p_off, "toilet");
+  ASSERT_TRUE(from_off_m) << p_off.transpose();
+  EXPECT_NEAR(*from_off_m, *from_floor_m, 2 * (p_floor - p_off).norm() + 0.5);
+  EXPECT_FALSE(context_->DistanceToGoalFromAbout(p_off - Vector3d(50, 0, 0), "toilet"));
+}
+
 TEST_F(Runner, RecordAgreesWithWhatWasWatched) {
   const Episode episode = ClimbingEpisode();
   Recorder recorder;
