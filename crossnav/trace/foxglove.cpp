@@ -224,11 +224,11 @@ std::string EncodePlan(std::uint64_t time_ns, const StepTrace& trace) {
 std::string EncodeFlights(std::uint64_t time_ns,
                           const std::vector<geometry::StairFlight>& flights) {
   ProtoMessage entity = Entity(time_ns, "flights");
-  const Rgb8 orange{232, 89, 12};
+  const Rgb8 brown{95, 58, 18};
   for (const geometry::StairFlight& flight : flights) {
     const bool is_walked = flight.IsWalked();
     entity.Message(
-        11, Line(flight.steps_world, is_walked ? 0.06 : 0.02, Colour(orange, is_walked ? 1 : 0.7)));
+        11, Line(flight.steps_world, is_walked ? 0.06 : 0.02, Colour(brown, is_walked ? 1 : 0.7)));
   }
   for (const geometry::StairFlight& flight : flights) {
     const std::string text =

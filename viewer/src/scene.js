@@ -22,7 +22,7 @@ export const KINDS = {
 };
 const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";
-export const FLIGHT_COLOUR = "#e8590c";
+export const FLIGHT_COLOUR = "#5f3a12";
 export const GOAL_COLOUR = "#2f9e44";
 export const OTHER_GOAL_COLOUR = "#5c6773";
 const AGENT_HEIGHT_M = 0.88;

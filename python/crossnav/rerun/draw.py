@@ -117,7 +117,7 @@ def _flights(recording: rr.RecordingStream, flights: list[dict[str, Any]] | None
         return
     walked = [flight["walked_up"] + flight["walked_down"] > 0 for flight in flights]
     recording.log("world/flights", rr.LineStrips3D(
-        [flight["steps_world"] for flight in flights], colors=(232, 89, 12),
+        [flight["steps_world"] for flight in flights], colors=(95, 58, 18),
         radii=[0.03 if is_walked else 0.01 for is_walked in walked],
         labels=[f"flight {flight['id']}, {'walked' if is_walked else 'seen'}"
                 for flight, is_walked in zip(flights, walked, strict=True)]))
