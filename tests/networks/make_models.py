@@ -23,11 +23,12 @@ def number(name, array):
     return numpy_helper.from_array(np.asarray(array), name)
 
 
-def save(name, nodes, inputs, outputs, numbers=()):
+def save(name, nodes, inputs, outputs, numbers=(), check=True):
     graph = helper.make_graph(nodes, name, inputs, outputs, list(numbers))
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 13)], producer_name="crossnav")
     model.ir_version = 7
-    onnx.checker.check_model(model)
+    if check:
+        onnx.checker.check_model(model)
     (DATA / f"{name}.onnx").write_bytes(model.SerializeToString())
 
 
@@ -48,6 +49,17 @@ def arithmetic():
          [node("Mul", "b two", "doubled"), node("Add", "a doubled", "sum"), node("Log", "a", "log")],
          [value("a", [1, 3]), value("b", ["n", 3])], [value("sum", [1, 3]), value("log", [1, 3])],
          [number("two", np.float32(2))])
+
+
+def huge():
+    """`sum` is a tensor of 2^60 zeros; `declared` has a constant of 2^44 numbers, of which four are there."""
+    side = number("side", np.array([1 << 30, 1 << 30], np.int64))
+    save("huge", [node("ConstantOfShape", "side", "sum"), node("Identity", "a", "log")],
+         [value("a", [1, 3]), value("b", [1, 3])], [value("sum", ["n", "m"]), value("log", [1, 3])], [side])
+    few = number("few", np.zeros(4, np.float32))
+    few.dims[:] = [1 << 22, 1 << 22]
+    save("declared", [node("Identity", "few", "sum"), node("Identity", "a", "log")],
+         [value("a", [1, 3]), value("b", [1, 3])], [value("sum", ["n", "m"]), value("log", [1, 3])], [few], check=False)
 
 
 def detr():
@@ -148,5 +160,6 @@ if __name__ == "__main__":
     yolo8_segment()
     grids()
     arithmetic()
+    huge()
     detr()
     crossnav()
