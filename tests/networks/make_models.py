@@ -135,6 +135,17 @@ def yolo8_segment():
           number("ten", np.float32(10))])
 
 
+def yolo_world():
+    """Two cells; a text's score in a cell is their vectors' product, times 0.9."""
+    boxes = np.array([[[6, 12], [8, 4], [8, 4], [8, 4]]], np.float32)  # centre and size
+    save("yolo-world",
+         [node("ReduceMax", "images", "most", axes=[0, 1, 2, 3], keepdims=0),
+          node("MatMul", "texts cells", "likely"), node("Mul", "likely most", "scores"),
+          node("Concat", "boxes scores", "output0", axis=1)],
+         [value("images", [1, 3, 16, 16]), value("texts", [1, 3, 2])], [value("output0", [1, 7, 2])],
+         [number("boxes", boxes), number("cells", np.array([[0.9, 0], [0, 0.9]], np.float32))])
+
+
 def grids():
     """Cells of 4 x 4 px: 10 x mean colour as logits of three classes; mean colour as features."""
     save("segformer",
@@ -158,6 +169,7 @@ if __name__ == "__main__":
     cells[0, 20] = [0.5, 0.5, 0, 0, 1.0, 0.8, 0.1]
     yolo("yolox", "output", cells, 32)
     yolo8_segment()
+    yolo_world()
     grids()
     arithmetic()
     huge()
