@@ -100,8 +100,11 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
     switch (kind_) {
       case Kind::kYolo8:
       case Kind::kYolo8Segment:
-      case Kind::kYoloWorld:
         return BoxesOfYolo8(output, card_.output.classes, wanted);
+      case Kind::kYoloWorld: {  // places that are left over repeat a word: they are no classes
+        const int labels = static_cast<int>(card_.labels.size());
+        return BoxesOfYolo8(output, std::max(labels, wanted.labels.back() + 1), wanted);
+      }
       case Kind::kYolo7:
         return BoxesOfYolo7(output, card_.output.classes, wanted);
       case Kind::kYolo7EndToEnd:
