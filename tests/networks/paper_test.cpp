@@ -109,7 +109,7 @@ TEST_P(PaperNetworks, DetectorsGiveTheBoxesOfPyTorch) {
     ASSERT_NE(model, nullptr);
     ExpectBoxes(*model->MakeDetector(), network, size_);
   }
-  EXPECT_GE(tried, 5);
+  EXPECT_GE(tried, Folder() == DataFile("paper") ? 5 : 1);
 }
 
 TEST_P(PaperNetworks, SegFormersStairsAreThoseOfPyTorch) {
