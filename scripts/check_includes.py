@@ -71,6 +71,7 @@ ADAPTERS = {
                             "crossnav/networks/crossnav_network.cpp"]),
     "Protobuf": (r"^google/protobuf/", ["crossnav/serve/messages.cpp"]),
     "OpenVINO": (r"^openvino/", ["crossnav/networks/openvino_backend.cpp"]),
+    "ONNX Runtime": (r"^onnxruntime", ["crossnav/networks/onnxruntime_backend.cpp"]),
     "zlib": (r"^zlib", ["crossnav/bench/gzip_file.cpp", "crossnav/trace/mcap_writer.cpp",
                         "crossnav/trace/replay_page.cpp",
                         "crossnav/world/furniture/furniture_pack.cpp"]),

@@ -5,7 +5,8 @@
 #                                    slurm
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
-# it cannot be had, the build goes on without networks.
+# it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
+# installed where the distribution has it (Debian 13).
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -68,6 +69,20 @@ as_root() {
   fi
 }
 
+# Installs those of the given packages that the distribution has, where that needs no password;
+# nothing depends on them.
+install_optional() {
+  local package absent
+  [[ $(id -u) -eq 0 ]] || sudo -n true 2>/dev/null || return 0
+  mapfile -t absent < <(missing_of "$@")
+  for package in "${absent[@]}"; do
+    apt-cache policy "$package" 2>/dev/null | grep -q 'Candidate: [0-9]' || continue
+    say "installing $package, which is optional"
+    as_root apt-get -q -o DPkg::Lock::Timeout=300 install -y --no-install-recommends "$package" \
+      </dev/null >&2 || say "$package cannot be had; the build goes on without it"
+  done
+}
+
 # The wheel's headers and the libraries that are used, in the folder where CMake looks. A failure
 # is a notice: networks are left out of the build then.
 install_openvino() {
@@ -117,7 +132,10 @@ main() {
   check_system
   mapfile -t missing < <(missing_of "${wanted[@]}")
   [[ ${#missing[@]} -eq 0 ]] || install_packages
-  [[ " ${*:-build} " == *" build "* ]] && install_openvino
+  if [[ " ${*:-build} " == *" build "* ]]; then
+    install_optional libonnxruntime-dev
+    install_openvino
+  fi
   return 0
 }
 

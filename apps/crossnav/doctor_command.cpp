@@ -34,6 +34,7 @@ Json OptionalParts() {
     parts.push_back({{"name", backend.name},
                      {"found", backend.is_built},
                      {"version", backend.version},
+                     {"providers", backend.providers},
                      {"for", "perception by networks instead of ground truth"},
                      {"get", backend.is_built ? "" : backend.get}});
   parts.push_back({{"name", "furniture pack"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `networks list | check | look`: which networks there are, whether they work, what they see.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -71,6 +72,7 @@ Json BackendsJson() {
     json.push_back({{"name", backend.name},
                     {"found", backend.is_built},
                     {"version", backend.version},
+                    {"providers", backend.providers},
                     {"get", backend.is_built ? "" : backend.get}});
   return json;
 }
@@ -204,9 +206,9 @@ Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& c
                         e.error.empty() ? "found" : e.error);
   }
   for (const networks::Backend& backend : networks::Backends())
-    text += fmt::format(
-        "{}: {}\n", backend.name,
-        backend.is_built ? backend.version : std::string("not built in; ") + backend.get);
+    text += backend.is_built ? fmt::format("{}: {} ({})\n", backend.name, backend.version,
+                                           fmt::join(backend.providers, ", "))
+                             : fmt::format("{}: not built in; {}\n", backend.name, backend.get);
   console.Print(text);
   console.Document(Json({{"dir", NetworksDir(*config).string()},
                          {"networks", std::move(list)},

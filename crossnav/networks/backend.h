@@ -25,16 +25,18 @@ class Session {
 };
 
 struct SessionOptions {
-  std::string backend = "auto";         ///< name of a backend; auto = the first that is there
+  std::string backend = "auto";         ///< name of one; auto = the first that has the provider
+  std::string provider = "cpu";         ///< what computes: cpu, cuda or tensorrt
   int threads = 1;                      ///< more than one may change the last bits
   std::map<std::string, Shape> shapes;  ///< of inputs whose shape the file leaves open
 };
 
 struct Backend {
   const char* name;
-  bool is_built;        ///< into this program
-  std::string version;  ///< of the library; empty where it is not built in
-  const char* get;      ///< how to have it
+  bool is_built;                       ///< into this program
+  std::string version;                 ///< of the library; empty where it is not built in
+  std::vector<std::string> providers;  ///< that the library has; empty where it is not built in
+  const char* get;                     ///< how to have it
   Result<std::unique_ptr<Session>> (*open)(const std::string& onnx, const SessionOptions& options,
                                            const std::string& where);
 };

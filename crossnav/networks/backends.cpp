@@ -2,49 +2,90 @@
 #include <algorithm>
 
 #include "crossnav/networks/backend.h"
+#include "crossnav/networks/onnxruntime_backend.h"
 #include "crossnav/networks/openvino_backend.h"
 
 namespace crossnav::networks {
 namespace {
 
-#ifndef CROSSNAV_WITH_OPENVINO
-constexpr bool kHasOpenVino = false;
-std::string OpenVinoVersion() {
-  return {};
-}
-Result<std::unique_ptr<Session>> OpenWithOpenVino(const std::string&, const SessionOptions&,
-                                                  const std::string& where) {
-  return Fail(ErrorCode::kUnsupported, "this program was built without OpenVINO", where);
-}
+constexpr const char* kGetOpenVino = "scripts/setup.sh fetches it; then configure and build again";
+constexpr const char* kGetOnnxRuntime =
+    "install libonnxruntime-dev or name a folder with ONNXRUNTIME_ROOT; then configure and build "
+    "again";
+
+Backend OpenVino() {
+#ifdef CROSSNAV_WITH_OPENVINO
+  return {"openvino", true, OpenVinoVersion(), {"cpu"}, kGetOpenVino, &OpenWithOpenVino};
 #else
-constexpr bool kHasOpenVino = true;
+  return {"openvino", false, {}, {}, kGetOpenVino, nullptr};
 #endif
+}
+
+Backend OnnxRuntime() {
+#ifdef CROSSNAV_WITH_ONNXRUNTIME
+  return {"onnxruntime",       true, OnnxRuntimeVersion(), OnnxRuntimeProviders(), kGetOnnxRuntime,
+          &OpenWithOnnxRuntime};
+#else
+  return {"onnxruntime", false, {}, {}, kGetOnnxRuntime, nullptr};
+#endif
+}
+
+template <class Texts>
+std::string Listed(const Texts& texts) {
+  std::string all;
+  for (const auto& text : texts) all += (all.empty() ? "" : ", ") + std::string(text);
+  return all;
+}
+
+bool HasProvider(const Backend& backend, const std::string& provider) {
+  const auto& all = backend.providers;
+  return std::find(all.begin(), all.end(), provider) != all.end();
+}
+
+/// Why none of the backends that could be taken runs a network.
+tl::unexpected<Error> NoBackend(const SessionOptions& options, const std::string& where) {
+  const auto& all = Backends();
+  std::vector<std::string> names, built;
+  for (const Backend& backend : all) {
+    const bool is_meant = options.backend == "auto" || options.backend == backend.name;
+    names.push_back(backend.name);
+    if (is_meant && backend.is_built)
+      built.push_back("this " + std::string(backend.name) + " has " + Listed(backend.providers));
+    if (options.backend == backend.name && !backend.is_built)
+      return Fail(ErrorCode::kUnsupported,
+                  options.backend + " is not built into this program; " + backend.get, where);
+  }
+  if (!built.empty())
+    return Fail(ErrorCode::kUnsupported,
+                "\"" + options.provider + "\" is not here: " + Listed(built) +
+                    "; set networks.provider = cpu, or build crossnav with an ONNX Runtime that "
+                    "has it (ONNXRUNTIME_ROOT) and set networks.backend = onnxruntime",
+                "networks.provider");
+  if (options.backend == "auto")
+    return Fail(ErrorCode::kUnsupported,
+                "no inference library is built into this program; for OpenVINO, " +
+                    std::string(kGetOpenVino) + "; for ONNX Runtime, " + kGetOnnxRuntime,
+                where);
+  return Fail(ErrorCode::kInvalid,
+              "no backend \"" + options.backend + "\"; there are " + Listed(names),
+              "networks.backend");
+}
 
 }  // namespace
 
 const std::vector<Backend>& Backends() {
-  static const std::vector<Backend> backends = {
-      {"openvino", kHasOpenVino, OpenVinoVersion(),
-       "scripts/setup.sh fetches it; then configure and build again", &OpenWithOpenVino}};
+  static const std::vector<Backend> backends = {OpenVino(), OnnxRuntime()};
   return backends;
 }
 
 Result<std::unique_ptr<Session>> OpenSession(const std::string& onnx, const SessionOptions& options,
                                              const std::string& where) {
-  const bool any = options.backend == "auto";
-  for (const Backend& backend : Backends())
-    if (any ? backend.is_built : options.backend == backend.name) {
-      if (backend.is_built) return backend.open(onnx, options, where);
-      return Fail(ErrorCode::kUnsupported,
-                  options.backend + " is not built into this program; " + backend.get, where);
-    }
-  if (any)
-    return Fail(
-        ErrorCode::kUnsupported,
-        "no inference library is built into this program; " + std::string(Backends().front().get),
-        where);
-  return Fail(ErrorCode::kInvalid, "no backend \"" + options.backend + "\"; there is openvino",
-              "networks.backend");
+  for (const Backend& backend : Backends()) {
+    const bool is_meant = options.backend == "auto" || options.backend == backend.name;
+    if (is_meant && backend.is_built && HasProvider(backend, options.provider))
+      return backend.open(onnx, options, where);
+  }
+  return NoBackend(options, where);
 }
 
 std::string ShapeText(const Shape& shape) {

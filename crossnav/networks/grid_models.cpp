@@ -3,12 +3,10 @@
 // sum of some classes is stairs; and dense image features (`image` -> `features`) in either layout.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "crossnav/networks/frame_input.h"
 #include "crossnav/networks/parts.h"
-#include "crossnav/networks/text_encoder.h"
-#include "crossnav/networks/text_table.h"
+#include "crossnav/networks/text_source.h"
 
 namespace crossnav::networks {
 namespace {
@@ -58,8 +56,8 @@ class StairModel : public Model, public std::enable_shared_from_this<StairModel>
 
 class DenseModel : public Model, public std::enable_shared_from_this<DenseModel> {
  public:
-  DenseModel(ModelCard card, Network network)
-      : card_(std::move(card)), network_(std::move(network)) {}
+  DenseModel(ModelCard card, Network network, TextSource texts)
+      : card_(std::move(card)), network_(std::move(network)), texts_(std::move(texts)) {}
   std::unique_ptr<perception::DenseEncoder> MakeEncoder() override {
     return std::make_unique<EncoderOf<DenseModel>>(shared_from_this());
   }
@@ -67,28 +65,7 @@ class DenseModel : public Model, public std::enable_shared_from_this<DenseModel>
   const ModelCard& card() const { return card_; }
   int Dim() const { return card_.output.dim; }
 
-  /// Texts come from a table, from a network, or from the network where the table has none.
-  Result<void> OpenTexts(const ModelOptions& options) {
-    const int dim = card_.output.dim;
-    if (!card_.text.table.empty() || card_.text.encoder.empty()) {
-      auto table = TextTable::Read(card_, dim);
-      if (!table) return tl::unexpected(table.error());
-      table_ = std::move(*table);
-    }
-    if (card_.text.encoder.empty()) return {};
-    auto encoder = TextEncoder::Open(card_, dim, options);
-    if (!encoder) return tl::unexpected(encoder.error());
-    encoder_ = std::move(*encoder);
-    return {};
-  }
-
-  Result<std::vector<float>> EncodeText(std::string_view text) {
-    if (table_) {
-      auto own = table_->Of(text);
-      if (own || !encoder_) return own;
-    }
-    return encoder_->Of(text);
-  }
+  Result<std::vector<float>> EncodeText(std::string_view text) { return texts_.Of(text); }
 
   Result<perception::FeatureGrid> EncodeImage(const Observation& obs) {
     const Tensor input = ColourTensor(obs.rgb, card_.input, "image");
@@ -112,8 +89,7 @@ class DenseModel : public Model, public std::enable_shared_from_this<DenseModel>
  private:
   ModelCard card_;
   Network network_;
-  std::optional<TextTable> table_;
-  std::optional<TextEncoder> encoder_;
+  TextSource texts_;
 };
 
 Shape ImageShape(const ModelCard::Input& input) {
@@ -151,9 +127,9 @@ Result<std::shared_ptr<Model>> OpenDense(const ModelCard& card, const ModelOptio
   auto network =
       OpenNetwork(card, {{{"image", ImageShape(card.input)}}, {{"features", shape}}}, options);
   if (!network) return tl::unexpected(network.error());
-  auto model = std::make_shared<DenseModel>(card, std::move(*network));
-  if (auto ok = model->OpenTexts(options); !ok) return tl::unexpected(ok.error());
-  return model;
+  auto texts = TextSource::Open(card, o.dim, options);
+  if (!texts) return tl::unexpected(texts.error());
+  return std::make_shared<DenseModel>(card, std::move(*network), std::move(*texts));
 }
 
 }  // namespace crossnav::networks

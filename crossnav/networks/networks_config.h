@@ -13,7 +13,8 @@ struct NetworksConfig {
   std::string segmenter = "crossnav_small";  ///< or depth: the depth cluster in the box, no file
   std::string stairs = "crossnav_small";
   std::string encoder = "crossnav_small";
-  std::string backend = "auto";  ///< auto | openvino
+  std::string backend = "auto";  ///< auto | openvino | onnxruntime
+  std::string provider = "cpu";  ///< cpu | cuda | tensorrt: of onnxruntime
   int threads = 1;               ///< of inference; more may change the last bits
 };
 
@@ -24,7 +25,8 @@ void Visit(V& visit, NetworksConfig& c) {
   visit("segmenter", c.segmenter);
   visit("stairs", c.stairs);
   visit("encoder", c.encoder);
-  visit("backend", c.backend, {"auto", "openvino"});
+  visit("backend", c.backend, {"auto", "openvino", "onnxruntime"});
+  visit("provider", c.provider, {"cpu", "cuda", "tensorrt"});
   visit("threads", c.threads, 1, 64);
 }
 

@@ -119,6 +119,7 @@ Result<std::shared_ptr<Model>> OpenCrossnavNetwork(const ModelCard& card,
 Result<std::shared_ptr<Model>> OpenDetrDetector(const ModelCard& card, const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenYolo8(const ModelCard& card, const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenYolo8Segment(const ModelCard& card, const ModelOptions& options);
+Result<std::shared_ptr<Model>> OpenYoloWorld(const ModelCard& card, const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenYolo7(const ModelCard& card, const ModelOptions& options);
 Result<std::shared_ptr<Model>> OpenYolo7EndToEnd(const ModelCard& card,
                                                  const ModelOptions& options);

@@ -108,6 +108,7 @@ Result<Model*> NetworkSet::ModelOf(const std::string& name, const ModelOptions& 
 Result<perception::PerceptionSuite> NetworkSet::MakeSuite(double camera_height_m) {
   ModelOptions options;
   options.session.backend = config_.backend;
+  options.session.provider = config_.provider;
   options.session.threads = config_.threads;
   options.camera_height_m = camera_height_m;
   std::map<std::string_view, Model*> models;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The YOLO family, as public exporters write it: input `images`; YOLOv8 and later `output0` and, to
-// segment, `output1` with the prototypes of masks; YOLOv7 and YOLOX `output`.
+// segment, `output1` with the prototypes of masks; YOLOv7 and YOLOX `output`. YOLO-World can take
+// the vectors of its words as a second input, `texts`.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "crossnav/networks/frame_input.h"
 #include "crossnav/networks/parts.h"
+#include "crossnav/networks/vocabulary.h"
 #include "crossnav/networks/yolo_boxes.h"
 
 namespace crossnav::networks {
@@ -14,12 +17,15 @@ namespace {
 using perception::Detection;
 using perception::PixelBox;
 
-enum class Kind { kYolo8, kYolo8Segment, kYolo7, kYolo7EndToEnd, kYoloX };
+enum class Kind { kYolo8, kYolo8Segment, kYoloWorld, kYolo7, kYolo7EndToEnd, kYoloX };
 
 class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
  public:
-  YoloModel(Kind kind, ModelCard card, Network network)
-      : kind_(kind), card_(std::move(card)), network_(std::move(network)) {}
+  YoloModel(Kind kind, ModelCard card, Network network, std::optional<Vocabulary> words)
+      : kind_(kind),
+        card_(std::move(card)),
+        network_(std::move(network)),
+        words_(std::move(words)) {}
   std::unique_ptr<perception::Detector> MakeDetector() override {
     return std::make_unique<DetectorOf<YoloModel>>(shared_from_this());
   }
@@ -29,10 +35,16 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
   }
 
   Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) {
-    const Wanted wanted{LabelsOf(goal, card_.labels), card_.thresholds.score};
+    Wanted wanted{LabelsOf(goal, card_.labels), card_.thresholds.score};
+    std::vector<Tensor> inputs;
+    if (words_) {
+      auto texts = words_->With(goal, wanted.labels);
+      if (!texts) return tl::unexpected(texts.error());
+      inputs.push_back(std::move(*texts));
+    }
     if (wanted.labels.empty()) return NoSuchLabel(goal, card_);
-    const Tensor input = ColourTensor(obs.rgb, card_.input, "images");
-    auto outputs = network_.Run({&input, 1});
+    inputs.insert(inputs.begin(), ColourTensor(obs.rgb, card_.input, "images"));
+    auto outputs = network_.Run(inputs);
     if (!outputs) return tl::unexpected(outputs.error());
     outputs_ = std::move(*outputs);
     found_.clear();
@@ -89,6 +101,10 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
       case Kind::kYolo8:
       case Kind::kYolo8Segment:
         return BoxesOfYolo8(output, card_.output.classes, wanted);
+      case Kind::kYoloWorld: {  // places that are left over repeat a word: they are no classes
+        const int labels = static_cast<int>(card_.labels.size());
+        return BoxesOfYolo8(output, std::max(labels, wanted.labels.back() + 1), wanted);
+      }
       case Kind::kYolo7:
         return BoxesOfYolo7(output, card_.output.classes, wanted);
       case Kind::kYolo7EndToEnd:
@@ -118,7 +134,8 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
   Kind kind_;
   ModelCard card_;
   Network network_;
-  std::vector<Tensor> outputs_;  // of the frame that Detect saw last
+  std::optional<Vocabulary> words_;  // of YOLO-World
+  std::vector<Tensor> outputs_;      // of the frame that Detect saw last
   std::vector<Found> found_;
   Placement placement_;
 };
@@ -134,6 +151,9 @@ Signature SignatureOf(Kind kind, const ModelCard& card) {
       return {{images},
               {{"output0", {1, 4 + classes + card.output.dim, -1}},
                {"output1", {1, card.output.dim, -1, -1}}}};
+    case Kind::kYoloWorld:
+      return {{images, {"texts", {1, classes, card.output.dim}}},
+              {{"output0", {1, 4 + classes, -1}}}};
     case Kind::kYolo7:
       return {{images}, {{"output", {1, -1, 5 + classes}}}};
     case Kind::kYolo7EndToEnd:
@@ -150,13 +170,20 @@ Result<std::shared_ptr<Model>> OpenYolo(Kind kind, const ModelCard& card,
   const auto bad = [&](const char* what) {
     return Fail(ErrorCode::kInvalid, what, card.path.string());
   };
-  if (card.labels.empty()) return bad("key \"labels\" is missing");
+  std::optional<Vocabulary> words;
+  if (kind == Kind::kYoloWorld) {
+    auto opened = Vocabulary::Open(card, options);
+    if (!opened) return tl::unexpected(opened.error());
+    words = std::move(*opened);
+  } else if (card.labels.empty()) {
+    return bad("key \"labels\" is missing");
+  }
   if (card.input.layout != "chw") return bad("key \"input.layout\" must be chw");
   if (kind == Kind::kYolo8Segment && card.output.dim < 1)
     return bad("key \"output.dim\", the number of mask prototypes, is missing");
   auto network = OpenNetwork(card, SignatureOf(kind, card), options);
   if (!network) return tl::unexpected(network.error());
-  return std::make_shared<YoloModel>(kind, card, std::move(*network));
+  return std::make_shared<YoloModel>(kind, card, std::move(*network), std::move(words));
 }
 
 }  // namespace
@@ -167,6 +194,9 @@ Result<std::shared_ptr<Model>> OpenYolo8(const ModelCard& card, const ModelOptio
 Result<std::shared_ptr<Model>> OpenYolo8Segment(const ModelCard& card,
                                                 const ModelOptions& options) {
   return OpenYolo(Kind::kYolo8Segment, card, options);
+}
+Result<std::shared_ptr<Model>> OpenYoloWorld(const ModelCard& card, const ModelOptions& options) {
+  return OpenYolo(Kind::kYoloWorld, card, options);
 }
 Result<std::shared_ptr<Model>> OpenYolo7(const ModelCard& card, const ModelOptions& options) {
   return OpenYolo(Kind::kYolo7, card, options);

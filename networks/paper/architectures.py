@@ -92,7 +92,7 @@ def clip_text(wish):
             vocab_size=1346, hidden_size=32, intermediate_size=64, num_hidden_layers=2, num_attention_heads=2, projection_dim=16,
             bos_token_id=1344, eos_token_id=1345, pad_token_id=1345))
     else:
-        model = CLIPTextModelWithProjection(CLIPTextConfig(bos_token_id=49406, eos_token_id=49407, pad_token_id=49407))
+        model = CLIPTextModelWithProjection(CLIPTextConfig(bos_token_id=1344, eos_token_id=1345, pad_token_id=1345))  # the tests' merges
     length = model.config.max_position_embeddings
     ids = torch.full((1, length), model.config.eos_token_id, dtype=torch.int64)
     ids[0, 0] = model.config.bos_token_id
@@ -212,6 +212,40 @@ def yolo_world(wish):
     return Made([Part("", Calls(model, lambda m, x: m(x)), {"images": image(size)}, ["output0"])], card, size)
 
 
+def yolo_world_open(wish):
+    """The same with the words' vectors as a second input: the labels, and one place for any other goal. Weights: as above; the card wants the text
+    network that `clip_text` writes."""
+    from ultralytics.nn import tasks
+    from ultralytics.utils import YAML
+    from ultralytics.utils.checks import check_yaml
+
+    dim, count = 16 if wish.small else 512, len(wish.labels) + 1
+    if wish.small:
+        description = YAML.load(check_yaml("yolov8-worldv2.yaml"))
+        description["scales"], description["scale"] = {"s": [0.33, 0.0625, 256]}, "s"
+        for row in description["head"]:
+            row[3] += [dim] if row[2] == "C2fAttn" else []
+        description["head"][-1][3] = [count, dim, True]
+        short = type("Short", (tasks.WorldModel,), {"txt_feats": property(lambda _: torch.zeros(1, count, dim), lambda *_: None)})
+        model = prepared(short(description, nc=count, verbose=False))  # the class begins with words of 512 numbers
+    else:
+        model = prepared(ultralytics_model(wish, "yolov8-worldv2.yaml", "WorldModel"))
+    model.model[-1].nc = count
+    if not wish.weights:  # as they begin, every score is nothing and every box is the picture
+        for words_head, box_head in zip(model.model[-1].cv4, model.model[-1].cv2):
+            words_head.bias.data.fill_(-1.0)
+            words_head.logit_scale.data.fill_(1.5)
+            box_head[-1].bias.data.copy_(torch.linspace(2, -2, 16).repeat(4))
+    vectors = torch.randn(1, count, dim)
+    size = wish.size or (64 if wish.small else 640)
+    merges = "../tokens/merges.txt" if wish.small else "merges.txt"
+    card = (f'family = "yolo-world"\n{labels_line(wish.labels)}\n[input]\nsize = {size}\nresize = "letterbox"\nantialias = false\n'
+            f"[output]\nclasses = {count}\ndim = {dim}\n"
+            f'[text]\nencoder = "clip_text.onnx"\ntokenizer = "clip"\nvocabulary = "{merges}"\n')
+    inputs = {"images": image(size), "texts": vectors / vectors.norm(dim=2, keepdim=True)}
+    return Made([Part("", Calls(model, lambda m, x, texts: m.predict(x, txt_feats=texts)), inputs, ["output0"])], card, size)
+
+
 def words(wish):
     """Unit text vectors of the labels, 1 x labels x 512; random without a CLIP model."""
     if wish.clip:
@@ -284,4 +318,4 @@ def yolov7(wish):
     return Made([Part("", model, {"images": image(size)}, ["output"])], card, size)
 
 
-NETWORKS = {f.__name__: f for f in (segformer_b2, clip_text, mobile_sam, yolox, yolov8_seg, yolo_world, rtdetr, yolov7)}
+NETWORKS = {f.__name__: f for f in (segformer_b2, clip_text, mobile_sam, yolox, yolov8_seg, yolo_world, yolo_world_open, rtdetr, yolov7)}

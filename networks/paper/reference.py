@@ -10,6 +10,7 @@ must reproduce. With --full the networks have their own size: nothing for a repo
 
 import argparse
 import pathlib
+import shutil
 import sys
 
 import numpy as np
@@ -20,6 +21,8 @@ import architectures
 import export
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+MERGES = pathlib.Path(__file__).resolve().parents[2] / "tests/networks/data/tokens/merges.txt"
+OTHER = "floor lamp"  # a goal that is no label
 TEXTS = ["chair", "a photo of a bed.", "tv monitor", "Küchentisch", "椅子"]
 BEST = 3  # boxes of a label
 
@@ -67,6 +70,15 @@ def golden(name, made, wish):
         whole = torch.nn.functional.interpolate(masks, size=(size, size), mode="bilinear", align_corners=False)[0, 0]
         yield [name, "quality", *box[0].tolist(), float(quality.clamp(0, 1))]
         yield [name, "pixels", *box[0].tolist(), int((whole > 0).sum())]
+    elif name == "yolo_world_open":
+        speak = speaker(wish)
+        for goals in (wish.labels, [OTHER]):
+            known = wish.labels + ([] if goals == wish.labels else goals)
+            count = module_texts(made)
+            vectors = torch.stack([speak(w.replace("_", " ")) for w in (known + known[-1:] * count)[:count]])[None]
+            raw = module(tensor(size), vectors)[0].T
+            found = torch.cat([corners(*raw[:, :4].T), raw[:, 4:4 + len(known)]], 1)
+            yield from (row for row in boxes(name, found, known, size) if row[2] in goals)
     elif name == "rtdetr":
         labels, found, scores = module(tensor(size), torch.tensor([[size, size]]))
         table = torch.zeros(scores.shape[1], len(wish.labels))
@@ -87,22 +99,43 @@ def golden(name, made, wish):
         yield from boxes(name, torch.cat([corners(*raw[:, :4].T), raw[:, 4:4 + len(wish.labels)]], 1), wish.labels, size)
 
 
-def texts(name, made):
-    """Padded with the end, as transformers does."""
+def module_texts(made):
+    return made.parts[0].inputs["texts"].shape[1]
+
+
+def encoder(made):
+    """A text's unit vector. Padded with the end, as transformers does."""
     from transformers import CLIPTokenizer
 
-    folder = pathlib.Path(__file__).resolve().parents[2] / "tests/networks/data/tokens"
-    sys.path.insert(0, str(folder.parents[1]))
+    sys.path.insert(0, str(MERGES.parents[2]))
     import make_tokens
 
-    merges = [tuple(line.split()) for line in (folder / "merges.txt").read_text().splitlines()[1:]]
+    merges = [tuple(line.split()) for line in MERGES.read_text().splitlines()[1:]]
     tokenizer: CLIPTokenizer = make_tokens.clip(merges)
     length = made.parts[0].inputs["input_ids"].shape[1]
-    for text in TEXTS:
+
+    def encode(text):
         ids = tokenizer(text)["input_ids"]
         ids += [ids[-1]] * (length - len(ids))
         vector = made.parts[0].module(torch.tensor([ids]))[0]
-        yield [name, "text", text, *(vector / vector.norm()).tolist()]
+        return vector / vector.norm()
+
+    return encode
+
+
+def texts(name, made):
+    encode = encoder(made)
+    for text in TEXTS:
+        yield [name, "text", text, *encode(text).tolist()]
+
+
+def speaker(wish):
+    """The text network as `clip_text` of the same wish is written."""
+    torch.manual_seed(wish.seed)
+    made = architectures.clip_text(wish)
+    export.set_random([part.module for part in made.parts], wish.seed)
+    round_weights(made)
+    return encoder(made)
 
 
 def round_weights(made):
@@ -121,6 +154,9 @@ def main():
     from export import export as write
     from halve import halve
 
+    args.out.mkdir(parents=True, exist_ok=True)
+    if args.full:
+        shutil.copy(MERGES, args.out)  # the card of yolo_world_open names it
     lines = {}
     golden_file = args.out / "golden.tsv"
     if golden_file.exists():

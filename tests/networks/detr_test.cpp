@@ -64,19 +64,23 @@ TEST_P(SharedDetector, GivesTheBoxesOfThePythonReference) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   const auto picture = sim::DecodeImage({data, bytes.size()}, "home.png");
   ASSERT_TRUE(picture);
-  const auto model = Open(*card, {});
-  ASSERT_TRUE(model) << model.error().Message();
   Observation obs;
   obs.rgb = picture->rgb;
-  const auto found = (*model)->MakeDetector()->Detect(obs, golden.goal);
-  ASSERT_TRUE(found) << found.error().Message();
-  ASSERT_GE(found->size(), 1U);
-  const auto& best = found->front();
-  EXPECT_NEAR(best.confidence, golden.score, 0.01);  // Pillow rounds to bytes between
-  EXPECT_NEAR(best.box.u0, golden.left, 1);
-  EXPECT_NEAR(best.box.v0, golden.top, 1);
-  EXPECT_NEAR(best.box.u1, golden.right, 1);
-  EXPECT_NEAR(best.box.v1, golden.bottom, 1);
+  for (const std::string& backend : BuiltBackends()) {
+    ModelOptions options;
+    options.session.backend = backend;
+    const auto model = Open(*card, options);
+    ASSERT_TRUE(model) << model.error().Message();
+    const auto found = (*model)->MakeDetector()->Detect(obs, golden.goal);
+    ASSERT_TRUE(found) << found.error().Message();
+    ASSERT_GE(found->size(), 1U);
+    const auto& best = found->front();
+    EXPECT_NEAR(best.confidence, golden.score, 0.01) << backend;  // Pillow rounds to bytes between
+    EXPECT_NEAR(best.box.u0, golden.left, 1) << backend;
+    EXPECT_NEAR(best.box.v0, golden.top, 1) << backend;
+    EXPECT_NEAR(best.box.u1, golden.right, 1) << backend;
+    EXPECT_NEAR(best.box.v1, golden.bottom, 1) << backend;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -23,11 +23,12 @@ def number(name, array):
     return numpy_helper.from_array(np.asarray(array), name)
 
 
-def save(name, nodes, inputs, outputs, numbers=()):
+def save(name, nodes, inputs, outputs, numbers=(), check=True):
     graph = helper.make_graph(nodes, name, inputs, outputs, list(numbers))
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 13)], producer_name="crossnav")
     model.ir_version = 7
-    onnx.checker.check_model(model)
+    if check:
+        onnx.checker.check_model(model)
     (DATA / f"{name}.onnx").write_bytes(model.SerializeToString())
 
 
@@ -48,6 +49,17 @@ def arithmetic():
          [node("Mul", "b two", "doubled"), node("Add", "a doubled", "sum"), node("Log", "a", "log")],
          [value("a", [1, 3]), value("b", ["n", 3])], [value("sum", [1, 3]), value("log", [1, 3])],
          [number("two", np.float32(2))])
+
+
+def huge():
+    """`sum` is a tensor of 2^60 zeros; `declared` has a constant of 2^44 numbers, of which four are there."""
+    side = number("side", np.array([1 << 30, 1 << 30], np.int64))
+    save("huge", [node("ConstantOfShape", "side", "sum"), node("Identity", "a", "log")],
+         [value("a", [1, 3]), value("b", [1, 3])], [value("sum", ["n", "m"]), value("log", [1, 3])], [side])
+    few = number("few", np.zeros(4, np.float32))
+    few.dims[:] = [1 << 22, 1 << 22]
+    save("declared", [node("Identity", "few", "sum"), node("Identity", "a", "log")],
+         [value("a", [1, 3]), value("b", [1, 3])], [value("sum", ["n", "m"]), value("log", [1, 3])], [few], check=False)
 
 
 def detr():
@@ -123,6 +135,17 @@ def yolo8_segment():
           number("ten", np.float32(10))])
 
 
+def yolo_world():
+    """Two cells; a text's score in a cell is their vectors' product, times 0.9."""
+    boxes = np.array([[[6, 12], [8, 4], [8, 4], [8, 4]]], np.float32)  # centre and size
+    save("yolo-world",
+         [node("ReduceMax", "images", "most", axes=[0, 1, 2, 3], keepdims=0),
+          node("MatMul", "texts cells", "likely"), node("Mul", "likely most", "scores"),
+          node("Concat", "boxes scores", "output0", axis=1)],
+         [value("images", [1, 3, 16, 16]), value("texts", [1, 3, 2])], [value("output0", [1, 7, 2])],
+         [number("boxes", boxes), number("cells", np.array([[0.9, 0], [0, 0.9]], np.float32))])
+
+
 def grids():
     """Cells of 4 x 4 px: 10 x mean colour as logits of three classes; mean colour as features."""
     save("segformer",
@@ -146,7 +169,9 @@ if __name__ == "__main__":
     cells[0, 20] = [0.5, 0.5, 0, 0, 1.0, 0.8, 0.1]
     yolo("yolox", "output", cells, 32)
     yolo8_segment()
+    yolo_world()
     grids()
     arithmetic()
+    huge()
     detr()
     crossnav()

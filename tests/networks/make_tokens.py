@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Writes data/tokens/: 1,000 texts of all scripts, small vocabularies, and what the tokenizers of transformers (CLIPTokenizer,
-BertTokenizer) make of the texts. Needs networks/paper/requirements.txt.
+BertTokenizer) make of the texts; prints how far open_clip's agrees with them. Needs networks/paper/requirements.txt.
 
     make_tokens.py bpe_simple_vocab_16e6.txt.gz
 
 tokens.tsv: text; numbers with the small merges; with CLIP's own; with the small WordPiece vocabulary.
 """
 import gzip
+import html
 import json
 import pathlib
 import random
@@ -85,10 +86,25 @@ def main():
     bert = BertTokenizer(vocab=vocabulary, do_lower_case=True)
     lines = gzip.open(sys.argv[1], "rt", encoding="utf-8").read().split("\n")[1:49152 - 256 - 2 + 1]
     readers = [clip(merges), clip([tuple(line.split()) for line in lines]), bert]
+    rows = [[r(text)["input_ids"] for r in readers] for text in strings]
+    compare_open_clip(strings, [numbers[1] for numbers in rows])
     with open(OUT / "tokens.tsv", "w", encoding="utf-8") as out:
-        for text in strings:
-            numbers = ["".join(f"{i} " for i in r(text)["input_ids"]).strip() for r in readers]
-            print(escaped(text), *numbers, sep="\t", file=out)
+        for text, numbers in zip(strings, rows):
+            print(escaped(text), *(" ".join(map(str, n)) for n in numbers), sep="\t", file=out)
+
+
+def compare_open_clip(strings, numbers):
+    """Says on how many texts open_clip's tokenizer and transformers' agree: no tokenizer can equal both on the others."""
+    import ftfy
+    from open_clip.tokenizer import SimpleTokenizer
+
+    tokenizer = SimpleTokenizer()
+    others = [text for text, wanted in zip(strings, numbers)
+              if [tokenizer.sot_token_id, *tokenizer.encode(text), tokenizer.eot_token_id] != wanted]
+    mended = [t for t in others if html.unescape(html.unescape(ftfy.fix_text(t))) != unicodedata.normalize("NFC", t)]
+    iota = [t for t in others if t not in mended and "\u0345" in unicodedata.normalize("NFC", t)]
+    print(f"open_clip: {len(strings) - len(others)} of {len(strings)} texts as transformers; {len(mended)} others are mended by ftfy first, "
+          f"{len(iota)} have U+0345, which its pattern takes for a letter, {len(others) - len(mended) - len(iota)} are others")
 
 
 if __name__ == "__main__":

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Small networks (made by make_models.py), cards for them, and whether they can be run at all.
+// Small networks (made by make_models.py), cards for them, and what can run them.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "crossnav/core/read_file.h"
 #include "crossnav/networks/backend.h"
 #include "crossnav/networks/model_card.h"
+#include "crossnav/networks/parts.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
@@ -19,10 +21,16 @@ inline std::filesystem::path DataFile(const std::string& name) {
   return std::filesystem::path(CROSSNAV_SOURCE_DIR) / "tests/networks/data" / name;
 }
 
-inline bool HasBackend() {
+/// Names of the inference libraries that are built in; "none" where there are none.
+inline std::vector<std::string> BuiltBackends() {
+  std::vector<std::string> names;
   for (const Backend& backend : Backends())
-    if (backend.is_built) return true;
-  return false;
+    if (backend.is_built) names.push_back(backend.name);
+  return names.empty() ? std::vector<std::string>{"none"} : names;
+}
+
+inline bool HasBackend() {
+  return BuiltBackends().front() != "none";
 }
 
 /// Skips what has to run a network where no inference library is built in.
@@ -32,5 +40,21 @@ class WithBackend : public ::testing::Test {
     if (!HasBackend()) GTEST_SKIP() << "no inference library is built in";
   }
 };
+
+/// The same, once with each that is built in.
+class EachBackend : public WithBackend, public ::testing::WithParamInterface<std::string> {
+ protected:
+  static SessionOptions Options() {
+    SessionOptions options;
+    options.backend = GetParam();
+    return options;
+  }
+  static ModelOptions ModelsOptions() { return {Options()}; }
+};
+
+/// Runs the tests of a class that is an EachBackend.
+#define CROSSNAV_FOR_EACH_BACKEND(tests)                                      \
+  INSTANTIATE_TEST_SUITE_P(Each, tests, ::testing::ValuesIn(BuiltBackends()), \
+                           [](const auto& param_info) { return param_info.param; })
 
 }  // namespace crossnav::networks::test

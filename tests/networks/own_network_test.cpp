@@ -66,7 +66,7 @@ Observation Doubled(const Observation& obs) {
   return out;
 }
 
-class OwnNetwork : public WithBackend {
+class OwnNetwork : public EachBackend {
  protected:
   void SetUp() override {
     WithBackend::SetUp();
@@ -74,14 +74,15 @@ class OwnNetwork : public WithBackend {
     const auto root = std::filesystem::path(CROSSNAV_SOURCE_DIR);
     const auto card = ReadModelCard(root / "networks/crossnav_small.toml");
     ASSERT_TRUE(card) << card.error().Message();
-    const auto model = Open(*card, {});
+    const auto model = Open(*card, ModelsOptions());
     ASSERT_TRUE(model) << model.error().Message();
     segmenter_ = (*model)->MakeSegmenter();
   }
   std::unique_ptr<perception::Segmenter> segmenter_;
 };
+CROSSNAV_FOR_EACH_BACKEND(OwnNetwork);
 
-TEST_F(OwnNetwork, MasksOfBoxesAreThoseOfThePipelinesPython) {
+TEST_P(OwnNetwork, MasksOfBoxesAreThoseOfThePipelinesPython) {
   const Observation obs = Picture();
   std::ifstream file(DataFile("crossnav_small.tsv"));
   int boxes = 0;
@@ -106,7 +107,7 @@ TEST_F(OwnNetwork, MasksOfBoxesAreThoseOfThePipelinesPython) {
   EXPECT_EQ(boxes, 4);
 }
 
-TEST_F(OwnNetwork, MasksFollowTheFramesSize) {
+TEST_P(OwnNetwork, MasksFollowTheFramesSize) {
   const Observation small = Picture(), large = Doubled(small);
   perception::Detection one, two;
   one.box = {60, 66, 150, 200};
@@ -121,6 +122,22 @@ TEST_F(OwnNetwork, MasksFollowTheFramesSize) {
     }
   EXPECT_GT(filled, 5000);
   EXPECT_LT(wrong, filled / 10);  // half a pixel around it
+}
+
+TEST_P(OwnNetwork, TheSameFrameGivesTheSameBits) {
+  std::vector<float> first;
+  for (int again = 0; again < 2; ++again) {
+    const auto card =
+        ReadModelCard(std::filesystem::path(CROSSNAV_SOURCE_DIR) / "networks/crossnav_small.toml");
+    ASSERT_TRUE(card);
+    const auto model = Open(*card, ModelsOptions());
+    ASSERT_TRUE(model);
+    const auto grid = (*model)->MakeEncoder()->EncodeImage(Picture());
+    ASSERT_TRUE(grid) << grid.error().Message();
+    EXPECT_GT(grid->data.size(), 1000U);
+    if (again == 0) first = grid->data;
+    EXPECT_EQ(grid->data, first);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "crossnav/networks/parts.h"
 #include "networks/model_files.h"
+#include "networks/small_network.h"
 
 namespace crossnav::networks::test {
 namespace {
@@ -86,6 +87,43 @@ TEST_F(YoloFamily, EightSegmentsWithItsPrototypes) {
   perception::Detection other{{0, 0, 5, 5}, 1, {}, 0};
   EXPECT_NE(segmenter->Segment(obs, other).error().Message().find("its own boxes"),
             std::string::npos);
+}
+
+class YoloWorld : public YoloFamily {
+ protected:
+  /// `classes`: texts that the network is said to take; it takes 3.
+  Result<std::shared_ptr<Model>> OpenWorld(const std::string& classes, const std::string& names) {
+    const auto path = folder_.path() / "world.toml";
+    crossnav::test::WriteText(path,
+                              "family = \"yolo-world\"\nfile = \"world.onnx\"\nlabels = [\"tv\"]\n"
+                              "[input]\nsize = 16\n[output]\nclasses = " +
+                                  classes + "\ndim = 2\n[text]\ntable = \"names.npy\"\nnames = [" +
+                                  names + "]\n");
+    crossnav::test::WriteText(folder_.path() / "names.npy", Npy({{2, 0}, {0, 2}}));
+    fs::copy_file(DataFile("yolo-world.onnx"), folder_.path() / "world.onnx",
+                  fs::copy_options::overwrite_existing);
+    const auto card = ReadModelCard(path);
+    EXPECT_TRUE(card) << card.error().Message();
+    return Open(*card, {});
+  }
+};
+
+TEST_F(YoloWorld, IsGivenItsLabelsAndAGoalThatIsNone) {
+  const auto model = OpenWorld("3", "\"tv\", \"lamp\"");
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(Found(**model, "tv_monitor", 16), "2 4 10 12 90");
+  EXPECT_EQ(Found(**model, "lamp", 16), "10 2 14 6 90");
+  EXPECT_EQ(Found(**model, "tv_monitor", 16), "2 4 10 12 90");
+  EXPECT_NE(Found(**model, "couch", 16).find("has no vector for \"couch\""), std::string::npos);
+}
+
+TEST_F(YoloWorld, WhatItsCardLacksIsNamed) {
+  const auto error = [&](const char* classes, const char* names) {
+    const auto model = OpenWorld(classes, names);
+    return model ? std::string() : model.error().Message();
+  };
+  EXPECT_NE(error("3", "\"sofa\", \"lamp\"").find("has no vector for \"tv\""), std::string::npos);
+  EXPECT_NE(error("2", "\"tv\", \"lamp\"").find("input \"texts\" is 1x3x2"), std::string::npos);
 }
 
 class GridFamily : public WithBackend {
