@@ -224,6 +224,7 @@ std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::st
     return it == flights.end() || DecodePlaces(bytes, &it->second);
   });
   std::vector<geometry::StairFlight> out;
+  out.reserve(flights.size());
   for (auto& [row, flight] : flights) out.push_back(std::move(flight));
   return out;
 }
