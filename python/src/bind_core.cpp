@@ -133,7 +133,7 @@ void BindObservation(nb::module_& m) {
           "images are copied once. rgb_camera: of colour that is not registered to depth, with any "
           "size; T_camera_rgb: 4 x 4, the colour camera in the depth camera's frame. "
           "T_base_camera: 4 x 4, how the camera is mounted on the base (x ahead, z up, at the "
-          "foot); level above the foot where left out.")
+          "foot); straight above the foot where left out.")
       .def_prop_ro("rgb", &RgbOf, nb::rv_policy::reference_internal,
                    "H x W x 3 uint8, a view without a copy.")
       .def_prop_ro("depth_m", &DepthOf, nb::rv_policy::reference_internal,
