@@ -9,10 +9,12 @@
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
+#include "crossnav/agent/observation_check.h"
 #include "crossnav/agent/paper_policy.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/core/check.h"
+#include "crossnav/core/colour_grid.h"
 
 namespace crossnav::agent {
 
@@ -37,49 +39,6 @@ class StageClock {
   std::vector<trace::StageTime>& times_;
   double last_;
 };
-
-constexpr double kFarthest_m = 1e5;  // chosen: far beyond any house, far within a voxel index
-
-Result<void> CheckObservation(const Observation& obs) {
-  if (!IsValidPose(obs.T_world_camera))
-    return Fail(ErrorCode::kInvalid, "the camera pose is not a finite rigid transform",
-                "observation.T_world_camera");
-  if (obs.T_world_camera.translation().cwiseAbs().maxCoeff() > kFarthest_m)
-    return Fail(ErrorCode::kInvalid, "the camera is more than 100 km from the origin",
-                "observation.T_world_camera");
-  const bool has_sizes = obs.depth_m.width == obs.camera.width_px &&
-                         obs.depth_m.height == obs.camera.height_px &&
-                         obs.rgb.width == obs.depth_m.width && obs.rgb.height == obs.depth_m.height;
-  if (!has_sizes || obs.depth_m.empty())
-    return Fail(ErrorCode::kInvalid, "colour, depth and intrinsics must have one size",
-                "observation.depth_m");
-  return {};
-}
-
-/// What a network answered must fit the frame: an error that names it, never a read out of bounds.
-Result<void> CheckPercept(const perception::Percept& percept, const Observation& obs) {
-  const auto bad = [](const char* what, const char* who) {
-    return Fail(ErrorCode::kMismatch, what, who);
-  };
-  const int width = obs.depth_m.width, height = obs.depth_m.height;
-  for (const auto& detection : percept.detections) {
-    if (detection.mask.width != width || detection.mask.height != height)
-      return bad("a mask has another size than the frame", "perception.segmenter");
-    if (!std::isfinite(detection.confidence) || !std::isfinite(detection.mask_quality))
-      return bad("a confidence is not finite", "perception.detector");
-  }
-  const auto& stairs = percept.stair_probability;
-  if (stairs.width != width || stairs.height != height ||
-      stairs.data.size() != obs.depth_m.data.size())
-    return bad("the stair image has another size than the frame", "perception.stairs");
-  const auto& grid = percept.features;
-  if (grid.rows < 1 || grid.cols < 1 || grid.dim < 1 ||
-      grid.data.size() != static_cast<std::size_t>(grid.rows) *
-                              static_cast<std::size_t>(grid.cols) *
-                              static_cast<std::size_t>(grid.dim))
-    return bad("the feature grid does not hold rows x cols x dim numbers", "perception.encoder");
-  return {};
-}
 
 /// What later stages need of a frame.
 struct Seen {
@@ -111,7 +70,8 @@ trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_
 }  // namespace
 
 struct Agent::Impl {
-  Config config;
+  const Config given;
+  Config config;  // of this step: as given, with the height of the camera as it is mounted
   perception::PerceptionSuite perception;
   Hooks* hooks;
   World world;
@@ -119,7 +79,7 @@ struct Agent::Impl {
   std::vector<geometry::StairFlight> traced_flights;  // as in the last record that has them
 
   Impl(const Config& c, perception::PerceptionSuite p, Hooks* h)
-      : config(c), perception(std::move(p)), hooks(h), world(c) {}
+      : given(c), config(c), perception(std::move(p)), hooks(h), world(c) {}
 
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
   std::vector<policy::Sighting> NoteSightings(const std::vector<perception::Detection>& detections,
@@ -135,7 +95,7 @@ Agent::~Agent() = default;
 Agent::Agent(Agent&&) noexcept = default;
 
 const Config& Agent::config() const {
-  return impl_->config;
+  return impl_->given;
 }
 const geometry::VoxelMap& Agent::map() const {
   return impl_->world.map;
@@ -263,19 +223,28 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   return Seen{std::move(sightings), std::move(*percept)};
 }
 
-Result<StepResult> Agent::Step(const Observation& obs) {
-  if (auto ok = CheckObservation(obs); !ok) return tl::unexpected(ok.error());
+Result<StepResult> Agent::Step(const Observation& given) {
+  if (auto ok = CheckObservation(given); !ok) return tl::unexpected(ok.error());
   Impl& self = *impl_;
-  const AgentPose agent = AgentPoseOf(obs.T_world_camera, self.config.sensor.camera_height_m);
   StepResult result;
   StageClock clock(result.timing);
+  std::optional<Observation> registered;
+  if (HasOwnColourGrid(given)) {
+    registered = WithColourOnDepthGrid(given);
+    clock.Stop("register");
+  }
+  const Observation& obs = registered ? *registered : given;
+  const double height_m = CameraHeightOf(obs, self.given.sensor.camera_height_m);
+  self.config.sensor.camera_height_m = height_m;
+  const AgentPose agent = FootPoseOf(obs, height_m);
+  const AgentPose eye = AgentPoseOf(obs.T_world_camera, height_m);
   self.world.changes.clear();
 
   auto seen = self.See(obs, agent, clock);  // map, memory, evidence
   if (!seen) return tl::unexpected(seen.error());
 
   // Candidates, mode and target, plan, action.
-  Situation now{self.config, self.world, self.goal, agent, obs, seen->sightings, self.hooks};
+  Situation now{self.config, self.world, self.goal, agent, eye, obs, seen->sightings, self.hooks};
   const bool is_literal = self.config.policy.profile == "paper";
   const Decision decision = is_literal ? paper::Decide(now) : Navigate(now);
   clock.Stop("decide");

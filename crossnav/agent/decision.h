@@ -19,7 +19,8 @@ struct Situation {
   const Config& config;
   World& world;
   GoalState& goal;
-  AgentPose agent;
+  AgentPose agent;  ///< the robot's foot and where it faces
+  AgentPose eye;    ///< below the camera and where that looks; differs where it is mounted so
   const Observation& obs;
   const std::vector<policy::Sighting>& sightings;  ///< of this frame
   Hooks* hooks = nullptr;                          ///< what the user decides; may be null

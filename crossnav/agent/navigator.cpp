@@ -56,7 +56,7 @@ std::optional<Action> Walk(Situation& now) {
 std::optional<Action> LookAt(Situation& now, const Vector3d& p_world, int max_looks) {
   Activity& activity = now.goal.activity;
   if (activity.looks >= max_looks) return std::nullopt;
-  const auto look = policy::CenteringAction(now.agent, p_world, now.config.sensor.camera_height_m,
+  const auto look = policy::CenteringAction(now.eye, p_world, now.config.sensor.camera_height_m,
                                             now.config.action);
   if (look) {
     ++activity.looks;
@@ -212,8 +212,9 @@ ClaimVerdict JudgeClaim(Situation& now, const policy::LivePoi& poi,
 bool Prove(Situation& now, Decision& decision) {
   const auto& config = now.config;
   for (const policy::LivePoi* poi : now.goal.live.Stable(config.policy.object)) {
-    auto verification = policy::Verify(*poi, now.sightings, now.obs, config.policy,
-                                       config.sensor.camera_height_m, config.map.voxel_m);
+    auto verification =
+        policy::Verify(*poi, now.sightings, {now.obs, now.agent, config.sensor.camera_height_m},
+                       config.policy, config.map.voxel_m);
     const auto verdict = JudgeClaim(now, *poi, verification);
     if (verification.passed && verdict == ClaimVerdict::kWeak)
       verification.failed_check = "second view";
@@ -330,7 +331,7 @@ Decision Navigate(Situation& now) {
   Decision decision;
   NoteBump(now);
   NoteLevel(now);
-  now.world.looked_along.Add(now.agent, DegToRad(now.config.sensor.hfov_deg));
+  now.world.looked_along.Add(now.eye, DegToRad(now.config.sensor.hfov_deg));
   MeasureProgress(now);
   if (!Prove(now, decision)) {
     bool is_at_loss = false;

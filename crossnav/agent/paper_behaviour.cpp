@@ -40,9 +40,9 @@ Vector3d LocalFocus(const Situation& now, const policy::Candidate& candidate) {
 std::optional<Action> FaceAction(const Situation& now, const Vector3d& p_world) {
   const double camera_m = now.config.sensor.camera_height_m;
   Vector3d p_level = p_world;
-  p_level.z() = now.agent.p_world.z() + camera_m +
-                std::tan(now.agent.pitch_rad) * (p_world - now.agent.p_world).head<2>().norm();
-  return CenteringAction(now.agent, p_level, camera_m, now.config.action);
+  p_level.z() = now.eye.p_world.z() + camera_m +
+                std::tan(now.eye.pitch_rad) * (p_world - now.eye.p_world).head<2>().norm();
+  return CenteringAction(now.eye, p_level, camera_m, now.config.action);
 }
 
 const policy::Flight* NearestFlight(const std::vector<policy::Flight>& flights,
@@ -226,7 +226,7 @@ std::optional<Action> Explore(Situation& now, const Target& target) {
     return look;
   }
   if (auto look =
-          CenteringAction(now.agent, p_focus, now.config.sensor.camera_height_m, now.config.action);
+          CenteringAction(now.eye, p_focus, now.config.sensor.camera_height_m, now.config.action);
       look && goal.commitment->arrived_looks < 8)
     return ++goal.commitment->arrived_looks, look;
   if (goal.commitment->arrived_looks < 8 + kLooksAtFrontier) {
@@ -264,7 +264,7 @@ std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target) {
   const Vector3d p_aim = policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
   if (poi.looked < 8) {
     if (auto look =
-            CenteringAction(now.agent, p_aim, now.config.sensor.camera_height_m, now.config.action))
+            CenteringAction(now.eye, p_aim, now.config.sensor.camera_height_m, now.config.action))
       return ++poi.looked, look;
     poi.looked = 8;
   }
@@ -288,7 +288,7 @@ std::optional<Action> Approach(Situation& now, const Target& target, const polic
   }
   const Vector3d p_aim = policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
   if (auto look =
-          CenteringAction(now.agent, p_aim, now.config.sensor.camera_height_m, now.config.action))
+          CenteringAction(now.eye, p_aim, now.config.sensor.camera_height_m, now.config.action))
     return look;
   goal.tried_viewpoints.push_back(now.agent.p_world);
   if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {

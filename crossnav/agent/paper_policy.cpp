@@ -158,7 +158,8 @@ bool Reconsider(Situation& now) {
 Decision Decide(agent::Situation& given) {
   World& world = given.world;
   GoalState& goal = given.goal;
-  Situation now{given.config, world, goal, given.agent, std::nullopt, &world.bumps.obstacles()};
+  Situation now{
+      given.config, world, goal, given.agent, given.eye, std::nullopt, &world.bumps.obstacles()};
   NoticeBump(now);
   UpdateLevel(now);
   now.start = planner::StartVoxel(world.map, given.agent.p_world);
@@ -175,9 +176,9 @@ Decision Decide(agent::Situation& given) {
   const policy::LivePoi* claimed =
       decision.mode.uses_live_poi ? goal.live.Find(goal.active_live) : nullptr;
   if (claimed) {
-    decision.verification =
-        policy::Verify(*claimed, given.sightings, given.obs, given.config.policy,
-                       given.config.sensor.camera_height_m, given.config.map.voxel_m);
+    decision.verification = policy::Verify(
+        *claimed, given.sightings, {given.obs, given.agent, given.config.sensor.camera_height_m},
+        given.config.policy, given.config.map.voxel_m);
   }
   const bool is_looking = look && decision.mode.mode == Mode::kBasicExplore;
   decision.action = is_looking ? look : Act(now, decision.mode, target, decision.verification);

@@ -19,6 +19,7 @@ struct Situation {
   World& world;
   GoalState& goal;
   AgentPose agent;
+  AgentPose eye;  ///< as in agent::Situation
   std::optional<geometry::VoxelKey>
       start;  ///< where a plan begins; nullopt = standing nowhere known
   const std::set<geometry::VoxelKey>* obstacles = nullptr;

@@ -93,11 +93,11 @@ void QueueLookAround(Situation& now) {
 }
 
 bool QueueGlance(Situation& now, const VoxelKey& start) {
-  const auto heading_rad = policy::GlanceHeading(now.world.ground, start, now.agent,
-                                                 DegToRad(now.config.sensor.hfov_deg),
-                                                 now.world.looked_along, now.config.policy.explore);
+  const auto heading_rad =
+      policy::GlanceHeading(now.world.ground, start, now.eye, DegToRad(now.config.sensor.hfov_deg),
+                            now.world.looked_along, now.config.policy.explore);
   if (!heading_rad) return false;
-  const double off_rad = WrapAngle(*heading_rad - now.agent.yaw_rad);
+  const double off_rad = WrapAngle(*heading_rad - now.eye.yaw_rad);
   const auto turns = std::lround(std::abs(off_rad) / DegToRad(now.config.action.turn_deg));
   if (turns == 0) return false;
   now.goal.script.insert(now.goal.script.end(), static_cast<std::size_t>(turns),

@@ -30,6 +30,7 @@ XXH128_hash_t HashOf(const Observation& obs) {
                          K.fy,
                          K.cx,
                          K.cy,
+                         CameraHeightOf(obs, 0),
                          static_cast<double>(obs.rgb.width),
                          static_cast<double>(obs.depth_m.width)};
   const XXH64_hash_t seed = XXH3_64bits(pose.data(), sizeof(double) * 16) ^

@@ -167,11 +167,12 @@ Tensor HeightTensor(const Observation& obs, double camera_height_m, const ModelC
   const CameraIntrinsics& K = obs.camera;
   // World z of a point less that of the foot, which is the camera's height below the camera.
   const Eigen::RowVector3d up = obs.T_world_camera.linear().row(2);
+  const double height_m = CameraHeightOf(obs, camera_height_m);
   ForNearest(obs.depth_m.width, obs.depth_m.height, input, [&](std::size_t index, int u, int v) {
     const float d = obs.depth_m.At(u, v);
     if (!IsMeasured(d)) return;
     const double along = up.x() * (u - K.cx) / K.fx + up.y() * (v - K.cy) / K.fy + up.z();
-    out.data[index] = static_cast<float>(camera_height_m + along * d);
+    out.data[index] = static_cast<float>(height_m + along * d);
   });
   return out;
 }

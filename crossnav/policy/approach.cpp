@@ -174,8 +174,9 @@ std::optional<Action> CenteringAction(const AgentPose& agent, const Vector3d& p_
 }
 
 Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
-                    const Observation& obs, const PolicyConfig& config, double camera_height_m,
-                    double voxel_m) {
+                    const Viewer& viewer, const PolicyConfig& config, double voxel_m) {
+  const Observation& obs = viewer.obs;
+  const Vector3d& p_foot_world = viewer.agent.p_world;
   Verification result;
   const Sighting* best = nullptr;
   for (const Sighting& sighting : sightings) {
@@ -184,14 +185,13 @@ Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
       continue;
     if (!best || sighting.confidence > best->confidence) best = &sighting;
   }
-  const AgentPose agent = AgentPoseOf(obs.T_world_camera, camera_height_m);
-  result.distance_m = DistanceToObject(poi.voxels, agent.p_world, camera_height_m, voxel_m);
+  result.distance_m = DistanceToObject(poi.voxels, p_foot_world, viewer.camera_height_m, voxel_m);
   if (!best) {
     result.failed_check = "not detected";
     return result;
   }
   const Vector3d to_object =
-      AimPoint(best->voxels, agent.p_world, voxel_m) - obs.T_world_camera.translation();
+      AimPoint(best->voxels, p_foot_world, voxel_m) - obs.T_world_camera.translation();
   const Vector3d forward = obs.T_world_camera.linear().col(2);
   result.confidence = best->confidence;
   result.mask_quality = best->mask_quality;

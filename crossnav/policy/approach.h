@@ -61,10 +61,16 @@ struct Verification {
   double confidence = 0, mask_quality = 0, visibility = 0, view_angle_rad = 0, distance_m = 0;
 };
 
+/// The current frame, and the robot that looks.
+struct Viewer {
+  const Observation& obs;
+  AgentPose agent;
+  double camera_height_m = 0;  ///< above the foot
+};
+
 /// Checks the current frame: detection confidence, mask quality, visibility, viewing direction and
 /// 3D distance must all pass.
 Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
-                    const Observation& obs, const PolicyConfig& config, double camera_height_m,
-                    double voxel_m);
+                    const Viewer& viewer, const PolicyConfig& config, double voxel_m);
 
 }  // namespace crossnav::policy

@@ -22,11 +22,12 @@ int SizeOf(std::uint32_t value) {
              : 0;
 }
 
+CameraIntrinsics CameraOf(const live::Camera& m) {
+  return {SizeOf(m.width_px()), SizeOf(m.height_px()), m.fx(), m.fy(), m.cx(), m.cy()};
+}
+
 Hello HelloOf(const live::Hello& m) {
-  const live::Camera& c = m.camera();
-  const CameraIntrinsics camera = {
-      SizeOf(c.width_px()), SizeOf(c.height_px()), c.fx(), c.fy(), c.cx(), c.cy()};
-  return {m.protocol(), camera, m.camera_height_m()};
+  return {m.protocol(), CameraOf(m.camera()), m.camera_height_m()};
 }
 
 RawObservation ObservationOf(live::Observation& m) {
@@ -38,6 +39,9 @@ RawObservation ObservationOf(live::Observation& m) {
   raw.depth = std::move(raw.is_depth_mm ? *m.mutable_depth_mm() : *m.mutable_depth_m());
   raw.T_world_camera.assign(m.t_world_camera().begin(), m.t_world_camera().end());
   raw.has_collided = m.has_collided();
+  if (m.has_rgb_camera()) raw.rgb_camera = CameraOf(m.rgb_camera());
+  raw.T_camera_rgb.assign(m.t_camera_rgb().begin(), m.t_camera_rgb().end());
+  raw.T_base_camera.assign(m.t_base_camera().begin(), m.t_base_camera().end());
   return raw;
 }
 

@@ -38,6 +38,8 @@ struct RawObservation {
   bool is_depth_mm = false;  ///< uint16 [mm] instead of float32 [m]
   std::vector<double> T_world_camera;
   bool has_collided = false;
+  std::optional<CameraIntrinsics> rgb_camera;
+  std::vector<double> T_camera_rgb, T_base_camera;  ///< empty where left out
 };
 
 struct Reset {

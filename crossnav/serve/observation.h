@@ -8,10 +8,11 @@
 
 namespace crossnav::serve {
 
-/// Errors: sizes that no image has, focal lengths that are not positive.
-Result<void> CheckCamera(const CameraIntrinsics& camera);
+/// Errors, at the key `where`: sizes that no image has, focal lengths that are not positive.
+Result<void> CheckCamera(const CameraIntrinsics& camera, const char* where = "hello.camera");
 
-/// Errors name the field: an image of another size than the camera's, a pose that is none.
+/// `camera` is that of Hello. Errors name the field: an image of another size than its camera's, a
+/// camera or a pose that is none.
 Result<Observation> ObservationOf(const RawObservation& raw, const CameraIntrinsics& camera);
 
 }  // namespace crossnav::serve

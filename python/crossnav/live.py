@@ -148,14 +148,20 @@ def _state_of(message: Any) -> State:
                  message.last_sequence)
 
 
+def _fill_camera(camera: CameraIntrinsics, message: Any) -> None:
+    for field in ("width_px", "height_px", "fx", "fy", "cx", "cy"):
+        setattr(message, field, getattr(camera, field))
+
+
 class Client:
     """One connection, one request at a time. Not for two threads."""
 
     def __init__(self, camera: CameraIntrinsics, camera_height_m: float = 0.0,
                  address: str | int | None = None, timeout_s: float = 60.0,
                  on_stop: Callable[[float], None] | None = None) -> None:
-        """`camera`: of both images of all observations. `camera_height_m`: above the ground; 0 = the
-        server's setting. `address`: path of a Unix domain socket, or a TCP port on this machine.
+        """`camera`: of depth in all observations, and of colour where they have no `rgb_camera`.
+        `camera_height_m`: above the ground, where they have no `T_base_camera`; 0 = the server's
+        setting. `address`: path of a Unix domain socket, or a TCP port on this machine.
         `on_stop(silent_s)` is called when the watchdog has said stop: see `poll`."""
         self._on_stop = on_stop
         self._request, self._reply, self._faults = _schema()
@@ -223,6 +229,11 @@ class Client:
         message.depth_m = observation.depth_m.tobytes()
         message.T_world_camera.extend(observation.T_world_camera.reshape(-1).tolist())
         message.has_collided = has_collided
+        if observation.rgb_camera is not None:
+            _fill_camera(observation.rgb_camera, message.rgb_camera)
+            message.T_camera_rgb.extend(observation.T_camera_rgb.reshape(-1).tolist())
+        if observation.T_base_camera is not None:
+            message.T_base_camera.extend(observation.T_base_camera.reshape(-1).tolist())
         answer = self._ask(request).answer
         self.sequence = answer.sequence
         return Answer(
@@ -243,8 +254,7 @@ class Client:
         request = self._request()
         hello = request.hello
         hello.protocol, hello.camera_height_m = PROTOCOL, camera_height_m
-        for field in ("width_px", "height_px", "fx", "fy", "cx", "cy"):
-            setattr(hello.camera, field, getattr(camera, field))
+        _fill_camera(camera, hello.camera)
         w = self._ask(request).welcome
         return Welcome(w.version, w.perception, tuple(w.goals), w.forward_m, w.turn_rad,
                        w.pitch_rad, w.period_s, w.watchdog_s, w.max_frame_bytes,

@@ -106,10 +106,20 @@ def time_ns_of(header: Any) -> int:
 
 
 def observation_of(colour: Any, depth: Any, camera: CameraIntrinsics,
-                   T_world_base: ArrayLike, T_base_camera: ArrayLike) -> Observation:
-    """One observation of two registered sensor_msgs/Image of the same camera and moment."""
-    T_world_camera = np.asarray(T_world_base, float) @ np.asarray(T_base_camera, float)
-    obs = Observation(depth_m_of(depth), camera, T_world_camera, rgb_of(colour))
+                   T_world_base: ArrayLike, T_base_camera: ArrayLike,
+                   colour_camera: CameraIntrinsics | None = None,
+                   T_camera_rgb: ArrayLike | None = None) -> Observation:
+    """One observation of two sensor_msgs/Image of the same moment.
+
+    `camera` is depth's, and `T_base_camera` how it is mounted: `pose_of` the transform from the frame
+    that the depth image names to the base, or `mounting`. Both images are of that camera unless
+    `colour_camera` says which colour's is and `T_camera_rgb` where it sits in the depth camera's frame.
+    """
+    T_mounting = np.asarray(T_base_camera, float)
+    T_colour = None if T_camera_rgb is None else np.asarray(T_camera_rgb, float)
+    obs = Observation(depth_m_of(depth), camera, np.asarray(T_world_base, float) @ T_mounting,
+                      rgb_of(colour), rgb_camera=colour_camera, T_camera_rgb=T_colour,
+                      T_base_camera=T_mounting)
     obs.time_ns = time_ns_of(depth.header)
     return obs
 

@@ -6,6 +6,7 @@
 #include "crossnav/bench/config_file.h"
 #include "crossnav/core/action.h"
 #include "crossnav/core/categories.h"
+#include "crossnav/core/colour_grid.h"
 
 namespace crossnav::python {
 namespace {
@@ -25,19 +26,46 @@ DepthView DepthOf(Observation& obs) {
                                              static_cast<std::size_t>(obs.depth_m.width)});
 }
 
-Observation MakeObservation(const std::optional<RgbIn>& rgb, const DepthIn& depth_m,
-                            const CameraIntrinsics& camera, const PoseIn& T_world_camera) {
+/// What an observation may have besides depth.
+struct Colour {
+  const std::optional<RgbIn>& rgb;
+  const std::optional<CameraIntrinsics>& camera;  ///< its own; nothing = that of depth
+  const std::optional<PoseIn>& T_camera_rgb;
+};
+
+/// Of a camera of its own.
+void CheckColour(const Colour& colour) {
+  if (!colour.camera) {
+    if (colour.T_camera_rgb)
+      Raise(ErrorCode::kInvalid, "is needed with T_camera_rgb", "observation.rgb_camera");
+    return;
+  }
+  const bool has_size =
+      colour.rgb && static_cast<std::size_t>(colour.camera->height_px) == colour.rgb->shape(0) &&
+      static_cast<std::size_t>(colour.camera->width_px) == colour.rgb->shape(1);
+  if (!has_size)
+    Raise(ErrorCode::kInvalid, "colour has another size than rgb_camera", "observation.rgb");
+}
+
+Observation MakeObservation(const DepthIn& depth_m, const CameraIntrinsics& camera,
+                            const PoseIn& T_world_camera, const Colour& colour) {
   CheckCamera(camera, depth_m.shape(0), depth_m.shape(1));
-  if (rgb) CheckCamera(camera, rgb->shape(0), rgb->shape(1));
+  CheckColour(colour);
+  const std::optional<RgbIn>& rgb = colour.rgb;
+  if (rgb && !colour.camera) CheckCamera(camera, rgb->shape(0), rgb->shape(1));
   Observation obs;
   obs.camera = camera;
   obs.T_world_camera = ToPose(T_world_camera);
   obs.depth_m = ToImage(depth_m);
-  obs.rgb.width = obs.depth_m.width;
-  obs.rgb.height = obs.depth_m.height;
+  if (colour.camera) obs.rgb_camera = *colour.camera;
+  if (colour.T_camera_rgb)
+    obs.T_camera_rgb = ToPose(*colour.T_camera_rgb, "observation.T_camera_rgb");
+  const CameraIntrinsics& K_rgb = colour.camera ? *colour.camera : camera;
+  obs.rgb.width = K_rgb.width_px;
+  obs.rgb.height = K_rgb.height_px;
   if (rgb) {
     const auto* first = reinterpret_cast<const Rgb8*>(rgb->data());
-    obs.rgb.data.assign(first, first + obs.depth_m.data.size());
+    obs.rgb.data.assign(first, first + rgb->size() / 3);
   } else {
     obs.rgb.data.resize(obs.depth_m.data.size());
   }
@@ -86,14 +114,26 @@ void BindObservation(nb::module_& m) {
       .def(
           "__init__",
           [](Observation* self, const DepthIn& depth_m, const CameraIntrinsics& camera,
-             const PoseIn& T_world_camera, const std::optional<RgbIn>& rgb) {
-            new (self) Observation(MakeObservation(rgb, depth_m, camera, T_world_camera));
+             const PoseIn& T_world_camera, const std::optional<RgbIn>& rgb,
+             const std::optional<CameraIntrinsics>& rgb_camera,
+             const std::optional<PoseIn>& T_camera_rgb,
+             const std::optional<PoseIn>& T_base_camera) {
+            Observation obs =
+                MakeObservation(depth_m, camera, T_world_camera, {rgb, rgb_camera, T_camera_rgb});
+            if (T_base_camera)
+              obs.T_base_camera = ToPose(*T_base_camera, "observation.T_base_camera");
+            new (self) Observation(std::move(obs));
           },
           "depth_m"_a.noconvert(), "camera"_a, "T_world_camera"_a, "rgb"_a.noconvert() = nb::none(),
+          nb::kw_only(), "rgb_camera"_a = nb::none(), "T_camera_rgb"_a = nb::none(),
+          "T_base_camera"_a = nb::none(),
           "depth_m: H x W float32, planar [m], 0 = invalid. T_world_camera: 4 x 4, camera (x "
           "right, "
           "y down, z forward) to world (z up). rgb: H x W x 3 uint8; black where left out. The "
-          "images are copied once.")
+          "images are copied once. rgb_camera: of colour that is not registered to depth, with any "
+          "size; T_camera_rgb: 4 x 4, the colour camera in the depth camera's frame. "
+          "T_base_camera: 4 x 4, how the camera is mounted on the base (x ahead, z up, at the "
+          "foot); straight above the foot where left out.")
       .def_prop_ro("rgb", &RgbOf, nb::rv_policy::reference_internal,
                    "H x W x 3 uint8, a view without a copy.")
       .def_prop_ro("depth_m", &DepthOf, nb::rv_policy::reference_internal,
@@ -103,7 +143,27 @@ void BindObservation(nb::module_& m) {
               "Of the depth image, since its sensor's epoch; 0 = not known.")
       .def_prop_ro(
           "T_world_camera", [](const Observation& o) { return ToArray(o.T_world_camera); },
-          kOwnArray, "4 x 4 float64, camera to world.");
+          kOwnArray, "4 x 4 float64, camera to world.")
+      .def_prop_ro(
+          "rgb_camera",
+          [](const Observation& o) {
+            return HasOwnColourGrid(o) ? std::optional(o.rgb_camera) : std::nullopt;
+          },
+          "Of colour with a grid of its own; None: that is `camera`.")
+      .def_prop_ro(
+          "T_camera_rgb", [](const Observation& o) { return ToArray(o.T_camera_rgb); }, kOwnArray,
+          "4 x 4 float64, the colour camera in the depth camera's frame.")
+      .def_prop_ro(
+          "T_base_camera",
+          [](const Observation& o) {
+            return o.T_base_camera ? std::optional(ToArray(*o.T_base_camera)) : std::nullopt;
+          },
+          kOwnArray, "4 x 4 float64, the camera in the base's frame; None where it was not given.")
+      .def(
+          "registered",
+          [](const Observation& o) { return HasOwnColourGrid(o) ? WithColourOnDepthGrid(o) : o; },
+          "With colour on the grid of depth, as the agent and its perception see it; the nearest "
+          "pixel of the colour image, black outside it.");
 }
 
 void BindPose(nb::module_& m) {

@@ -4,6 +4,7 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/trampoline.h>
 
+#include "crossnav/core/colour_grid.h"
 #include "perception_handle.h"
 
 namespace crossnav::python {
@@ -59,6 +60,12 @@ void CheckDetection(const Detection& d, const Observation& obs) {
     Wrong("a box must lie in the image and not be empty", "Detector.detect");
   if (!(d.confidence >= 0 && d.confidence <= 1))
     Wrong("a confidence must lie in [0, 1]", "Detector.detect");
+}
+
+/// f(obs) with colour on the grid of depth, as the agent gives it to perception.
+template <class F>
+auto OnOneGrid(const Observation& obs, F f) {
+  return HasOwnColourGrid(obs) ? f(WithColourOnDepthGrid(obs)) : f(obs);
 }
 
 // --- Python behind the C++ interfaces -----------------------------------------------------------
@@ -224,7 +231,8 @@ void BindFinders(nb::module_& m) {
       .def(
           "detect",
           [](Detector& self, const Observation& obs, const std::string& goal) {
-            return Unwrap(self.Detect(obs, goal));
+            return OnOneGrid(
+                obs, [&](const Observation& seen) { return Unwrap(self.Detect(seen, goal)); });
           },
           "observation"_a, "goal"_a, "Detections of `goal` in the image.");
   nb::class_<Segmenter, PythonSegmenter>(m, "Segmenter", "Turns a box into a mask.")
@@ -234,7 +242,7 @@ void BindFinders(nb::module_& m) {
           [](Segmenter& self, const Observation& obs, const Box& box) {
             Detection d{{box[0], box[1], box[2], box[3]}, 0, {}, 0};
             CheckDetection(d, obs);
-            Unwrap(self.Segment(obs, d));
+            OnOneGrid(obs, [&](const Observation& seen) { Unwrap(self.Segment(seen, d)); });
             return nb::make_tuple(ImageOut<std::uint8_t, MaskOut>(std::move(d.mask)),
                                   d.mask_quality);
           },
@@ -246,7 +254,8 @@ void BindFinders(nb::module_& m) {
       .def(
           "segment_stairs",
           [](StairSegmenter& self, const Observation& obs) {
-            return ImageOut<float, ProbabilityOut>(Unwrap(self.SegmentStairs(obs)));
+            return ImageOut<float, ProbabilityOut>(OnOneGrid(
+                obs, [&](const Observation& seen) { return Unwrap(self.SegmentStairs(seen)); }));
           },
           nb::sig("def segment_stairs(self, observation: Observation) -> "
                   "numpy.typing.NDArray[typing.Any]"),
@@ -262,7 +271,8 @@ void BindEncoder(nb::module_& m) {
       .def(
           "encode_image",
           [](DenseEncoder& self, const Observation& obs) {
-            FeatureGrid grid = Unwrap(self.EncodeImage(obs));
+            FeatureGrid grid = OnOneGrid(
+                obs, [&](const Observation& seen) { return Unwrap(self.EncodeImage(seen)); });
             return ToArray<GridOut>(std::move(grid.data), {static_cast<std::size_t>(grid.rows),
                                                            static_cast<std::size_t>(grid.cols),
                                                            static_cast<std::size_t>(grid.dim)});

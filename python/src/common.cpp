@@ -45,13 +45,12 @@ Vector3d ToPoint(const Point& p, const char* name) {
   return point;
 }
 
-Pose ToPose(const PoseIn& T) {
+Pose ToPose(const PoseIn& T, const char* key) {
   Pose pose = Pose::Identity();
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) pose.matrix()(row, column) = T(row, column);
   if (!IsValidPose(pose) || pose.translation().cwiseAbs().maxCoeff() > 1e6)
-    Raise(ErrorCode::kInvalid, "the camera pose is not a finite rigid transform",
-          "observation.T_world_camera");
+    Raise(ErrorCode::kInvalid, "the camera pose is not a finite rigid transform", key);
   return pose;
 }
 

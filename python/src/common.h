@@ -113,8 +113,8 @@ KeysOut ToArray(std::span<const geometry::VoxelKey> keys);
 
 /// Raises where the point is not finite.
 Vector3d ToPoint(const Point& p, const char* name);
-/// Raises where it is no finite rigid transform within the map's reach.
-Pose ToPose(const PoseIn& T);
+/// Raises, naming `key`, where it is no finite rigid transform within the map's reach.
+Pose ToPose(const PoseIn& T, const char* key = "observation.T_world_camera");
 DepthImage ToImage(const DepthIn& depth_m);
 /// Raises where the intrinsics are not finite or of another size.
 void CheckCamera(const CameraIntrinsics& camera, std::size_t rows, std::size_t cols);

@@ -6,6 +6,7 @@ import json
 import statistics
 import threading
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -100,6 +101,98 @@ def test_a_made_observation_equals_the_simulators(agent: crossnav.Agent,
     assert (made.T_world_camera == view.T_world_camera).all()
     agent.set_goal("sofa")
     assert agent.step(made).trace["detections"] >= 0
+
+
+def mounted(view: crossnav.Observation, **more: Any) -> crossnav.Observation:
+    return crossnav.Observation(view.depth_m, view.camera, view.T_world_camera, view.rgb, **more)
+
+
+def test_the_foot_is_that_of_the_mounting(agent: crossnav.Agent,
+                                          simulator: crossnav.Simulator) -> None:
+    view = simulator.observe()
+    assert view.T_base_camera is None and view.rgb_camera is None
+    T_base_camera = crossnav.AgentPose((0.2, 0.1, 0), 0.5).camera_pose(0.6)
+    obs = mounted(view, T_base_camera=T_base_camera)
+    assert obs.T_base_camera is not None
+    np.testing.assert_array_equal(obs.T_base_camera, T_base_camera)
+    T_world_base = view.T_world_camera @ np.linalg.inv(T_base_camera)
+    agent.set_goal("sofa")
+    foot = agent.step(obs).trace["agent"]
+    np.testing.assert_allclose(foot["p_world"], T_world_base[:3, 3], atol=1e-6)
+    np.testing.assert_allclose(foot["yaw_rad"], np.arctan2(T_world_base[1, 0], T_world_base[0, 0]),
+                               atol=1e-6)
+    with pytest.raises(crossnav.Error, match="T_base_camera"):
+        mounted(view, T_base_camera=2 * np.eye(4))
+    with pytest.raises(crossnav.Error, match="T_base_camera.*point up"):
+        agent.step(mounted(view, T_base_camera=np.linalg.inv(T_base_camera) + [
+            [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 2], [0, 0, 0, 0]]))
+
+
+def test_colour_of_another_camera_is_brought_onto_the_grid_of_depth(
+        agent: crossnav.Agent, simulator: crossnav.Simulator) -> None:
+    view = simulator.observe()
+    rows, cols = view.depth_m.shape
+    camera = crossnav.CameraIntrinsics.from_hfov(48, 36, 70)
+    T_camera_rgb = crossnav.AgentPose((0, 0, 0), 0.1).camera_pose(0) @ np.linalg.inv(
+        crossnav.AgentPose((0, 0, 0), 0).camera_pose(0))
+    T_camera_rgb[0, 3] = 0.05
+    rgb = np.random.default_rng(2).integers(1, 256, (36, 48, 3)).astype(np.uint8)
+    obs = crossnav.Observation(view.depth_m, view.camera, view.T_world_camera, rgb,
+                               rgb_camera=camera, T_camera_rgb=T_camera_rgb)
+    assert obs.rgb.shape == (36, 48, 3) and obs.rgb_camera is not None
+    assert obs.rgb_camera.fx == camera.fx
+    np.testing.assert_array_equal(obs.T_camera_rgb, T_camera_rgb)
+
+    v, u = np.mgrid[:rows, :cols]
+    k = view.camera
+    d = np.where(view.depth_m > 0, view.depth_m, 10).astype(float)
+    points = np.stack([(u - k.cx) / k.fx * d, (v - k.cy) / k.fy * d, d, np.ones_like(d)])
+    x, y, z, _ = np.einsum("ij,jvu->ivu", np.linalg.inv(T_camera_rgb), points)
+    at_u = np.rint(camera.fx * x / z + camera.cx).astype(int)
+    at_v = np.rint(camera.fy * y / z + camera.cy).astype(int)
+    inside = (z > 0) & (at_u >= 0) & (at_u < 48) & (at_v >= 0) & (at_v < 36)
+    expected = np.where(inside[..., None], rgb[at_v.clip(0, 35), at_u.clip(0, 47)], 0)
+    seen = obs.registered()
+    assert 0.1 < inside.mean() < 0.9
+    assert (seen.rgb == expected).all(axis=-1).mean() > 0.999  # but for pixels at an edge
+    assert seen.rgb_camera is None and (seen.depth_m == view.depth_m).all()
+    assert (view.registered().rgb == view.rgb).all()
+    agent.set_goal("sofa")
+    assert agent.step(obs).trace["detections"] >= 0
+
+    with pytest.raises(crossnav.Error, match="rgb_camera"):
+        crossnav.Observation(view.depth_m, view.camera, view.T_world_camera, view.rgb,
+                             T_camera_rgb=T_camera_rgb)
+    with pytest.raises(crossnav.Error, match="observation.rgb"):
+        crossnav.Observation(view.depth_m, view.camera, view.T_world_camera, rgb[:-1],
+                             rgb_camera=camera)
+    with pytest.raises(crossnav.Error, match="T_camera_rgb"):
+        crossnav.Observation(view.depth_m, view.camera, view.T_world_camera, rgb,
+                             rgb_camera=camera, T_camera_rgb=np.zeros((4, 4)))
+
+
+def test_perception_sees_registered_colour(scene: crossnav.Scene,
+                                           simulator: crossnav.Simulator) -> None:
+    shapes = []
+
+    class Detector(crossnav.Detector):
+        def detect(self, observation: crossnav.Observation, goal: str
+                   ) -> list[crossnav.Detection]:
+            shapes.append(observation.rgb.shape)
+            return []
+
+    truth = simulator.ground_truth()
+    detector = Detector()
+    agent = crossnav.Agent(crossnav.Perception(detector, truth.segmenter, truth.stairs,
+                                               truth.encoder), scene.config)
+    agent.set_goal("sofa")
+    view = simulator.observe()
+    obs = crossnav.Observation(view.depth_m, view.camera, view.T_world_camera,
+                               np.ones((36, 48, 3), np.uint8),
+                               rgb_camera=crossnav.CameraIntrinsics.from_hfov(48, 36, 70))
+    agent.step(obs)
+    detector.detect(obs, "sofa")  # Python's own method: as it is given
+    assert shapes == [(*view.depth_m.shape, 3), (36, 48, 3)]
 
 
 def test_steps_without_a_goal_or_place_are_exceptions(agent: crossnav.Agent,

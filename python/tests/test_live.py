@@ -97,12 +97,16 @@ class BlindEncoder(crossnav.DenseEncoder):
         return np.array([1, 0], np.float32)
 
 
-@pytest.fixture
-def blind_agent(scene: crossnav.Scene) -> crossnav.Agent:
+def make_blind_agent(scene: crossnav.Scene) -> crossnav.Agent:
     """Sees what `--perception none` sees."""
     perception = crossnav.Perception(BlindDetector(), BlindSegmenter(), BlindStairs(),
                                      BlindEncoder())
     return crossnav.Agent(perception, scene.config)
+
+
+@pytest.fixture
+def blind_agent(scene: crossnav.Scene) -> crossnav.Agent:
+    return make_blind_agent(scene)
 
 
 def camera_of(simulator: crossnav.Simulator) -> crossnav.CameraIntrinsics:
@@ -131,6 +135,36 @@ def test_actions_and_map_are_those_of_an_agent_without_a_server(
     saved = crossnav.load_map(tmp_path / "a.map")[0]
     for ours, theirs in zip(saved.voxels(), blind_agent.map.voxels(), strict=True):
         np.testing.assert_array_equal(ours, theirs)
+
+
+def test_mounting_and_colour_camera_reach_the_servers_agent(
+        serve: Start, scene: crossnav.Scene, simulator: crossnav.Simulator,
+        blind_agent: crossnav.Agent, tmp_path: Path) -> None:
+    server = serve("--perception", "none", "--save-map", str(tmp_path / "a.map"))
+    blind_agent.set_goal("bed")
+    view = simulator.observe()
+    obs = crossnav.Observation(
+        view.depth_m, view.camera, view.T_world_camera, np.ones((30, 40, 3), np.uint8),
+        rgb_camera=crossnav.CameraIntrinsics.from_hfov(40, 30, 60),
+        T_base_camera=crossnav.AgentPose((0.2, 0, 0), 0.3).camera_pose(0.6))
+    with server.client(view.camera) as client:
+        client.set_goal("bed")
+        expected = blind_agent.step(obs)
+        answer = client.step(obs)
+        assert (answer.action, answer.reason) == (expected.action, expected.trace["reason"])
+        bad = crossnav.Observation(view.depth_m, view.camera, view.T_world_camera, view.rgb,
+                                   T_base_camera=np.eye(4))
+        with pytest.raises(live.Refused, match="T_base_camera") as malformed:
+            client.step(bad)
+        assert malformed.value.fault == "malformed"
+    server.end()
+    saved = crossnav.load_map(tmp_path / "a.map")[0]
+    for ours, theirs in zip(saved.voxels(), blind_agent.map.voxels(), strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+    plain = make_blind_agent(scene)
+    plain.set_goal("bed")
+    plain.step(view)
+    assert plain.map.stats() != blind_agent.map.stats()  # the body stood elsewhere
 
 
 def test_from_pixels_actions_are_those_of_crossnav_run(

@@ -155,6 +155,21 @@ def test_steps_are_logged_live(agent: crossnav.Agent, simulator: crossnav.Simula
     assert len(rows["/world/changes"]) == 4 and rows["/world/camera/depth"]
 
 
+def test_colour_of_another_camera_is_logged_where_the_boxes_lie(
+        agent: crossnav.Agent, simulator: crossnav.Simulator,
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    from crossnav.rerun import draw
+    shapes = []
+    monkeypatch.setattr(draw, "image", lambda stream, rgb, camera: shapes.append(rgb.shape))
+    view = simulator.observe()
+    observation = crossnav.Observation(
+        view.depth_m, view.camera, view.T_world_camera, np.ones((30, 40, 3), np.uint8),
+        rgb_camera=crossnav.CameraIntrinsics.from_hfov(40, 30, 60))
+    agent.set_goal("sofa")
+    log(agent.step(observation), observation, recording=rr.RecordingStream("crossnav-test"))
+    assert shapes == [(*view.depth_m.shape, 3)]
+
+
 @pytest.mark.parametrize("kind", ["missing", "torn", "flipped", "other", "empty"])
 def test_bad_replays_end_in_one_line(kind: str, replay: Path, tmp_path: Path) -> None:
     bad, data = tmp_path / "bad.mcap", replay.read_bytes()

@@ -20,29 +20,39 @@ TYPES = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE).types
 ROOT = Path(os.environ.get("CROSSNAV_ROOT", Path(__file__).resolve().parents[2]))
 
 
-def header(time_ns: int = 5 * 10**9 + 7) -> Any:
+def header(time_ns: int = 5 * 10**9 + 7, frame_id: str = "camera") -> Any:
     stamp = TYPES["builtin_interfaces/msg/Time"](sec=time_ns // 10**9, nanosec=time_ns % 10**9)
-    return TYPES["std_msgs/msg/Header"](stamp=stamp, frame_id="camera")
+    return TYPES["std_msgs/msg/Header"](stamp=stamp, frame_id=frame_id)
 
 
-def image(pixels: np.ndarray, encoding: str, padding: int = 0, is_bigendian: int = 0) -> Any:
+def image(pixels: np.ndarray, encoding: str, padding: int = 0, is_bigendian: int = 0,
+          frame_id: str = "camera") -> Any:
     rows = np.ascontiguousarray(pixels).reshape(pixels.shape[0], -1).view(np.uint8)
     rows = np.pad(rows, ((0, 0), (0, padding)), constant_values=77)
     return TYPES["sensor_msgs/msg/Image"](
-        header=header(), height=pixels.shape[0], width=pixels.shape[1], encoding=encoding,
+        header=header(frame_id=frame_id), height=pixels.shape[0], width=pixels.shape[1], encoding=encoding,
         is_bigendian=is_bigendian, step=rows.shape[1], data=rows.reshape(-1))
 
 
-def info(k: tuple[float, ...], p: tuple[float, ...], d: tuple[float, ...] = (0, 0, 0, 0, 0)) -> Any:
+def info(k: tuple[float, ...], p: tuple[float, ...], d: tuple[float, ...] = (0, 0, 0, 0, 0),
+         size: tuple[int, int] = (64, 48)) -> Any:
     fx, fy, cx, cy = k
     px, py, qx, qy = p
     region = TYPES["sensor_msgs/msg/RegionOfInterest"](
         x_offset=0, y_offset=0, height=0, width=0, do_rectify=False)
     return TYPES["sensor_msgs/msg/CameraInfo"](
-        header=header(), height=48, width=64, distortion_model="plumb_bob", d=np.array(d, float),
+        header=header(), height=size[1], width=size[0], distortion_model="plumb_bob", d=np.array(d, float),
         k=np.array([fx, 0, cx, 0, fy, cy, 0, 0, 1.0]), r=np.eye(3).reshape(-1),
         p=np.array([px, 0, qx, 0, 0, py, qy, 0, 0, 0, 1.0 if px else 0, 0]), binning_x=0,
         binning_y=0, roi=region)
+
+
+def transform(p: tuple[float, ...], q: tuple[float, ...]) -> Any:
+    return TYPES["geometry_msgs/msg/TransformStamped"](
+        header=header(), child_frame_id="base",
+        transform=TYPES["geometry_msgs/msg/Transform"](
+            translation=TYPES["geometry_msgs/msg/Vector3"](*p),
+            rotation=TYPES["geometry_msgs/msg/Quaternion"](*q)))
 
 
 def odometry(p: tuple[float, ...], q: tuple[float, ...]) -> Any:
@@ -107,12 +117,7 @@ def test_poses_are_matrices() -> None:
     q = (0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4))  # a quarter turn to the left
     T = ros.pose_of(odometry((1.0, 2.0, 3.0), q))
     np.testing.assert_allclose(T @ [1, 0, 0, 1], [1, 3, 3, 1], atol=1e-12)
-    transform = TYPES["geometry_msgs/msg/Transform"](
-        translation=TYPES["geometry_msgs/msg/Vector3"](1.0, 2.0, 3.0),
-        rotation=TYPES["geometry_msgs/msg/Quaternion"](*q))
-    stamped = TYPES["geometry_msgs/msg/TransformStamped"](
-        header=header(), child_frame_id="base", transform=transform)
-    np.testing.assert_array_equal(ros.pose_of(stamped), T)
+    np.testing.assert_array_equal(ros.pose_of(transform((1.0, 2.0, 3.0), q)), T)
     with pytest.raises(crossnav.Error, match="unit quaternion"):
         ros.pose_of(odometry((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)))
 
@@ -134,6 +139,36 @@ def test_messages_make_an_observation_with_the_depths_time() -> None:
     assert obs.time_ns == 5 * 10**9 + 7
     assert (obs.depth_m == 1.5).all() and (obs.rgb == 7).all()
     assert obs.T_world_camera[2, 3] == 0.6
+    np.testing.assert_array_equal(obs.T_base_camera, ros.mounting(0.6))
+    assert obs.rgb_camera is None
+
+
+# TF's optical frame of a camera that looks ahead: z ahead, x right, y down.
+OPTICAL = (-0.5, 0.5, -0.5, 0.5)
+
+
+def test_the_mounting_comes_from_tf_and_colour_may_have_a_camera_of_its_own() -> None:
+    camera = ros.camera_of(info((32, 32, 31.5, 23.5), (0, 0, 0, 0)))
+    colour_camera = ros.camera_of(info((80, 81, 40, 30), (0, 0, 0, 0), size=(80, 60)))
+    T_base_camera = ros.pose_of(transform((0.2, 0.1, 0.6), OPTICAL))
+    np.testing.assert_allclose(T_base_camera[:3, :3], ros.mounting(0.6)[:3, :3], atol=1e-15)
+    T_camera_rgb = ros.pose_of(transform((0.05, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)))
+    q = (0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4))
+    obs = ros.observation_of(
+        image(np.full((60, 80, 3), 7, np.uint8), "rgb8", frame_id="colour"),
+        image(np.full((48, 64), 2000, np.uint16), "16UC1"), camera,
+        ros.pose_of(odometry((1.0, 2.0, 3.0), q)), T_base_camera, colour_camera, T_camera_rgb)
+    # A quarter turn to the left: 0.2 m ahead is +y, 0.1 m to the left is -x.
+    np.testing.assert_allclose(obs.T_world_camera[:3, 3], [0.9, 2.2, 3.6], atol=1e-12)
+    np.testing.assert_array_equal(obs.T_base_camera, T_base_camera)
+    np.testing.assert_array_equal(obs.T_camera_rgb, T_camera_rgb)
+    assert obs.rgb_camera is not None
+    assert (obs.rgb_camera.width_px, obs.rgb_camera.fy, obs.rgb.shape) == (80, 81, (60, 80, 3))
+    assert obs.registered().rgb.shape == (48, 64, 3)
+    with pytest.raises(crossnav.Error, match="rgb_camera"):
+        ros.observation_of(image(np.zeros((48, 64, 3), np.uint8), "rgb8"),
+                           image(np.ones((48, 64), np.uint16), "16UC1"), camera, np.eye(4),
+                           T_base_camera, colour_camera, T_camera_rgb)
 
 
 def test_a_command_becomes_a_twist() -> None:
@@ -196,6 +231,20 @@ class StubNode:
 
 
 PARAMETERS: dict[str, Any] = {}
+TRANSFORMS: dict[tuple[str, str], Any] = {}
+
+
+class StubTransformError(Exception):
+    pass
+
+
+class StubBuffer:
+    """What tf2 knows: TRANSFORMS."""
+
+    def lookup_transform(self, target: str, source: str, time: Any) -> Any:
+        if (target, source) not in TRANSFORMS:
+            raise StubTransformError(f"no transform from {source} to {target}")
+        return TRANSFORMS[target, source]
 
 
 def example_node(monkeypatch: pytest.MonkeyPatch) -> Any:
@@ -204,6 +253,9 @@ def example_node(monkeypatch: pytest.MonkeyPatch) -> Any:
     modules = {
         "rclpy": {}, "rclpy.node": {"Node": StubNode},
         "rclpy.duration": {"Duration": lambda seconds: round(seconds * 1e9)},
+        "rclpy.time": {"Time": lambda: 0},
+        "tf2_ros": {"Buffer": StubBuffer, "TransformException": StubTransformError,
+                    "TransformListener": lambda *_: None},
         "geometry_msgs": {}, "geometry_msgs.msg": {"Twist": StubTwist},
         "nav_msgs": {}, "nav_msgs.msg": {"Odometry": object},
         "sensor_msgs": {}, "sensor_msgs.msg": {"CameraInfo": object, "Image": object},
@@ -229,12 +281,24 @@ def test_the_example_node_moves_ends_its_moves_and_stands_when_the_server_dies(
         pytest.skip("the program is not built")
     server = Server(tmp_path, "--perception", "none", "--set", "action.max_pitch_deg=0")
     try:
-        PARAMETERS.update(socket=server.socket, camera_height_m=0.6, goal="bed")
+        PARAMETERS.update(socket=server.socket, goal="bed")
         node = example_node(monkeypatch).CrossnavNode()
-        frame = (image(np.zeros((48, 64, 3), np.uint8), "rgb8"),
+        frame = (image(np.zeros((60, 80, 3), np.uint8), "rgb8", frame_id="colour"),
+                 info((80, 81, 40, 30), (0, 0, 0, 0), size=(80, 60)),
                  image(np.full((48, 64), 3000, np.uint16), "16UC1"),
                  info((32, 32, 31.5, 23.5), (32, 32, 31.5, 23.5)),
                  odometry((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)))
+        node.look(*frame)  # TF has not come yet
+        assert not node.is_moving and "no transform" in node.logs[-1] and not node.sent
+        TRANSFORMS["base_footprint", "camera"] = transform((0.2, 0.0, 0.6), OPTICAL)
+        TRANSFORMS["base", "base_footprint"] = transform((0.0, 0.0, -0.1), (0.0, 0.0, 0.0, 1.0))
+        TRANSFORMS["camera", "colour"] = transform((0.05, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+        seen = node.observation_of(*frame)
+        assert seen.T_world_camera[0, 3] == seen.T_base_camera[0, 3] == 0.2
+        assert seen.T_base_camera[2, 3] == 0.6 and seen.T_world_camera[2, 3] == 0.5
+        assert seen.rgb_camera.width_px == 80 and seen.T_camera_rgb[0, 3] == 0.05
+        registered = (image(np.zeros((48, 64, 3), np.uint8), "rgb8"), frame[3], *frame[2:])
+        assert node.observation_of(*registered).rgb_camera is None
         node.look(*frame)
         assert node.is_moving and len(node.sent) == 1, node.logs
         twist = node.sent[0]
@@ -253,3 +317,4 @@ def test_the_example_node_moves_ends_its_moves_and_stands_when_the_server_dies(
         server.process.kill()
         server.process.communicate()
         PARAMETERS.clear()
+        TRANSFORMS.clear()

@@ -19,7 +19,7 @@ std::vector<int> PitchesSeen(CandidateKind kind, int pitch_deg) {
   for (int step = 0; step < 20; ++step) {
     AgentPose agent;
     agent.pitch_rad = DegToRad(pitch_deg);
-    Situation now{config, world, goal, agent, std::nullopt};
+    Situation now{config, world, goal, agent, agent, std::nullopt};
     seen.push_back(pitch_deg);
     std::optional<Action> look;
     if (CheckEntrance(now, &look) == EntranceVerdict::kRejected) return seen;

@@ -84,7 +84,7 @@ Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
   agent.p_world = CenterOf(start, config.map.voxel_m) - Vector3d(0, 0, 0.05);
   const Observation obs;
   const std::vector<policy::Sighting> sightings;
-  Situation now{config, world, goal, agent, obs, sightings};
+  Situation now{config, world, goal, agent, agent, obs, sightings};
   std::vector<policy::Candidate> shown;
   auto target = ChooseExploration(now, start, &shown);
   if (!target) {
@@ -157,7 +157,7 @@ TEST(Explore, WhatMerelyRisesIsNoStair) {
   GoalState goal;
   const Observation obs;
   const std::vector<policy::Sighting> sightings;
-  const Situation now{config, world, goal, {}, obs, sightings};
+  const Situation now{config, world, goal, {}, {}, obs, sightings};
   const Vector3d p_top(2.05, 0.05, 1.25);
   EXPECT_FALSE(IsOverStairs(now, {2.05, 0.05, 0.05})) << "the floor";
   EXPECT_FALSE(IsOverStairs(now, p_top));

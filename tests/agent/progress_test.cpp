@@ -84,7 +84,7 @@ struct Ground {
   GoalState goal;
   const Observation obs;
   const std::vector<policy::Sighting> sightings;
-  Situation now{config, world, goal, {}, obs, sightings};
+  Situation now{config, world, goal, {}, {}, obs, sightings};
 
   Ground() {
     test::AddGround(world.map, 0, 0, 30, 30, 0);

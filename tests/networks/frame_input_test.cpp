@@ -96,6 +96,16 @@ TEST(HeightTensor, IsTheHeightAboveTheFootWhereverTheRobotStands) {
   EXPECT_GT(level.data[0], level.data[7 * 8]);
 }
 
+TEST(HeightTensor, IsThatOfTheMountingWhereThereIsOne) {
+  Observation obs;
+  obs.camera = IntrinsicsFromHfov(8, 8, DegToRad(90));
+  obs.depth_m = DepthImage(8, 8, 1.0F);
+  obs.T_world_camera = CameraPose({Vector3d(1, 2, 3.5), 0.7, 0}, 0.6);
+  obs.T_base_camera = CameraPose({Vector3d(0.2, 0, 0), 0.1, 0}, 0.6);
+  const Tensor t = HeightTensor(obs, 0.88, InputOf(8, 8), "height");
+  EXPECT_NEAR(t.data[3 * 8] + t.data[4 * 8], 2 * 0.6, 1e-5);
+}
+
 TEST(ToFrameSize, InterpolatesBetweenCellCentres) {
   const float map[] = {0, 1, 2, 3};
   const ModelCard::Input input = InputOf(4, 4);

@@ -160,7 +160,7 @@ struct Frame {
     agent.yaw_rad = DegToRad(yaw_deg);
     obs.T_world_camera = CameraPose(agent, kCamera_m);
   }
-  Verification Check() const { return Verify(poi, sightings, obs, {}, kCamera_m, 0.1); }
+  Verification Check() const { return Verify(poi, sightings, {obs, agent, kCamera_m}, {}, 0.1); }
 };
 
 TEST(Verify, PassesWhenEveryCheckDoes) {
@@ -170,6 +170,15 @@ TEST(Verify, PassesWhenEveryCheckDoes) {
   EXPECT_NEAR(result.distance_m, std::hypot(0.95, 0.05), 1e-9);
   EXPECT_NEAR(result.confidence, 0.9, 1e-12);
   EXPECT_EQ(result.visibility, 1);
+}
+
+TEST(Verify, MeasuresFromTheFootItIsGiven) {
+  Frame frame;
+  frame.agent.p_world.x() -= 0.2;  // the camera stays where it is, ahead of the foot
+  EXPECT_NEAR(frame.Check().distance_m, std::hypot(1.15, 0.05), 1e-9);
+  EXPECT_TRUE(frame.Check().passed);
+  frame.agent.p_world.x() -= 0.3;
+  EXPECT_EQ(frame.Check().failed_check, "distance");
 }
 
 TEST(Verify, NamesTheOneCheckThatFails) {

@@ -30,18 +30,27 @@ inline std::string Framed(const std::string& payload) {
   return frame + payload;
 }
 
-inline live::Request HelloRequest(const CameraIntrinsics& K, double camera_height_m = 0) {
-  live::Request request;
-  live::Hello* hello = request.mutable_hello();
-  hello->set_protocol(1);
-  hello->set_camera_height_m(camera_height_m);
-  live::Camera* camera = hello->mutable_camera();
+inline void Fill(const CameraIntrinsics& K, live::Camera* camera) {
   camera->set_width_px(static_cast<std::uint32_t>(K.width_px));
   camera->set_height_px(static_cast<std::uint32_t>(K.height_px));
   camera->set_fx(K.fx);
   camera->set_fy(K.fy);
   camera->set_cx(K.cx);
   camera->set_cy(K.cy);
+}
+
+template <class Add>
+void ForEachNumber(const Pose& T, Add add) {
+  for (int row = 0; row < 4; ++row)
+    for (int col = 0; col < 4; ++col) add(T.matrix()(row, col));
+}
+
+inline live::Request HelloRequest(const CameraIntrinsics& K, double camera_height_m = 0) {
+  live::Request request;
+  live::Hello* hello = request.mutable_hello();
+  hello->set_protocol(1);
+  hello->set_camera_height_m(camera_height_m);
+  Fill(K, hello->mutable_camera());
   return request;
 }
 
@@ -71,8 +80,13 @@ inline live::Request ObservationRequest(const Observation& obs, std::uint64_t se
   m->set_time_ns(time_ns);
   m->set_rgb(obs.rgb.data.data(), obs.rgb.data.size() * sizeof(Rgb8));
   m->set_depth_m(obs.depth_m.data.data(), obs.depth_m.data.size() * sizeof(float));
-  for (int row = 0; row < 4; ++row)
-    for (int col = 0; col < 4; ++col) m->add_t_world_camera(obs.T_world_camera.matrix()(row, col));
+  ForEachNumber(obs.T_world_camera, [&](double x) { m->add_t_world_camera(x); });
+  if (obs.rgb_camera.width_px > 0) {
+    Fill(obs.rgb_camera, m->mutable_rgb_camera());
+    ForEachNumber(obs.T_camera_rgb, [&](double x) { m->add_t_camera_rgb(x); });
+  }
+  if (obs.T_base_camera)
+    ForEachNumber(*obs.T_base_camera, [&](double x) { m->add_t_base_camera(x); });
   return request;
 }
 

@@ -43,6 +43,25 @@ TEST(Messages, EveryFieldOfAnObservationArrives) {
   EXPECT_EQ(std::get<RawObservation>(*millimetres).depth, "ab");
 }
 
+TEST(Messages, ColourCameraAndMountingArriveWhereTheyAreSent) {
+  Observation obs = SmallView();
+  const auto plain = ParseRequest(test::ObservationRequest(obs, 1).SerializeAsString());
+  EXPECT_FALSE(std::get<RawObservation>(*plain).rgb_camera.has_value());
+  EXPECT_TRUE(std::get<RawObservation>(*plain).T_camera_rgb.empty());
+  EXPECT_TRUE(std::get<RawObservation>(*plain).T_base_camera.empty());
+  obs.rgb_camera = {640, 480, 525, 526, 319.5, 239.5};
+  obs.T_camera_rgb.translation() = Vector3d(1, 2, 3);
+  obs.T_base_camera = CameraPose({Vector3d(0.2, 0, 0), 0, 0}, 0.6);
+  const auto request = ParseRequest(test::ObservationRequest(obs, 1).SerializeAsString());
+  const auto& raw = std::get<RawObservation>(*request);
+  EXPECT_EQ(raw.rgb_camera, obs.rgb_camera);
+  ASSERT_EQ(raw.T_camera_rgb.size(), 16u);
+  EXPECT_EQ(raw.T_camera_rgb[7], 2);
+  ASSERT_EQ(raw.T_base_camera.size(), 16u);
+  EXPECT_EQ(raw.T_base_camera[3], 0.2);
+  EXPECT_EQ(raw.T_base_camera[11], 0.6);
+}
+
 TEST(Messages, TheOtherRequestsArrive) {
   const CameraIntrinsics K{640, 480, 525, 526, 319.5, 239.5};
   const auto hello = ParseRequest(test::HelloRequest(K, 0.6).SerializeAsString());

@@ -231,6 +231,55 @@ TEST_F(PilotTest, MillimetresAreMetres) {
   EXPECT_TRUE(agent::testing::BytesOf(*pilot_->agent()) == agent::testing::BytesOf(direct));
 }
 
+/// Colour of 40 x 30 pixels from 5 cm beside; the camera sits 0.2 m before the foot.
+Observation OfTwoCameras(const test::BoxWalker& walker) {
+  Observation obs = walker.Look();
+  obs.rgb_camera = IntrinsicsFromHfov(40, 30, DegToRad(60));
+  obs.rgb = RgbImage(40, 30, {9, 8, 7});
+  obs.T_camera_rgb.translation().x() = 0.05;
+  obs.T_base_camera = CameraPose({Vector3d(0.2, 0, 0), 0, 0}, 0.6);
+  return obs;
+}
+
+TEST_F(PilotTest, ColourCameraAndMountingReachTheAgent) {
+  Start();
+  const Observation obs = OfTwoCameras(walker_);
+  agent::Agent direct(agent::testing::SmallConfig(), test::FakeSuite(agent::testing::CouchSight()));
+  ASSERT_TRUE(direct.SetGoal("couch").has_value());
+  const auto expected = direct.Step(obs);
+  ASSERT_TRUE(expected.has_value()) << expected.error().Message();
+  const live::Reply reply = Ask(ObservationRequest(obs, 1));
+  ASSERT_TRUE(reply.has_answer()) << reply.error().text();
+  EXPECT_EQ(reply.answer().action() - 1, static_cast<int>(expected->action));
+  const auto bytes = agent::testing::BytesOf(*pilot_->agent());
+  EXPECT_TRUE(bytes == agent::testing::BytesOf(direct));
+  agent::Agent plain(agent::testing::SmallConfig(), test::FakeSuite(agent::testing::CouchSight()));
+  ASSERT_TRUE(plain.SetGoal("couch").has_value());
+  ASSERT_TRUE(plain.Step(walker_.Look()).has_value());
+  EXPECT_FALSE(bytes == agent::testing::BytesOf(plain));  // the body stood elsewhere
+}
+
+TEST_F(PilotTest, AColourCameraOrMountingThatIsNoneNamesItsField) {
+  Start();
+  const live::Request good = ObservationRequest(OfTwoCameras(walker_), 1);
+  const auto refused = [&](const char* part, auto&& change) {
+    live::Request bad = good;
+    change(*bad.mutable_observation());
+    ExpectFault(Ask(bad), live::FAULT_MALFORMED, part);
+  };
+  refused("observation.rgb:", [](auto& m) { m.clear_rgb_camera(); });
+  refused("observation.rgb:", [](auto& m) { m.mutable_rgb_camera()->set_width_px(64); });
+  refused("observation.rgb_camera", [](auto& m) { m.mutable_rgb_camera()->set_width_px(0); });
+  refused("observation.rgb_camera", [](auto& m) { m.mutable_rgb_camera()->set_fy(0); });
+  refused("observation.T_camera_rgb", [](auto& m) { m.set_t_camera_rgb(0, 7); });
+  refused("observation.T_camera_rgb", [](auto& m) { m.mutable_t_camera_rgb()->RemoveLast(); });
+  refused("observation.T_base_camera", [](auto& m) { m.set_t_base_camera(3, std::nan("")); });
+  refused("observation.T_base_camera", [](auto& m) { m.add_t_base_camera(1); });
+  refused("observation.T_base_camera", [](auto& m) { m.set_t_base_camera(11, 50); });
+  EXPECT_EQ(counts().malformed, 9u);
+  EXPECT_TRUE(Ask(good).has_answer());
+}
+
 TEST_F(PilotTest, ANewConnectionGoesOnWhereTheLastOneLeft) {
   Start();
   for (std::uint64_t i = 1; i <= 5; ++i) ASSERT_TRUE(Look(i).has_answer());

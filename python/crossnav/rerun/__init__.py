@@ -66,6 +66,8 @@ def log(result: "StepResult", observation: "Observation | None" = None,
         draw.statics(stream)
     draw.step_record(stream, record)
     if observation is not None:
+        if observation.rgb_camera is not None:  # boxes lie on the grid of depth
+            observation = observation.registered()
         k = observation.camera
         camera = Camera(k.width_px, k.height_px,
                         np.array([[k.fx, 0, k.cx], [0, k.fy, k.cy], [0, 0, 1]]))

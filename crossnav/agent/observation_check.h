@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What the agent asks of an observation, and of what perception makes of it, before anything of it
+// gets into the map.
+#pragma once
+
+#include "crossnav/core/observation.h"
+#include "crossnav/core/result.h"
+#include "crossnav/perception/perception.h"
+
+namespace crossnav::agent {
+
+/// Errors name the key: poses that are not finite and rigid, images of another size than their
+/// intrinsics, a mounting that no robot has.
+Result<void> CheckObservation(const Observation& obs);
+
+/// What a network answered must fit the frame: an error that names it, never a read out of bounds.
+Result<void> CheckPercept(const perception::Percept& percept, const Observation& obs);
+
+}  // namespace crossnav::agent
