@@ -21,7 +21,7 @@ struct Observation {
 
   CameraIntrinsics rgb_camera;           ///< of colour with a grid of its own; width 0 = on depth's
   Pose T_camera_rgb = Pose::Identity();  ///< the colour camera in the depth camera's frame
-  /// How the camera is mounted; nothing = level above the foot, as high as the settings say.
+  /// How the camera is mounted; nothing = straight above the foot, as high as the settings say.
   std::optional<Pose> T_base_camera;
 };
 
