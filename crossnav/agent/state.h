@@ -74,7 +74,7 @@ struct HistoryPoi {
   double similarity = 0;  ///< mean cosine of its best quarter [-1, 1]
   bool is_exhausted = false;
   int unreachable_step = -1000;  ///< in which no way to a place that sees it was found last
-  int looked = 0;  ///< frames spent looking at it on arrival
+  int looked = 0;                ///< frames spent looking at it on arrival
 };
 
 /// Verification of a stair entrance, while the agent stands there and looks.
