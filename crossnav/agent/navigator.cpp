@@ -161,7 +161,7 @@ std::optional<Action> ActOnApproach(Situation& now, const policy::Verification& 
 /// is left either.
 bool TryLastResort(Situation& now) {
   GoalState& goal = now.goal;
-  for (HistoryPoi& poi : goal.history) poi.unreachable_step = -1000;
+  for (HistoryPoi& poi : goal.history) poi.unreachable_step.reset();
   while (goal.last_resorts < 4) {
     switch (goal.last_resorts++) {
       case 0:

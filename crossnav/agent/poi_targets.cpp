@@ -111,7 +111,8 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
       HistoryPoi& poi = now.goal.history[i];
       if (poi.is_exhausted || poi.score < share * best_score) continue;
       // A search in vain visits the whole house, and a step does not open it.
-      if (now.world.step - poi.unreachable_step < now.config.policy.explore.reconsider_steps)
+      if (poi.unreachable_step &&
+          now.world.step - *poi.unreachable_step < now.config.policy.explore.reconsider_steps)
         continue;
       if (poi.similarity <
               now.world.confirmed_similarity - now.config.policy.poi.similarity_slack &&
@@ -125,7 +126,7 @@ std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKe
       for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
         auto target = NearestView(now, start, {poi.voxels, range_m});
         if (!target) continue;
-        poi.unreachable_step = -1000;
+        poi.unreachable_step.reset();
         if (nearest && nearest->cost_m <= target->cost_m) break;
         target->candidate.kind = CandidateKind::kHistoryPoi;
         target->candidate.id = static_cast<int>(i);

@@ -73,8 +73,8 @@ struct HistoryPoi {
   double score = 0;
   double similarity = 0;  ///< mean cosine of its best quarter [-1, 1]
   bool is_exhausted = false;
-  int unreachable_step = -1000;  ///< in which no way to a place that sees it was found last
-  int looked = 0;                ///< frames spent looking at it on arrival
+  std::optional<int> unreachable_step;  ///< in which no way to a view of it was found last
+  int looked = 0;                       ///< frames spent looking at it on arrival
 };
 
 /// Verification of a stair entrance, while the agent stands there and looks.

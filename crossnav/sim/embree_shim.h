@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <type_traits>
 
 #if __has_include(<embree4/rtcore.h>)
@@ -20,9 +21,10 @@ struct EmbreeRelease {
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
 using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease>;
 
-/// AVX2 on newer processors, too: the hits at edges differ from one set of instructions to another,
-/// and the same episode is to go the same way on a laptop and on a cluster.
-inline constexpr const char* kEmbreeConfig = "threads=1,max_isa=avx2";
+/// One thread, and no newer `instructions` than these (sse2, sse4.2, avx, avx2, avx512).
+inline std::string EmbreeConfig(const std::string& instructions) {
+  return "threads=1,max_isa=" + instructions;
+}
 
 /// Closest hit of 16 rays from about the same place in about the same direction.
 inline void IntersectPacket(RTCScene scene, const int* valid, RTCRayHit16* rays) {

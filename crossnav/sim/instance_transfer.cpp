@@ -6,6 +6,7 @@
 
 #include "crossnav/core/check.h"
 #include "crossnav/sim/embree_shim.h"
+#include "crossnav/sim/ray_caster.h"
 #include "crossnav/sim/scene_reader.h"
 
 namespace crossnav::sim {
@@ -184,7 +185,7 @@ std::vector<std::int32_t> TransferInstances(const TriangleMesh& source, const Tr
       continue;
     }
     if (!scene) {  // built only where the meshes differ
-      device.reset(rtcNewDevice(kEmbreeConfig));
+      device.reset(rtcNewDevice(EmbreeConfig(kInstructions).c_str()));
       CROSSNAV_CHECK(device != nullptr, "Embree gives no device");
       scene = MakeQueryScene(device.get(), source);
     }

@@ -38,7 +38,8 @@ Plane PlaneOf(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
 float MeetingWith(const Plane& plane, const Vector3d& origin, const Vector3d& direction,
                   float otherwise) {
   const double across = plane.normal.dot(direction);
-  if (std::abs(across) < 1e-6 * plane.normal.norm()) return otherwise;
+  constexpr double kGraze = 1e-6;  // chosen: sine of the angle, far below a pixel's
+  if (across * across < kGraze * kGraze * plane.normal.squaredNorm()) return otherwise;
   return static_cast<float>((plane.offset - plane.normal.dot(origin)) / across);
 }
 
@@ -122,8 +123,8 @@ struct RayCaster::Impl {
     rtcReleaseGeometry(geometry);
   }
 
-  void Build() {
-    device.reset(rtcNewDevice(kEmbreeConfig));
+  void Build(const std::string& instructions) {
+    device.reset(rtcNewDevice(EmbreeConfig(instructions).c_str()));
     CROSSNAV_CHECK(device != nullptr, "Embree gives no device");
     rays.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(rays.get(), RTC_SCENE_FLAG_ROBUST);  // no cracks between neighbours
@@ -158,8 +159,9 @@ struct RayCaster::Impl {
   void StoreGeometry(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const;
 };
 
-RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
-  impl_->Build();
+RayCaster::RayCaster(const Scene& scene, const std::string& instructions)
+    : impl_(std::make_unique<Impl>(scene)) {
+  impl_->Build(instructions);
 }
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "crossnav/core/camera.h"
 #include "crossnav/core/image.h"
@@ -22,6 +23,10 @@ struct Frame {
   InstanceImage instance;  ///< 0 where none
 };
 
+/// AVX2 on newer processors, too: which of two surfaces a ray meets at their common edge differs
+/// from one set of instructions to another, and the same episode is to go the same way everywhere.
+inline constexpr const char* kInstructions = "avx2";
+
 struct RayHit {
   double distance_m = 0;
   int instance = 0;
@@ -35,8 +40,9 @@ class RayCaster {
   struct Impl;
 
  public:
-  /// Keeps a reference to `scene`, which must outlive it.
-  explicit RayCaster(const Scene& scene);
+  /// Keeps a reference to `scene`, which must outlive it. `instructions`: the newest that Embree
+  /// may use, e.g. avx; for tests.
+  explicit RayCaster(const Scene& scene, const std::string& instructions = kInstructions);
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;
 

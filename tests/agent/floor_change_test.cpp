@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "agent/storeys.h"
+#include "crossnav/trace/trace_json.h"
 
 namespace crossnav::agent {
 namespace {
@@ -33,6 +34,11 @@ void ExpectFound(BoxWalker walker, const Box3& couch, int limit) {
   EXPECT_LE(couch.HorizontalDistance(walker.pose.p_world), 1.3);
   if (std::abs(start_m - walker.pose.p_world.z()) < 2) return;
   ASSERT_EQ(agent.flights().size(), 1u);  // the flight is an object by now
+  const auto last = std::find_if(walk.traces.rbegin(), walk.traces.rend(), [](const auto& trace) {
+    return trace.find("\"flights\":") != std::string::npos;
+  });
+  ASSERT_NE(last, walk.traces.rend());
+  EXPECT_EQ(trace::StepTraceFromJson(*last)->flights, agent.flights());
   EXPECT_NEAR(agent.flights()[0].p_foot_world.z(), 0, 0.25);
   EXPECT_NEAR(agent.flights()[0].p_top_world.z(), 2.8, 0.25);
 }

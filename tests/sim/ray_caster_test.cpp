@@ -67,6 +67,16 @@ Scene RandomTriangles(std::uint64_t seed) {
   return m.Finish();
 }
 
+struct Ray {
+  Vector3d origin, direction;
+};
+
+Ray RandomRay(Rng& rng) {
+  const Vector3d o(rng.Uniform(-2, 2), rng.Uniform(-2, 2), rng.Uniform(0.1, 2.5));
+  const Vector3d d(rng.Normal(), rng.Normal(), rng.Normal());
+  return {o, d};
+}
+
 TEST(RayCaster, PacketsAgreeWithBruteForceOverAllTriangles) {
   const Scene scene = RandomTriangles(11);
   const RayCaster caster(scene);
@@ -96,8 +106,7 @@ TEST(RayCaster, SingleRaysAgreeWithBruteForce) {
   const RayCaster caster(scene);
   Rng rng(5);
   for (int i = 0; i < 2000; ++i) {
-    const Vector3d o(rng.Uniform(-2, 2), rng.Uniform(-2, 2), rng.Uniform(0.1, 2.5));
-    const Vector3d d(rng.Normal(), rng.Normal(), rng.Normal());
+    const auto [o, d] = RandomRay(rng);
     const OracleHit expected = CastAll(scene, o, d.normalized());
     if (expected.edge < 1e-4 || expected.second - expected.t < 1e-3) continue;
     const auto hit = caster.Cast(o, d, 100);
@@ -123,8 +132,7 @@ TEST(RayCaster, DistancesDoNotDependOnTheProcessor) {
   const RayCaster caster(scene);
   Rng rng(6);
   for (int i = 0; i < 2000; ++i) {
-    const Vector3d o(rng.Uniform(-2, 2), rng.Uniform(-2, 2), rng.Uniform(0.1, 2.5));
-    const Vector3d d(rng.Normal(), rng.Normal(), rng.Normal());
+    const auto [o, d] = RandomRay(rng);
     const auto hit = caster.Cast(o, d, 100);
     if (!hit) continue;
     const auto& corner = scene.mesh.triangles[hit->triangle];
@@ -133,6 +141,27 @@ TEST(RayCaster, DistancesDoNotDependOnTheProcessor) {
     const Vector3d ray = Single(d / d.norm()), from = Single(o);
     if (std::abs(n.dot(ray)) < 1e-3 * n.norm()) continue;
     ASSERT_EQ(hit->distance_m, static_cast<float>((n.dot(a) - n.dot(from)) / n.dot(ray)));
+  }
+}
+
+// With Embree's own distances 216,362 of the 614,400 pixels differ here from AVX2's, in their last
+// bits.
+TEST(RayCaster, FramesAreTheSameWithOtherInstructions) {
+  const Scene scene = RandomTriangles(14);
+  const RayCaster caster(scene);
+  const CameraIntrinsics K = IntrinsicsFromHfov(320, 240, DegToRad(90));
+  for (const char* instructions : {"sse2", "avx"}) {
+    const RayCaster other(scene, instructions);
+    std::size_t differing = 0, pixels = 0;
+    for (int view = 0; view < 8; ++view) {
+      const Pose T = CameraPose({{0.3 * view - 1, 0.2, 0.1}, 0.8 * view, 0.1 * view - 0.4}, 0.88);
+      const Frame a = caster.Render(K, T), b = other.Render(K, T);
+      for (std::size_t i = 0; i < a.depth_m.data.size(); ++i)
+        differing +=
+            a.depth_m.data[i] != b.depth_m.data[i] || a.instance.data[i] != b.instance.data[i];
+      pixels += a.depth_m.data.size();
+    }
+    EXPECT_EQ(differing, 0u) << "of " << pixels << " pixels with " << instructions;
   }
 }
 

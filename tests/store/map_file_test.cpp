@@ -13,6 +13,14 @@ using testing::ExpectSame;
 using testing::SmallWorld;
 using testing::TempFile;
 
+/// Does `sql` to the file behind our back.
+void Change(const std::filesystem::path& path, const char* sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sql;
+  sqlite3_close(db);
+}
+
 const SaveInfo kInfo{.encoder_name = "test-encoder",
                      .encoder_hash = 0xfedcba9876543210ULL,
                      .frame = "kitchen corner"};
@@ -84,12 +92,7 @@ TEST(MapFileTest, WhatWasSeenAsStairsIsSavedWithTheMemory) {
   EXPECT_EQ(loaded->seen_stairs[0].geometry_score, 0.7F);
   EXPECT_TRUE(loaded->seen_stairs[0].is_confirmed);
   EXPECT_FALSE(loaded->seen_stairs[1].is_confirmed);
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(
-      sqlite3_exec(db, "UPDATE seen_stair SET data = zeroblob(30)", nullptr, nullptr, nullptr),
-      SQLITE_OK);
-  sqlite3_close(db);
+  Change(file.path(), "UPDATE seen_stair SET data = zeroblob(30)");
   LoadOptions options;
   EXPECT_FALSE(LoadMemory(file.path(), options));
   options.skip_damaged = true;
@@ -107,10 +110,7 @@ TEST(MapFileTest, FlightsWithoutTheirPlacesLoad) {
   SaveInfo info = kInfo;
   info.flights = {SomeFlight(), SomeFlight()};
   ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(db, "DROP TABLE flight_places", nullptr, nullptr, nullptr), SQLITE_OK);
-  sqlite3_close(db);
+  Change(file.path(), "DROP TABLE flight_places");
   const auto loaded = LoadMemory(file.path());
   ASSERT_TRUE(loaded) << loaded.error().Message();
   ASSERT_EQ(loaded->flights.size(), 2u);
@@ -126,12 +126,7 @@ TEST(MapFileTest, DamagedPlacesOfAFlightAreNamed) {
   SaveInfo info = kInfo;
   info.flights = {SomeFlight()};
   ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(
-      sqlite3_exec(db, "UPDATE flight_places SET data = zeroblob(64)", nullptr, nullptr, nullptr),
-      SQLITE_OK);
-  sqlite3_close(db);
+  Change(file.path(), "UPDATE flight_places SET data = zeroblob(64)");
   const auto refused = LoadMemory(file.path());
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("flight_places 0"), std::string::npos);
@@ -144,12 +139,7 @@ TEST(MapFileTest, ADamagedFlightIsNamedAndTheRestLoads) {
   SaveInfo info = kInfo;
   info.flights = {SomeFlight(), SomeFlight()};
   ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, info));
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(
-      sqlite3_exec(db, "UPDATE flight SET hash = hash + 1 WHERE id = 1", nullptr, nullptr, nullptr),
-      SQLITE_OK);
-  sqlite3_close(db);
+  Change(file.path(), "UPDATE flight SET hash = hash + 1 WHERE id = 1");
   const auto refused = LoadMemory(file.path());
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("flight 1"), std::string::npos);
@@ -274,10 +264,7 @@ TEST(MapFileTest, OtherFilesAreNeitherReadNorOverwritten) {
   EXPECT_FALSE(SaveMemory(file.path(), world.map, world.memory, kInfo));
   EXPECT_EQ(file.Read(), text);
   file.Remove();
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
-  sqlite3_exec(db, "CREATE TABLE photos(x)", nullptr, nullptr, nullptr);
-  sqlite3_close(db);
+  Change(file.path(), "CREATE TABLE photos(x)");
   EXPECT_EQ(LoadMemory(file.path()).error().code, ErrorCode::kMalformed);
   EXPECT_FALSE(SaveMemory(file.path(), world.map, world.memory, kInfo));
   EXPECT_FALSE(SaveMemory("/nowhere/at/all.map", world.map, world.memory, kInfo));
@@ -285,12 +272,8 @@ TEST(MapFileTest, OtherFilesAreNeitherReadNorOverwritten) {
 
 TEST(MapFileTest, NewerFormatIsRefusedAsSuch) {
   const TempFile file("newer.map");
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file.path().c_str(), &db), SQLITE_OK);
-  sqlite3_exec(db,
-               "PRAGMA application_id=0x434e4d50; PRAGMA user_version=7; CREATE TABLE header(x)",
-               nullptr, nullptr, nullptr);
-  sqlite3_close(db);
+  Change(file.path(),
+         "PRAGMA application_id=0x434e4d50; PRAGMA user_version=7; CREATE TABLE header(x)");
   const auto loaded = LoadMemory(file.path());
   ASSERT_FALSE(loaded);
   EXPECT_EQ(loaded.error().code, ErrorCode::kUnsupported);

@@ -92,6 +92,22 @@ TEST_F(Foxglove, CameraRotationIsTheCamerasOwn) {
   EXPECT_GE(rotation.w(), 0);
 }
 
+TEST_F(Foxglove, FlightsAreLinesWithLabels) {
+  geometry::StairFlight walked, seen;
+  walked.steps_world = {{0, 0, 0}, {1, 0, 0.5}};
+  walked.id = 0;
+  walked.walked_up = 1;
+  seen.steps_world = {{5, 0, 0}, {6, 0, 0.5}, {7, 0, 1}};
+  seen.id = 3;
+  const std::string text = Parse("foxglove.SceneUpdate", EncodeFlights(0, {walked, seen}));
+  EXPECT_NE(text.find(R"(id: "flights")"), std::string::npos) << text;
+  EXPECT_NE(text.find("thickness: 0.06 points { } points { x: 1 z: 0.5 }"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("points { x: 7 z: 1 }"), std::string::npos);
+  EXPECT_NE(text.find(R"(text: "flight 0, walked")"), std::string::npos);
+  EXPECT_NE(text.find(R"(text: "flight 3, seen")"), std::string::npos);
+}
+
 TEST_F(Foxglove, ImagesParse) {
   EXPECT_EQ(Parse("foxglove.CompressedImage", EncodeImage(0, "JPEG!", "jpeg")),
             R"(timestamp { } data: "JPEG!" format: "jpeg" frame_id: "camera")");
