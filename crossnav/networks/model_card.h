@@ -17,7 +17,7 @@ struct ModelCard {
   std::filesystem::path path;  ///< of the card; its stem is the network's name
   std::filesystem::path file;  ///< the ONNX file
   std::string family;          ///< name of an adapter, see Families()
-  std::string sha256;          ///< of the file, 64 hexadecimal digits; empty = any file
+  std::string sha256;          ///< of the file, 64 hexadecimal digits
   std::string licence, source;
 
   struct Input {
@@ -64,7 +64,7 @@ struct ModelCard {
     std::vector<std::string> names;            ///< or
     std::filesystem::path names_file;          ///< the same in a file, one a line
     std::filesystem::path encoder;             ///< ONNX file for texts that the table does not have
-    std::string sha256;                        ///< of that file; empty = any file
+    std::string sha256;                        ///< of that file
     std::string tokenizer;                     ///< clip | wordpiece
     std::filesystem::path vocabulary;          ///< of the tokenizer
     int length = 77;                           ///< numbers that the encoder takes

@@ -38,6 +38,17 @@ std::filesystem::path CardPath(const std::filesystem::path& dir, const std::stri
   return path.extension() == ".toml" ? path : dir / (name + ".toml");
 }
 
+/// Inference libraries crash on some damaged files that still parse, so what runs is a file that
+/// somebody vouched for.
+Result<void> HasHash(const ModelCard& card, const char* key, const std::string& hash,
+                     const std::string& bytes) {
+  if (!hash.empty()) return {};
+  return Fail(ErrorCode::kInvalid,
+              "key \"" + std::string(key) + "\" is missing; of the file as it is, it is \"" +
+                  Sha256(bytes) + "\"",
+              card.path.string());
+}
+
 }  // namespace
 
 Result<std::vector<std::filesystem::path>> ListCards(const std::filesystem::path& dir) {
@@ -74,7 +85,8 @@ Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config,
     if (set.cards_.count(name) == 0) {
       const auto bytes = ReadNetworkFile(*card);
       if (!bytes) return tl::unexpected(bytes.error());
-      card->sha256 = Sha256(*bytes);
+      if (auto ok = HasHash(*card, "sha256", card->sha256, *bytes); !ok)
+        return tl::unexpected(ok.error());
       set.hashes_[card->name()] = card->sha256;
       if (auto ok = set.HashSeconds(*card); !ok) return tl::unexpected(ok.error());
     }
@@ -86,13 +98,18 @@ Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config,
 }
 
 Result<void> NetworkSet::HashSeconds(const ModelCard& card) {
-  for (const auto& [what, file] :
-       {std::pair("decoder", card.decoder.file), std::pair("text", card.text.encoder)}) {
-    if (file.empty()) continue;
+  const auto add = [&](const char* what, const char* key, const std::filesystem::path& file,
+                       const std::string& hash) -> Result<void> {
+    if (file.empty()) return {};
     const auto bytes = ReadFile(file);
     if (!bytes) return tl::unexpected(bytes.error());
-    hashes_[card.name() + "." + what] = Sha256(*bytes);
-  }
+    if (auto ok = HasHash(card, key, hash, *bytes); !ok) return ok;
+    hashes_[card.name() + "." + what] = hash;
+    return {};
+  };
+  if (auto ok = add("decoder", "decoder_sha256", card.decoder.file, card.decoder.sha256); !ok)
+    return ok;
+  return add("text", "text.sha256", card.text.encoder, card.text.sha256);
   return {};
 }
 

@@ -55,11 +55,14 @@ def export(name, wish, out, prepare=None):
         path = out / f"{name}{part.suffix}.onnx"
         write(part, path)
         hashes.append(hashlib.sha256(path.read_bytes()).hexdigest())
+    card, texts = made.card, out / "clip_text.onnx"
+    if 'encoder = "clip_text.onnx"' in card and texts.exists():  # its last lines are of [text]
+        card += f'sha256 = "{hashlib.sha256(texts.read_bytes()).hexdigest()}"\n'
     keys = ["sha256", "decoder_sha256"] if name != "clip_text" else []
     head = "".join(f'{key} = "{value}"\n' for key, value in zip(keys, hashes))
     source = wish.weights or "random weights"
     suffix = "toml" if name != "clip_text" else "text"
-    (out / f"{name}.{suffix}").write_text(f'# Written by networks/paper/export.py from {source}.\n{head}{made.card}')
+    (out / f"{name}.{suffix}").write_text(f'# Written by networks/paper/export.py from {source}.\n{head}{card}')
     return made
 
 

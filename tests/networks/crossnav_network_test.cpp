@@ -118,24 +118,31 @@ TEST_F(CrossnavFamily, ADepthClusterCanMakeTheMask) {
 
 TEST_F(CrossnavFamily, WhatDoesNotFitTheCardIsNamed) {
   EXPECT_EQ(ErrorOf(), "no error");
-  std::string card = kSmallCard;
+  std::string card = SmallCard();
   Write(card.replace(card.find("size = 32"), 9, "size = 64"));
   EXPECT_NE(ErrorOf().find("small.onnx: "), std::string::npos) << ErrorOf();
-  card = kSmallCard;
+  card = SmallCard();
   Write(card.replace(card.find("\"bed\", "), 7, ""));
   EXPECT_NE(ErrorOf().find("output \"heat\" is 1x6x8x8, and its card asks for 1x5x8x8"),
             std::string::npos)
       << ErrorOf();
-  card = kSmallCard;
+  card = SmallCard();
   Write(card.replace(card.find("dim = 4"), 7, "dim = 5"));
   EXPECT_NE(ErrorOf().find("holds vectors of 4 numbers"), std::string::npos) << ErrorOf();
-  Write(std::string("sha256 = \"") + std::string(64, '0') + "\"\n" + kSmallCard);
+  Write(std::string("sha256 = \"") + std::string(64, '0') + "\"\n" + kCardWithoutHash);
   EXPECT_NE(ErrorOf().find("is not the file"), std::string::npos) << ErrorOf();
-  Write(std::string("decoder = \"nowhere.onnx\"\n") + kSmallCard);
+  Write(std::string("decoder = \"nowhere.onnx\"\n") + SmallCard());
   EXPECT_NE(ErrorOf().find("nowhere.onnx"), std::string::npos) << ErrorOf();
-  Write(std::string("decoder = \"small.onnx\"\n") + kSmallCard);  // another network
+  Write("decoder = \"small.onnx\"\ndecoder_" + SmallCard());
+  EXPECT_NE(ErrorOf().find("key \"sha256\" is missing; of the file as it is, it is \""),
+            std::string::npos)
+      << ErrorOf();
+  Write("decoder = \"small.onnx\"\n" + SmallCard());
+  EXPECT_NE(ErrorOf().find("key \"decoder_sha256\" is missing"), std::string::npos) << ErrorOf();
+  const std::string hash = SmallCard().substr(0, SmallCard().find('\n') + 1);
+  Write("decoder = \"small.onnx\"\ndecoder_" + hash + SmallCard());  // another network
   EXPECT_NE(ErrorOf().find("has no input \"share\""), std::string::npos) << ErrorOf();
-  Write(kSmallCard);
+  Write(SmallCard());
   config_.stairs = "none";
   EXPECT_NE(ErrorOf().find("needed by networks.stairs"), std::string::npos) << ErrorOf();
 }

@@ -15,7 +15,7 @@ class Pixels : public WithBackend {};
 TEST_F(Pixels, GarbageInTheInstanceImageChangesNothing) {
   const crossnav::test::TempFolder folder;
   NetworksConfig config = WriteSmallNetwork(folder.path());
-  std::string card = kSmallCard;
+  std::string card = SmallCard();
   card.replace(card.find("score = 0.5"), 11, "score = 0.1");  // grey walls are a little red
   crossnav::test::WriteText(folder.path() / "small.toml", card);
   sim::test::MicroScene micro;

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "crossnav/networks/networks_config.h"
+#include "crossnav/networks/sha256.h"
 #include "networks/model_files.h"
 
 namespace crossnav::networks::test {
 
-inline constexpr const char* kSmallCard = R"(family = "crossnav"
+inline constexpr const char* kCardWithoutHash = R"(family = "crossnav"
 labels = ["chair", "bed", "potted plant", "toilet", "tv", "couch"]
 [input]
 size = 32
@@ -25,6 +26,11 @@ score = 0.5
 names_file = "names.txt"
 table = "names.npy"
 )";
+
+/// With the hash of its file.
+inline std::string SmallCard() {
+  return "sha256 = \"" + Sha256(*ReadFile(DataFile("crossnav.onnx"))) + "\"\n" + kCardWithoutHash;
+}
 
 /// Rows of float32, as NumPy writes them.
 inline std::string Npy(const std::vector<std::vector<float>>& rows) {
@@ -44,7 +50,7 @@ inline std::string Npy(const std::vector<std::vector<float>>& rows) {
 /// Leaves card, file and text table in `folder`; settings that name it for everything.
 inline NetworksConfig WriteSmallNetwork(const std::filesystem::path& folder) {
   using crossnav::test::WriteText;
-  WriteText(folder / "small.toml", kSmallCard);
+  WriteText(folder / "small.toml", SmallCard());
   WriteText(folder / "small.onnx", *ReadFile(DataFile("crossnav.onnx")));
   WriteText(folder / "names.txt", "chair\nbed\nplant\nWall\ntoilet\ntv\ncouch\n");
   WriteText(folder / "names.npy", Npy({{1, 0, 0, 0},
