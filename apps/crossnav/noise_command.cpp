@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "crossnav/bench/config_file.h"
 #include "crossnav/bench/evaluation.h"
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/map_error.h"
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/worker_pool.h"
+#include "crossnav/core/read_file.h"
 #include "perception_source.h"
 #include "session.h"
 
@@ -144,10 +146,35 @@ void AddEpisode(const bench::Episode& episode, const std::string& text, Sum& sum
   sum.floor_change_complete += is_complete && episode.cross_floor_required ? 1 : 0;
 }
 
+/// All episodes under one case.
+Result<Sum> PlayAll(SceneCache& cache, const std::vector<bench::Episode>& episodes, const Case& one,
+                    int jobs, const PerceptionSource& perception, Console& console) {
+  Sum sum;
+  bench::PoolTask task;
+  task.count = static_cast<int>(episodes.size());
+  task.jobs = jobs;
+  task.item_seconds = one.config.eval.episode_seconds;
+  const auto episode_of = [&](int item) -> const bench::Episode& {
+    return episodes[static_cast<std::size_t>(item)];
+  };
+  task.work = [&](int item) { return Play(cache, episode_of(item), one.config, perception); };
+  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
+    if (answer.end == bench::ItemEnd::kError) return tl::unexpected(answer.error);
+    AddEpisode(episode_of(item), answer.text, sum);
+    console.Progress(
+        fmt::format("{} {}: {} of {} episodes", one.kind, one.value, sum.episodes, task.count));
+    return {};
+  };
+  if (auto ok = bench::RunPool(task); !ok) return tl::unexpected(ok.error());
+  console.EndProgress();
+  return sum;
+}
+
 Json RowOf(const Case& one, const Sum& sum) {
   const double measured = std::max(1, sum.measured);
   return {{"kind", one.kind},
           {"value", one.value},
+          {"settings", bench::ConfigHash(one.config)},
           {"episodes", sum.episodes},
           {"complete", sum.complete},
           {"floor_change", sum.floor_change},
@@ -158,20 +185,43 @@ Json RowOf(const Case& one, const Sum& sum) {
           {"map_stray_share", sum.stray_share / measured}};
 }
 
-std::string TextOf(const Json& rows) {
-  std::string text = fmt::format("{:<10} {:>10} {:>10} {:>13} {:>10} {:>10} {:>8}\n", "noise",
-                                 "value", "complete", "floor change", "goals", "map [m]", "stray");
-  for (const Json& row : rows) {
-    const auto share = [&](const char* part, const char* all) {
-      return fmt::format("{} of {}", row[part].get<int>(), row[all].get<int>());
-    };
-    text += fmt::format(
-        "{:<10} {:>10} {:>10} {:>13} {:>10} {:>10.3f} {:>6.1f} %\n", row["kind"].get<std::string>(),
-        row["value"].get<std::string>(), share("complete", "episodes"),
-        share("floor_change_complete", "floor_change"), share("goals_reached", "goals"),
-        row["map_error_m"].get<double>(), 100 * row["map_stray_share"].get<double>());
+std::string HeadLine() {
+  return fmt::format("{:<10} {:>10} {:>10} {:>13} {:>10} {:>10} {:>8}\n", "noise", "value",
+                     "complete", "floor change", "goals", "map [m]", "stray");
+}
+
+std::string LineOf(const Json& row) {
+  const auto share = [&](const char* part, const char* all) {
+    return fmt::format("{} of {}", row[part].get<int>(), row[all].get<int>());
+  };
+  return fmt::format("{:<10} {:>10} {:>10} {:>13} {:>10} {:>10.3f} {:>6.1f} %\n",
+                     row["kind"].get<std::string>(), row["value"].get<std::string>(),
+                     share("complete", "episodes"), share("floor_change_complete", "floor_change"),
+                     share("goals_reached", "goals"), row["map_error_m"].get<double>(),
+                     100 * row["map_stray_share"].get<double>());
+}
+
+/// What a sweep leaves, row by row, so that one that was cut off goes on.
+Json DocumentOf(const bench::EpisodeFile& file, std::size_t episodes, const Json& rows) {
+  return {
+      {"episodes_hash", bench::HexHash(file.content_hash)}, {"episodes", episodes}, {"rows", rows}};
+}
+
+/// The row of `one` in the document of an earlier sweep over the same episodes; null without.
+Json KeptRow(const Json& earlier, const Json& empty, const Case& one) {
+  if (!earlier.is_object() || earlier.value("episodes_hash", Json()) != empty["episodes_hash"] ||
+      earlier.value("episodes", Json()) != empty["episodes"])
+    return nullptr;
+  const Json wanted = RowOf(one, {});
+  for (const Json& row : earlier.value("rows", Json::array())) {
+    if (!row.is_object()) continue;
+    const bool has_all = std::all_of(wanted.items().begin(), wanted.items().end(), [&](auto& item) {
+      return row.contains(item.key()) && row[item.key()].type_name() == item.value().type_name();
+    });
+    if (has_all && row["kind"] == wanted["kind"] && row["settings"] == wanted["settings"])
+      return row;
   }
-  return text;
+  return nullptr;
 }
 
 }  // namespace
@@ -194,36 +244,26 @@ Result<void> BenchNoise(const NoiseSweepOptions& options, const CommonOptions& c
   const auto episodes = Chosen(bench::GroupedByScene(file->episodes), options.count);
   if (episodes.empty()) return Fail(ErrorCode::kInvalid, "holds no episode", options.episodes);
   SceneCache cache(options.scenes, cases->front().config);
-  std::vector<Sum> sums(cases->size());
-  int done = 0;
-  bench::PoolTask task;
-  task.count = static_cast<int>(cases->size() * episodes.size());
-  task.jobs = options.jobs;
-  task.item_seconds = cases->front().config.eval.episode_seconds;
-  const auto case_of = [&](int item) { return static_cast<std::size_t>(item) / episodes.size(); };
-  const auto episode_of = [&](int item) -> const bench::Episode& {
-    return episodes[static_cast<std::size_t>(item) % episodes.size()];
-  };
-  task.work = [&](int item) {
-    return Play(cache, episode_of(item), (*cases)[case_of(item)].config, *perception);
-  };
-  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
-    if (answer.end == bench::ItemEnd::kError) return tl::unexpected(answer.error);
-    AddEpisode(episode_of(item), answer.text, sums[case_of(item)]);
-    console.Progress(fmt::format("{} of {} episodes", ++done, task.count));
-    return {};
-  };
-  if (auto ok = bench::RunPool(task); !ok) return ok;
-  console.EndProgress();
+  Json earlier;
+  if (const auto text = ReadFile(options.out); !options.out.empty() && text)
+    earlier = Json::parse(*text, nullptr, false);
   Json rows = Json::array();
-  for (std::size_t i = 0; i < cases->size(); ++i) rows.push_back(RowOf((*cases)[i], sums[i]));
-  console.Print(TextOf(rows));
-  const Json document = {{"episodes_hash", bench::HexHash(file->content_hash)},
-                         {"episodes", episodes.size()},
-                         {"rows", rows}};
-  console.Document(document);
-  if (options.out.empty()) return {};
-  return bench::WriteTextFile(options.out, document.dump(1) + "\n");
+  console.Print(HeadLine());
+  for (const Case& one : *cases) {
+    Json row = KeptRow(earlier, DocumentOf(*file, episodes.size(), {}), one);
+    if (row.is_null()) {
+      const auto sum = PlayAll(cache, episodes, one, options.jobs, *perception, console);
+      if (!sum) return tl::unexpected(sum.error());
+      row = RowOf(one, *sum);
+    }
+    console.Print(LineOf(row));
+    rows.push_back(std::move(row));
+    if (options.out.empty()) continue;
+    const Json document = DocumentOf(*file, episodes.size(), rows);
+    if (auto ok = bench::WriteTextFile(options.out, document.dump(1) + "\n"); !ok) return ok;
+  }
+  console.Document(DocumentOf(*file, episodes.size(), rows));
+  return {};
 }
 
 }  // namespace crossnav::app

@@ -103,13 +103,13 @@ def clip_text(wish):
 
 def mobile_sam(wish):
     """Masks: MobileSAM (mobile_sam), in two files. Weights: mobile_sam.pt."""
-    from mobile_sam import build_sam, modeling
+    from mobile_sam import build_sam_vit_t, modeling
     from mobile_sam.modeling import tiny_vit_sam
 
     if wish.small:
         sam = small_sam(modeling, tiny_vit_sam.TinyViT)
     else:
-        sam = build_sam.build_sam_vit_t(None)
+        sam = build_sam_vit_t(None)
     if wish.weights:
         sam.load_state_dict(torch.load(wish.weights, map_location="cpu", weights_only=True))
     sam.eval()

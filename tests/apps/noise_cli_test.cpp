@@ -30,6 +30,27 @@ TEST_F(NoiseCli, TheSweepHasARowForEachValueAndWritesWhatItPrints) {
   }
 }
 
+TEST_F(NoiseCli, ASweepThatWasCutOffGoesOn) {
+  const std::string sweep =
+      "bench noise --scenes scenes --episodes e.json --count 1 --kind slip --out sweep.json "
+      "--quiet" +
+      std::string(kSmall);
+  ASSERT_EQ(Run(sweep).exit_code, 0);
+  const std::string whole = ReadText(At("sweep.json"));
+  Json cut = Json::parse(whole);
+  cut["rows"].erase(4);
+  cut["rows"].erase(2);
+  cut["rows"][0]["goals"] = 1000;       // a row that is there is taken, not made again
+  cut["rows"][1].erase("map_error_m");  // and one that is damaged is made
+  test::WriteText(At("sweep.json"), cut.dump());
+  ASSERT_EQ(Run(sweep).exit_code, 0);
+  Json wanted = Json::parse(whole);
+  wanted["rows"][0]["goals"] = 1000;
+  EXPECT_EQ(Json::parse(ReadText(At("sweep.json"))), wanted);
+  ASSERT_EQ(Run(sweep + " --set noise.seed=5").exit_code, 0);  // another task
+  EXPECT_NE(Json::parse(ReadText(At("sweep.json")))["rows"][0]["goals"], 1000);
+}
+
 TEST_F(NoiseCli, BadInputIsRefused) {
   const std::string sweep = "bench noise --scenes scenes --count 1" + std::string(kSmall);
   ExpectFailure(sweep + " --quiet --episodes none.json", {"none.json"});
