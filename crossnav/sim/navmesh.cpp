@@ -25,7 +25,6 @@ constexpr double kStopShort_m = 0.01;  // chosen: stay off the border, where Det
 constexpr double kMaxShort_m = 0.05;   // ... but not far short of it on a grazing way
 constexpr float kOffBorder_m = 0.01F;
 constexpr double kSnapXy_m = 0.5, kSnapZ_m = 0.5;
-constexpr double kBeside_m = 0.15;  // chosen: slivers are thinner
 
 struct OnMesh {
   dtPolyRef ref = 0;
@@ -258,16 +257,7 @@ Vector3d NavMesh::WalkStraight(const Vector3d& start_world, const Vector3d& end_
     impl_->query->closestPointOnPoly(ref, reached.data(), closest.data(), &over);
     float height = 0;
     if (over && dtStatusSucceed(impl_->query->getPolyHeight(ref, reached.data(), &height))) {
-      // Recast's detail mesh has slivers that reach up to the flight above: where the ground goes
-      // on beside one, that is where the foot is.
-      const double rise_m = impl_->settings.max_climb_m +
-                            share * wanted * std::tan(DegToRad(impl_->settings.max_slope_deg));
-      reached[1] = start->p[1];
-      const bool is_jump = std::abs(height - start->p[1]) > rise_m;
-      const auto beside = is_jump ? impl_->Find(WorldFromRecast(reached.data()), kBeside_m,
-                                                impl_->settings.max_climb_m)
-                                  : std::nullopt;
-      reached[1] = beside ? beside->p[1] : height;
+      reached[1] = height;
       return WorldFromRecast(reached.data());
     }
   }

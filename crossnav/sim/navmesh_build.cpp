@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "crossnav/core/cells.h"
 #include "crossnav/sim/navmesh_detail.h"
@@ -87,6 +88,63 @@ rcConfig MakeConfig(const NavMeshSettings& s, const Soup& soup) {
   return config;
 }
 
+/// Where a foot comes to that walks straight from `a` to (x, z): at each column the surface nearest
+/// to it, if it can be stepped to.
+float WalkHeight(const rcCompactHeightfield& field, const RecastPoint& a, float x_m, float z_m,
+                 float climb_m) {
+  const float length_cells = std::hypot(x_m - a[0], z_m - a[2]) / field.cs;
+  const int steps = std::max(1, static_cast<int>(2 * length_cells));
+  float height = a[1];
+  for (int k = 0; k <= steps; ++k) {
+    const float share = static_cast<float>(k) / static_cast<float>(steps);
+    const int x = static_cast<int>((a[0] + share * (x_m - a[0]) - field.bmin[0]) / field.cs);
+    const int z = static_cast<int>((a[2] + share * (z_m - a[2]) - field.bmin[2]) / field.cs);
+    if (x < 0 || z < 0 || x >= field.width || z >= field.height) continue;
+    const rcCompactCell& cell = field.cells[x + z * field.width];
+    float nearest = climb_m, here = height;
+    for (unsigned i = 0; i < cell.count; ++i) {
+      const float top =
+          field.bmin[1] + static_cast<float>(field.spans[cell.index + i].y + 1) * field.ch;
+      if (std::abs(top - height) > nearest) continue;
+      nearest = std::abs(top - height);
+      here = top;
+    }
+    height = here;
+  }
+  return height;
+}
+
+/// Recast looks up the heights of the detail mesh by column, and where a simplified edge reaches a
+/// column of another floor or flight, it takes that: slivers that lead there. A vertex to which no
+/// corner of its polygon leads straight gets the height to which the nearest does.
+void MendDetail(const rcPolyMesh& polys, const rcCompactHeightfield& field, float climb_m,
+                rcPolyMeshDetail& detail) {
+  for (int p = 0; p < polys.npolys; ++p) {
+    const unsigned short* indices = &polys.polys[2 * p * polys.nvp];
+    std::vector<RecastPoint> corners;
+    for (int k = 0; k < polys.nvp && indices[k] != RC_MESH_NULL_IDX; ++k) {
+      const unsigned short* cells = &polys.verts[3 * indices[k]];
+      corners.push_back({polys.bmin[0] + static_cast<float>(cells[0]) * polys.cs,
+                         polys.bmin[1] + static_cast<float>(cells[1]) * polys.ch,
+                         polys.bmin[2] + static_cast<float>(cells[2]) * polys.cs});
+    }
+    const unsigned first = detail.meshes[4 * p], count = detail.meshes[4 * p + 1];
+    for (std::size_t i = first + corners.size(); i < std::size_t{first} + count; ++i) {
+      float* v = &detail.verts[3 * i];
+      const auto away = [v](const RecastPoint& c) { return std::hypot(c[0] - v[0], c[2] - v[2]); };
+      std::sort(corners.begin(), corners.end(),
+                [&](const auto& a, const auto& b) { return away(a) < away(b); });
+      std::optional<float> mended;
+      for (const RecastPoint& corner : corners) {
+        const float height = WalkHeight(field, corner, v[0], v[2], climb_m);
+        if (!mended) mended = height;
+        if (std::abs(height - v[1]) <= climb_m) mended = v[1];
+      }
+      v[1] = mended.value_or(v[1]);
+    }
+  }
+}
+
 /// Steps 1 to 7 of Recast's pipeline for one tile. False where Recast runs out of memory.
 struct TileBuilder {
   const Soup& soup;
@@ -139,9 +197,13 @@ struct TileBuilder {
     detail.reset(rcAllocPolyMeshDetail());
     if (!polys || !detail) return false;
     if (contours->nconts == 0) return true;
-    return rcBuildPolyMesh(&context, *contours, config.maxVertsPerPoly, *polys) &&
-           rcBuildPolyMeshDetail(&context, *polys, field, config.detailSampleDist,
-                                 config.detailSampleMaxError, *detail);
+    if (!rcBuildPolyMesh(&context, *contours, config.maxVertsPerPoly, *polys) ||
+        !rcBuildPolyMeshDetail(&context, *polys, field, config.detailSampleDist,
+                               config.detailSampleMaxError, *detail)) {
+      return false;
+    }
+    MendDetail(*polys, field, static_cast<float>(config.walkableClimb) * config.ch, *detail);
+    return true;
   }
 };
 

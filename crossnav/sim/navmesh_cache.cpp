@@ -11,7 +11,7 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr char kMagic[8] = {'c', 'n', 'a', 'v', 'm', 's', 'h', '1'};
+constexpr char kMagic[8] = {'c', 'n', 'a', 'v', 'm', 's', 'h', '2'};
 
 struct Head {
   char magic[8];

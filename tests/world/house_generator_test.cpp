@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "crossnav/sim/navmesh.h"
@@ -189,6 +190,30 @@ TEST(HouseGate, RefusesWhatCannotBeReached) {
   HousePlan doubled = *plan;
   doubled.furniture.push_back(doubled.furniture.front());
   EXPECT_EQ(check(doubled).error().what, "furniture intersects");
+}
+
+// House 31 let the robot fall from the top floor into the one below, beside an open door.
+TEST(HouseGenerator, NoTriangleOfTheNavMeshLeadsToAnotherFloor) {
+  const test::TempFolder dir;
+  HouseParams params;
+  params.seed = 31;
+  params.floors = 3;
+  const auto report = GenerateHouse(params, dir.path());
+  ASSERT_TRUE(report) << report.error().Message();
+  const auto scene = sim::LoadScene(report->folder);
+  ASSERT_TRUE(scene) << scene.error().Message();
+  const sim::NavMeshSettings settings;
+  const auto navmesh = sim::NavMesh::Build(*scene, settings);
+  ASSERT_TRUE(navmesh) << navmesh.error().Message();
+  const double slope = std::tan(DegToRad(settings.max_slope_deg));
+  for (const auto& triangle : navmesh->Triangles()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3f side = triangle.p_world[(k + 1) % 3] - triangle.p_world[k];
+      EXPECT_LE(std::abs(side.z()),
+                settings.max_climb_m + settings.cell_m + slope * side.head<2>().norm())
+          << triangle.p_world[k].transpose();
+    }
+  }
 }
 
 }  // namespace
