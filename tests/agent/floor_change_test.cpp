@@ -61,6 +61,40 @@ TEST(FloorChange, ASplitLevelOfTwoRisersIsTheSameFloor) {
   ExpectFound(testing::SplitLevel(), BoxOf(7.6, 2.6, 0, 8.5, 3.5, 0.7), 300);
 }
 
+/// Odometry that is up to 5 cm wrong in height, here too high and there too low.
+BoxWalker Drifting(BoxWalker walker) {
+  walker.drift_z_m = 0.004;
+  return walker;
+}
+
+TEST(FloorChange, FloorsAreChangedWithFiveCentimetresOfHeightDrift) {
+  ExpectFound(Drifting(testing::TwoStoreys()), testing::kUpperCouch, 400);
+  ExpectFound(Drifting(testing::OpenRisers()), testing::kUpperCouch, 400);
+  BoxWalker walker = Drifting(testing::TwoStoreys());
+  walker.pose.p_world = Vector3d(6.5, 3.0, 2.8);
+  ExpectFound(walker, testing::kLowerCouch, 400);
+}
+
+// Floors that lie in two layers of voxels must not look like steps, edges or storeys of their own.
+TEST(FloorChange, HeightDriftNeitherEndsNorLengthensASearch) {
+  const auto search = [](BoxWalker walker) {
+    Agent agent(SmallConfig(), FakeSuite({}));
+    EXPECT_TRUE(agent.SetGoal("bed").has_value());  // there is none
+    return RunAgent(agent, walker, 900);
+  };
+  const Walk exact = search(testing::TwoStoreys()),
+             drifting = search(Drifting(testing::TwoStoreys()));
+  EXPECT_TRUE(exact.all_explored);
+  EXPECT_TRUE(drifting.all_explored);
+  EXPECT_LE(drifting.traces.size(), 1.5 * exact.traces.size());
+  const auto level_changes = [](const Walk& walk) {
+    return std::count_if(walk.traces.begin(), walk.traces.end(), [](const std::string& step) {
+      return step.find("new level") != std::string::npos;
+    });
+  };
+  EXPECT_LE(level_changes(drifting), level_changes(exact) + 1);
+}
+
 TEST(FloorChange, TheEdgeOfAGalleryIsNoWayDown) {
   // The flight is walled off at its top: nothing leads down, and the agent says so.
   BoxWalker walker = testing::TwoStoreys();

@@ -22,12 +22,16 @@ struct BoxWalker {
   SensorConfig sensor;
   ActionConfig action;
   double radius_m = 0.1;
+  double drift_z_m = 0;          ///< that a forward step adds to the believed height
+  double most_drift_z_m = 0.05;  ///< where it turns round
+  double believed_above_m = 0;   ///< by how much it is wrong by now
 
   Observation Look() const {
     Observation obs;
     obs.camera = sensor.Intrinsics();
     obs.T_world_camera = CameraPose(pose, sensor.camera_height_m);
     obs.depth_m = crossnav::testing::RenderDepth(rooms, obs.camera, obs.T_world_camera);
+    obs.T_world_camera.translation().z() += believed_above_m;
     obs.rgb = RgbImage(sensor.width_px, sensor.height_px);
     return obs;
   }
@@ -64,6 +68,8 @@ struct BoxWalker {
     if (what == Action::kLookUp) pose.pitch_rad = std::min(limit, pose.pitch_rad + pitch);
     if (what == Action::kLookDown) pose.pitch_rad = std::max(-limit, pose.pitch_rad - pitch);
     if (what != Action::kMoveForward) return;
+    believed_above_m += drift_z_m;
+    if (std::abs(believed_above_m) >= most_drift_z_m) drift_z_m = -drift_z_m;
     // In five parts, as far as the way is free: steps may be climbed, drops are not jumped down.
     for (int part = 0; part < 5; ++part) {
       Vector3d next =
