@@ -93,8 +93,9 @@ class OpenVinoSession : public Session {
       : where_(std::move(where)) {
     auto model = TheCore().read_model(onnx, ov::Tensor());
     FixShapes(*model, options.shapes);
+    // Pinned, every process's first stream is on the same core, and the caller with it.
     compiled_ = TheCore().compile_model(model, "CPU", ov::inference_num_threads(options.threads),
-                                        ov::num_streams(1),
+                                        ov::num_streams(1), ov::hint::enable_cpu_pinning(false),
                                         ov::hint::inference_precision(ov::element::f32));
     request_ = compiled_.create_infer_request();
     for (const auto& node : compiled_.inputs()) inputs_.push_back(PortOf(node));

@@ -11,6 +11,7 @@
 #else
 #include <embree3/rtcore.h>
 #endif
+#include <tbb/task_arena.h>
 
 namespace crossnav::sim {
 
@@ -21,9 +22,16 @@ struct EmbreeRelease {
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
 using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease>;
 
-/// One thread, and no newer `instructions` than these (sse2, sse4.2, avx, avx2, avx512).
+/// No newer `instructions` than these (sse2, sse4.2, avx, avx2, avx512).
 inline std::string EmbreeConfig(const std::string& instructions) {
-  return "threads=1,max_isa=" + instructions;
+  return "max_isa=" + instructions;
+}
+
+/// Builds in the calling thread alone. Embree's own setting, threads=1, limits TBB in the whole
+/// process, and a thread of OpenVINO's, which shares it, then turns in circles on another core.
+inline void Commit(RTCScene scene) {
+  tbb::task_arena alone(1);
+  alone.execute([scene] { rtcCommitScene(scene); });
 }
 
 /// Closest hit of 16 rays from about the same place in about the same direction.

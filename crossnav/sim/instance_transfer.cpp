@@ -115,7 +115,7 @@ EmbreeScene MakeQueryScene(RTCDevice device, const TriangleMesh& mesh) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene.get(), geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene.get());
+  Commit(scene.get());
   return scene;
 }
 

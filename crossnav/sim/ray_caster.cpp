@@ -134,7 +134,7 @@ struct RayCaster::Impl {
     }
     AddGeometry(0);
     AddGeometry(1);
-    rtcCommitScene(rays.get());
+    Commit(rays.get());
   }
 
   struct Hit {
