@@ -136,6 +136,19 @@ Result<Subject> ChooseSubject(const BenchOptions& options, const bench::RunConfi
   return Subject{scenes, std::move(*episode)};
 }
 
+/// Removed at the end.
+struct ScratchFolder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("crossnav-bench-{}", ::getpid());
+  ScratchFolder() = default;
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
 }  // namespace
 
 Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Console& console) {
@@ -149,8 +162,9 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
     return Fail(ErrorCode::kInvalid, "give the scenes of the episodes", "--scenes");
   }
   std::filesystem::path scenes = options.scenes;
+  ScratchFolder scratch;  // one of its own: two of these may run at once
   if (scenes.empty()) {
-    scenes = std::filesystem::temp_directory_path() / fmt::format("crossnav-bench-{}", ::getuid());
+    scenes = scratch.path;
     if (auto house = world::WriteEmbeddedHouse(scenes); !house)
       return tl::unexpected(house.error());
   }

@@ -2,7 +2,9 @@
 // Runs the program: exit codes, one clear message, nothing half written, one JSON document.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include "apps/cli_fixture.h"
 #include "support/zip_archive.h"
@@ -78,6 +80,20 @@ TEST_F(Cli, BenchStairsPrintsARowPerKindAndDirection) {
           kept["episodes"][0]["episode_id"].get<std::string>() + kSmall);
   EXPECT_EQ(again.exit_code, 0) << again.err;
   ExpectFailure("bench stairs --quiet --count 1 --keep /proc/none", {"--keep"});
+}
+
+// Both wrote the house into one folder, and the second removed it from under the first.
+TEST_F(Cli, TwoBenchesRunAtOnce) {
+  const std::string bench = std::string("bench --quiet") + kSmall;
+  for (int round = 0; round < 3; ++round) {
+    const Outcome outcome =
+        RunIn(folder_, bench, "('" CROSSNAV_PROGRAM "' " + bench + " >beside 2>&1; touch ended) &");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (int i = 0; i < 300 && !std::filesystem::exists(At("ended")); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_NE(ReadText(At("beside")).find("steps/s"), std::string::npos) << ReadText(At("beside"));
+    std::filesystem::remove(At("ended"));
+  }
 }
 
 TEST_F(Cli, SceneInfoFollowsTheContract) {
