@@ -58,6 +58,7 @@ COMMON = re.compile(r"^(Eigen/|fmt/|gtest/|gmock/|benchmark/)")
 ADAPTERS = {
     "tl-expected": (r"^tl/", ["crossnav/core/result.h"]),
     "Embree": (r"^embree[34]/", ["crossnav/sim/embree_shim.h"]),
+    "oneTBB": (r"^tbb/", ["crossnav/sim/embree_shim.h"]),
     "meshoptimizer": (r"^meshoptimizer", ["crossnav/world/mesh/simplify.cpp"]),
     "tinygltf": (r"^tiny_gltf", ["crossnav/sim/gltf_accessor.h"]),
     "Recast and Detour": (r"^recastnavigation/", ["crossnav/sim/navmesh*",
