@@ -82,22 +82,19 @@ Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config,
                   "family \"" + card->family + "\" has no " + part + "; networks." + part +
                       " must name a card that does",
                   path.string());
-    if (set.cards_.count(name) == 0) {
-      const auto bytes = ReadNetworkFile(*card);
-      if (!bytes) return tl::unexpected(bytes.error());
-      if (auto ok = HasHash(*card, "sha256", card->sha256, *bytes); !ok)
-        return tl::unexpected(ok.error());
-      set.hashes_[card->name()] = card->sha256;
-      if (auto ok = set.HashSeconds(*card); !ok) return tl::unexpected(ok.error());
-    }
-    if (part == std::string_view("encoder"))
-      set.encoder_name_ = EncoderNameOf(set.cards_.count(name) == 0 ? *card : set.cards_[name]);
+    if (set.cards_.count(name) == 0)
+      if (auto ok = set.HashFiles(*card); !ok) return tl::unexpected(ok.error());
+    if (part == std::string_view("encoder")) set.encoder_name_ = EncoderNameOf(*card);
     set.cards_.emplace(name, std::move(*card));
   }
   return set;
 }
 
-Result<void> NetworkSet::HashSeconds(const ModelCard& card) {
+Result<void> NetworkSet::HashFiles(const ModelCard& card) {
+  const auto own = ReadNetworkFile(card);
+  if (!own) return tl::unexpected(own.error());
+  if (auto ok = HasHash(card, "sha256", card.sha256, *own); !ok) return ok;
+  hashes_[card.name()] = card.sha256;
   const auto add = [&](const char* what, const char* key, const std::filesystem::path& file,
                        const std::string& hash) -> Result<void> {
     if (file.empty()) return {};

@@ -40,7 +40,7 @@ class NetworkSet {
   const std::string& encoder_name() const { return encoder_name_; }
 
  private:
-  Result<void> HashSeconds(const ModelCard& card);
+  Result<void> HashFiles(const ModelCard& card);
   Result<Model*> ModelOf(const std::string& name, const ModelOptions& options);
 
   NetworksConfig config_;
