@@ -44,12 +44,13 @@ def plot(control, kinds, out):
 
     figure, axes = pyplot.subplots(len(kinds), 2, figsize=(8, 1.7 * len(kinds)), squeeze=False,
                                    constrained_layout=True)
+    most_cm = 105 * max(row["map_error_m"] for rows in kinds.values() for row in [control, *rows])
     for (left, right), (kind, rows) in zip(axes, kinds.items()):
         labels = [row["value"] for row in rows]
         for axis, values, level, name, top in (
                 (left, [reached(row) for row in rows], reached(control), "goals reached [%]", 105),
                 (right, [100 * row["map_error_m"] for row in rows],
-                 100 * control["map_error_m"], "map error [cm]", None)):
+                 100 * control["map_error_m"], "map error [cm]", most_cm)):
             axis.axhline(level, color="0.6", linewidth=1)
             axis.plot(labels, values, "k.-")
             axis.set_ylim(0, top)
