@@ -2,6 +2,7 @@
 #include "crossnav/sim/ray_caster.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
@@ -266,6 +267,17 @@ TEST(RayCaster, TwoRendersAreByteIdentical) {
   EXPECT_EQ(a.rgb.data, b.rgb.data);
   EXPECT_EQ(a.depth_m.data, b.depth_m.data);
   EXPECT_EQ(a.instance.data, b.instance.data);
+}
+
+// Embree's limit of one thread held for all that uses TBB in the process, OpenVINO first of all.
+TEST(RayCaster, LeavesOthersTheirThreads) {
+  const auto limit = tbb::global_control::max_allowed_parallelism;
+  const std::size_t before = tbb::global_control::active_value(limit);
+  MicroScene micro;
+  micro.Room(0, 0, 6, 6);
+  const Scene scene = micro.Finish();
+  const RayCaster caster(scene);
+  EXPECT_EQ(tbb::global_control::active_value(limit), before);
 }
 
 }  // namespace
