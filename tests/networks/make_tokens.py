@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes data/tokens/: 1,000 texts of all scripts, small vocabularies, and what the tokenizers of transformers (CLIPTokenizer,
+"""Writes data/tokens/: 1,000 texts of all scripts, small vocabularies (kept where they are: their training breaks ties by chance), and what the tokenizers of transformers (CLIPTokenizer,
 BertTokenizer) make of the texts; prints how far open_clip's agrees with them. Needs networks/paper/requirements.txt.
 
-    make_tokens.py bpe_simple_vocab_16e6.txt.gz
+    make_tokens.py bpe_simple_vocab_16e6.txt.gz vocab.txt
 
-tokens.tsv: text; numbers with the small merges; with CLIP's own; with the small WordPiece vocabulary.
+The two files are CLIP's merges and the vocabulary of bert-base-uncased (BERT_SHA256).
+tokens.tsv: text; numbers with the small merges; with CLIP's own; with the small WordPiece vocabulary; with BERT's own.
 """
 import gzip
+import hashlib
 import html
 import json
 import pathlib
@@ -18,6 +20,7 @@ import unicodedata
 from tokenizers import Tokenizer, models, pre_tokenizers, trainers
 from transformers import BertTokenizer, CLIPTokenizer
 
+BERT_SHA256 = "07eced375cec144d27c900241f3e339478dec958f92fddbc551f295c992038a3"
 OUT = pathlib.Path(__file__).resolve().parent / "data" / "tokens"
 WORDS = """a photo of a chair|the bed's frame, isn't it?|TV monitor|potted-plant #2|toilet (white)|sofa & couch|Küchentisch für Gäste|
 canapé déplié|sillón español ¿dónde?|krzesło żółte|стул и стол|Диван ДЛЯ гостей|καρέκλα Σοφία|kanepe İstanbul|ghế sô pha|椅子和桌子|ソファとテレビ|
@@ -67,25 +70,37 @@ def small_merges(strings, count):
     return [tuple(m) for m in json.loads(tokenizer.to_str())["model"]["merges"]]
 
 
-def escaped(text):
-    return text.replace("\\", "\\\\").replace("\t", "\\t").replace("\n", "\\n").replace("\r", "\\r")
-
-
-def main():
-    OUT.mkdir(parents=True, exist_ok=True)
-    strings = texts()
-    merges = small_merges(strings, 700)
-    (OUT / "merges.txt").write_text("#version: 0.2\n" + "".join(f"{a} {b}\n" for a, b in merges))
-
+def small_vocabulary(strings):
     pieces = Tokenizer(models.WordPiece(unk_token="[UNK]"))
     pieces.pre_tokenizer = pre_tokenizers.BertPreTokenizer()
     pieces.train_from_iterator([s.lower() for s in strings[:400]], trainers.WordPieceTrainer(
         vocab_size=1500, special_tokens=["[PAD]", "[UNK]", "[CLS]", "[SEP]", "[MASK]"]))
     vocabulary = pieces.get_vocab()
-    (OUT / "vocab.txt").write_text("".join(t + "\n" for t in sorted(vocabulary, key=vocabulary.get)))
-    bert = BertTokenizer(vocab=vocabulary, do_lower_case=True)
+    return sorted(vocabulary, key=vocabulary.get)
+
+
+def bert(path):
+    """transformers' BertTokenizer over this vocabulary, a word a line."""
+    return BertTokenizer(vocab={t: i for i, t in enumerate(path.read_text("utf-8").split("\n")[:-1])}, do_lower_case=True)
+
+
+def escaped(text):
+    return text.replace("\\", "\\\\").replace("\t", "\\t").replace("\n", "\\n").replace("\r", "\\r")
+
+
+def main():
+    own = pathlib.Path(sys.argv[2])
+    if hashlib.sha256(own.read_bytes()).hexdigest() != BERT_SHA256:
+        sys.exit(f"{own}: not the vocabulary of bert-base-uncased (SHA-256 {BERT_SHA256})")
+    OUT.mkdir(parents=True, exist_ok=True)
+    strings = texts()
+    if not (OUT / "merges.txt").exists():
+        (OUT / "merges.txt").write_text("#version: 0.2\n" + "".join(f"{a} {b}\n" for a, b in small_merges(strings, 700)))
+    if not (OUT / "vocab.txt").exists():
+        (OUT / "vocab.txt").write_text("".join(t + "\n" for t in small_vocabulary(strings)))
+    merges = [tuple(line.split()) for line in (OUT / "merges.txt").read_text().splitlines()[1:]]
     lines = gzip.open(sys.argv[1], "rt", encoding="utf-8").read().split("\n")[1:49152 - 256 - 2 + 1]
-    readers = [clip(merges), clip([tuple(line.split()) for line in lines]), bert]
+    readers = [clip(merges), clip([tuple(line.split()) for line in lines]), bert(OUT / "vocab.txt"), bert(own)]
     rows = [[r(text)["input_ids"] for r in readers] for text in strings]
     compare_open_clip(strings, [numbers[1] for numbers in rows])
     with open(OUT / "tokens.tsv", "w", encoding="utf-8") as out:

@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -19,7 +20,7 @@ constexpr std::size_t kAll = 4096;  // long enough for every text
 
 struct Row {
   std::string text;
-  std::array<std::vector<std::int32_t>, 3> numbers;
+  std::array<std::vector<std::int32_t>, 4> numbers;
 };
 
 std::string Unescaped(const std::string& text) {
@@ -92,6 +93,14 @@ TEST(Tokenizers, WordPiecesEqualThoseOfTransformers) {
   const auto tokenizer = ReadWordPieceTokenizer(DataFile("tokens/vocab.txt"));
   ASSERT_TRUE(tokenizer) << tokenizer.error().Message();
   ExpectEqual(**tokenizer, 2);
+}
+
+TEST(Tokenizers, BertsOwnVocabularyToo) {
+  const char* vocabulary = std::getenv("CROSSNAV_BERT_VOCABULARY");
+  if (vocabulary == nullptr) GTEST_SKIP() << "CROSSNAV_BERT_VOCABULARY names no vocab.txt";
+  const auto tokenizer = ReadWordPieceTokenizer(vocabulary);
+  ASSERT_TRUE(tokenizer) << tokenizer.error().Message();
+  ExpectEqual(**tokenizer, 3);
 }
 
 TEST(Tokenizers, CutWhatIsTooLongAndKeepTheEnd) {
