@@ -167,7 +167,7 @@ struct SuiteOptions {
   std::string furniture;  ///< as in WorldOptions, for suites that use a pack
   std::string variant = "full", keep_replays = "none";
   int jobs = 1;
-  bool partial = false, force = false;  ///< as in ReportOptions
+  bool partial = false, force = false, page = false;  ///< as in ReportOptions
 };
 /// Makes the suite, unless it is there.
 Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& common, Console& console);
@@ -182,6 +182,7 @@ struct ReportOptions {
   std::string out;
   bool partial = false;  ///< accept runs with missing episodes
   bool force = false;    ///< compare runs of different tasks
+  bool page = false;     ///< OUT/report.html, too, by the Python package
 };
 Result<void> Report(const ReportOptions& options, const CommonOptions& common, Console& console);
 

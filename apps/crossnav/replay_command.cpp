@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "crossnav/bench/output_path.h"
 #include "crossnav/trace/replay_page.h"
+#include "shell.h"
 
 namespace crossnav::app {
 
@@ -11,7 +12,13 @@ Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& /*c
                           Console& console) {
   if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
   if (auto ok = bench::CheckNotInput(options.out, "--out", options.file); !ok) return ok;
-  if (auto ok = trace::ExportReplayPage(options.file, options.out); !ok) return ok;
+  if (options.out.ends_with(".rrd")) {
+    if (auto ok = RunPythonModule("crossnav.rerun", "rerun", {options.file, "--to", options.out});
+        !ok)
+      return ok;
+  } else if (auto ok = trace::ExportReplayPage(options.file, options.out); !ok) {
+    return ok;
+  }
   console.Print(options.out + "\n");
   console.Document(nlohmann::ordered_json({{"file", options.out}}));
   return {};

@@ -6,6 +6,7 @@
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/report.h"
+#include "shell.h"
 
 namespace crossnav::app {
 namespace {
@@ -52,6 +53,18 @@ Result<std::vector<bench::Comparison>> CompareAll(const std::vector<bench::Repor
   return comparisons;
 }
 
+/// report.html in `folder`.
+Result<std::string> WriteHtmlPage(const ReportOptions& options) {
+  const std::string page = (std::filesystem::path(options.out) / "report.html").string();
+  std::vector<std::string> words = options.runs;
+  words.insert(words.end(), {"--out", page});
+  if (options.partial) words.emplace_back("--partial");
+  if (auto ok = RunPythonModule("crossnav.report", "report", words); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  return page;
+}
+
 }  // namespace
 
 Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*/,
@@ -69,6 +82,12 @@ Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*
     if (auto ok = bench::WriteTextFile(path, content); !ok) return ok;
     console.Print(path.string() + "\n");
     files.push_back(path.string());
+  }
+  if (options.page) {
+    const auto page = WriteHtmlPage(options);
+    if (!page) return tl::unexpected(page.error());
+    console.Print(*page + "\n");
+    files.push_back(*page);
   }
   console.Document(nlohmann::ordered_json(
       {{"files", files},

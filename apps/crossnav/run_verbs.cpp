@@ -4,6 +4,8 @@
 namespace crossnav::app {
 namespace {
 
+constexpr const char* kPageHelp = "Also report.html, one page with plots, by the Python package";
+
 void AddPerception(CLI::App* verb, std::string& perception) {
   verb->add_option("--perception", perception,
                    "oracle (ground truth), or networks; default: eval.perception")
@@ -125,6 +127,7 @@ void AddSuites(CLI::App& app, Options& o) {
   }
   report->add_flag("--partial", o.suite.partial, "Accept other runs that are not finished");
   report->add_flag("--force", o.suite.force, "Compare runs that differ in their task");
+  report->add_flag("--page", o.suite.page, kPageHelp);
 }
 
 void AddResults(CLI::App& app, Options& o) {
@@ -136,6 +139,7 @@ void AddResults(CLI::App& app, Options& o) {
   report->add_flag("--partial", o.report.partial, "Accept runs that are not finished");
   report->add_flag("--force", o.report.force,
                    "Compare runs that differ in episodes, scenes, seed, version or task");
+  report->add_flag("--page", o.report.page, kPageHelp);
   CLI::App* metrics = AddVerb(app, o, "metrics", "The metrics of result records alone",
                               "crossnav metrics runs/full/results.jsonl --json",
                               [&o](Console& c) { return ShowMetrics(o.metrics, o.common, c); });
@@ -143,11 +147,13 @@ void AddResults(CLI::App& app, Options& o) {
 
   CLI::App* replay = app.add_subcommand("replay", "Work with replays");
   replay->require_subcommand(1);
-  CLI::App* page = AddVerb(*replay, o, "export", "A self-contained page",
+  CLI::App* page = AddVerb(*replay, o, "export", "A self-contained page, or a recording for Rerun",
                            "crossnav replay export episode.mcap --out episode.html",
                            [&o](Console& c) { return ReplayExport(o.replay, o.common, c); });
   page->add_option("REPLAY", o.replay.file, "Replay (.mcap)")->required();
-  page->add_option("--out", o.replay.out, "Page to write (.html)")->required();
+  page->add_option("--out,--to", o.replay.out,
+                   "Page to write (.html), or Rerun recording (.rrd, by the Python package)")
+      ->required();
 }
 
 /// What a recording does not say of itself, or says wrongly.

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 // `crossnav slurm`: checks what `eval` would check, writes the scripts and hands them to sbatch.
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/output_path.h"
 #include "perception_source.h"
 #include "session.h"
+#include "shell.h"
 #include "slurm_scripts.h"
 
 namespace crossnav::app {
@@ -121,22 +120,17 @@ Result<SlurmJob> MakeJob(const SlurmOptions& options, const CommonOptions& commo
   return job;
 }
 
-/// "array 12\nmerge 13\n" of submit.sh.
+/// "array 12\nmerge 13" of submit.sh.
 Result<std::string> Submit(const std::string& script) {
-  std::FILE* pipe = ::popen(("exec bash " + ShellQuoted(script) + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return Fail(ErrorCode::kIo, "no shell can be started", script);
-  std::string text;
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return text;
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  const std::size_t line = text.rfind('\n');
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+  auto answer = RunInShell("bash " + ShellQuoted(script));
+  if (!answer) return tl::unexpected(answer.error());
+  if (answer->exit_status == 0) return std::move(answer->text);
+  if (answer->exit_status == 127) {
     return Fail(ErrorCode::kNotFound, "there is no sbatch here; run this script where there is one",
                 script);
   }
   return Fail(ErrorCode::kIo,
-              "was not submitted: " + text.substr(line == std::string::npos ? 0 : line + 1) +
+              "was not submitted: " + answer->text.substr(answer->text.rfind('\n') + 1) +
                   "; correct the options, or the scripts beside it, and run it",
               script);
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "shell.h"
+
 namespace crossnav::app {
 namespace {
 
@@ -34,12 +36,6 @@ std::string Start(const SlurmJob& job) {
 }
 
 }  // namespace
-
-std::string ShellQuoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string ShardFile(const SlurmJob& job, int index) {
   if (job.tasks == 1) return job.out + "/shards/results.jsonl";

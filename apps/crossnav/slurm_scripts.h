@@ -21,9 +21,6 @@ struct SlurmJob {
   std::vector<std::string> extra;                ///< more options of sbatch, "--qos=low"
 };
 
-/// `text` as one word of a shell, whatever is in it.
-std::string ShellQuoted(const std::string& text);
-
 /// Results of task `index`, relative like `job.out`.
 std::string ShardFile(const SlurmJob& job, int index);
 

@@ -240,6 +240,7 @@ Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& commo
   std::sort(report.runs.begin(), report.runs.end());
   report.partial = options.partial;
   report.force = options.force;
+  report.page = options.page;
   return Report(report, common, console);
 }
 

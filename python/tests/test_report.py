@@ -24,6 +24,7 @@ from crossnav.report import write_report  # noqa: E402
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 PLOTS = ["conditional_by_goal", "global_by_goal", "floor_change", "budget", "distance",
          "category_outcomes", "scene_outcomes", "causes", "timing"]
+PROGRAM = os.environ.get("CROSSNAV_PROGRAM", "")
 CHECKS = """
 <script>
 const visible = () => [...document.querySelectorAll("#episode-table tbody tr")]
@@ -100,6 +101,16 @@ def test_the_figures_are_those_of_the_program(page: Path, runs: list[Path]) -> N
         for metric in ("SR", "SPL", "PR", "SR_cond_1", "SPL_global_2"):
             assert found[metric]["value"] == pytest.approx(wanted[metric]["value"])
             assert found[metric]["low"] == pytest.approx(wanted[metric]["low"])
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_the_program_writes_the_page_too(runs: list[Path], tmp_path: Path) -> None:
+    done = subprocess.run([PROGRAM, "report", str(runs[0]), "--out", str(tmp_path), "--page"],
+                          env={**os.environ, "CROSSNAV_PYTHON": sys.executable},
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == str(tmp_path / "report.html")
+    assert len(list((tmp_path / "report_files").glob("*.png"))) == len(PLOTS)
 
 
 def test_one_run_is_enough(runs: list[Path], tmp_path: Path) -> None:

@@ -2,8 +2,10 @@
 """Replays and live steps as Rerun recordings, read back with Rerun's own reader."""
 
 import json
+import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +18,7 @@ rr = pytest.importorskip("rerun")
 chunk = pytest.importorskip("rerun.chunk")
 pytest.importorskip("mcap")
 
-from crossnav.rerun import log, log_replay, write_recording  # noqa: E402
+from crossnav.rerun import draw, log, log_replay, write_recording  # noqa: E402
 from crossnav.rerun.replay import INFLATED, Camera, decode_runs
 
 Rows = dict[str, list[tuple[int | None, dict[str, Any]]]]
@@ -60,6 +62,15 @@ def rows(recording: Path) -> Rows:
     return read_rows(recording)
 
 
+def test_the_program_writes_the_same(replay: Path, rows: Rows, tmp_path: Path) -> None:
+    out = tmp_path / "r.rrd"
+    done = subprocess.run(
+        [os.environ["CROSSNAV_PROGRAM"], "replay", "export", str(replay), "--to", str(out)],
+        env={**os.environ, "CROSSNAV_PYTHON": sys.executable}, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (0, f"{out}\n"), done.stderr
+    assert set(read_rows(out)) == set(rows)
+
+
 def test_rerun_finds_the_file_sound(recording: Path) -> None:
     done = subprocess.run([sys.executable, "-m", "rerun", "rrd", "verify", str(recording)],
                           capture_output=True, text=True, check=False)
@@ -98,6 +109,29 @@ def test_path_candidates_and_scores_are_the_records(rows: Rows,
         else:
             assert not found
     assert scores
+
+
+def test_the_trail_shows_the_whole_way_at_every_step() -> None:
+    """What a viewer shows at a step: of each piece what was drawn last."""
+    feet = [[0.25 * step, 0.0, 1.0] for step in range(2 * draw.TRAIL_PIECE + 8)]
+    stream = rr.RecordingStream("test")
+    memory = stream.memory_recording()
+    for step in range(len(feet)):
+        stream.set_time("step", sequence=step)
+        draw.trail(stream, feet[:step + 1])
+    with tempfile.NamedTemporaryFile(suffix=".rrd") as file:
+        file.write(memory.drain_as_bytes())
+        file.flush()
+        drawn = read_rows(Path(file.name))
+    for last in (1, draw.TRAIL_PIECE, draw.TRAIL_PIECE + 1, len(feet) - 1):
+        way: list[list[float]] = []
+        for entity in sorted(drawn):
+            shown = [row for step, row in drawn[entity] if step is not None and step <= last]
+            if entity.startswith("/world/trail") and shown:
+                [strip] = shown[-1]["LineStrips3D:strips"]
+                assert not way or way[-1] == strip[0]
+                way += strip[1:] if way else strip
+        assert [x for x, _, _ in way] == [x for x, _, _ in feet[:last + 1]]
 
 
 def test_the_map_at_the_end_is_the_cloud_of_the_replay(rows: Rows, replay: Path) -> None:

@@ -186,6 +186,42 @@ TEST_F(EvalCli, ReportComparesRunsAndRefusesAnotherTask) {
   EXPECT_NE(ReadText(At("other/report.md")).find("**Forced"), std::string::npos);
 }
 
+/// A stand-in for the interpreter, so that no Python package is needed; python/tests has the real
+/// one.
+TEST_F(EvalCli, WhatThePythonPackageWritesIsAskedOfIt) {
+  WriteText(At("r.mcap"), "a replay");
+  WriteText(At("python's own"),
+            "#!/bin/sh\nprintf '<%s>' \"$@\" >words\n"
+            "case $* in *bad*) echo working; echo 'crossnav.rerun: bad: no'; exit 1;; "
+            "*gone*) echo 'python: No module named crossnav'; exit 1;; esac\n");
+  fs::permissions(At("python's own"), fs::perms::owner_all);
+  const auto with = [&](const std::string& python, const std::string& arguments) {
+    return RunIn(folder_, arguments, "CROSSNAV_PYTHON=\"" + python + "\"");
+  };
+  const std::string here = "$PWD/python's own";
+  const Outcome done = with(here, "replay export r.mcap --to \"it's r.rrd\"");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, "it's r.rrd\n");
+  EXPECT_EQ(ReadText(At("words")), "<-m><crossnav.rerun><r.mcap><--to><it's r.rrd>");
+  const Outcome bad = with(here, "replay export r.mcap --out bad.rrd");
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_TRUE(bad.err.ends_with("crossnav.rerun: bad: no\n")) << bad.err;
+  for (const auto& [python, out] :
+       {std::pair(here, "gone.rrd"), {std::string("no/python"), "r.rrd"}}) {
+    const Outcome none = with(python, std::string("replay export r.mcap --out ") + out);
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_NE(none.err.find("pip install \"crossnav[rerun]\""), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("CROSSNAV_PYTHON"), std::string::npos) << none.err;
+    EXPECT_EQ(std::count(none.err.begin(), none.err.end(), '\n'), 1) << none.err;
+  }
+  const std::string eval = std::string("eval --quiet --scenes scenes --episodes e.json") + kSmall;
+  ASSERT_EQ(Run(eval + " --out run").exit_code, 0);
+  const Outcome page = with(here, "report run --out report --page");
+  EXPECT_EQ(page.exit_code, 0) << page.err;
+  EXPECT_TRUE(page.out.ends_with("report/report.html\n")) << page.out;
+  EXPECT_EQ(ReadText(At("words")), "<-m><crossnav.report><run><--out><report/report.html>");
+}
+
 TEST_F(EvalCli, SuitesAreNamedAndAForeignManifestIsRefused) {
   ExpectFailure("suite make nowhere", {"nowhere", "crossnav-mfmon-1-mini"});
   WriteText(At("file"), "in the way");

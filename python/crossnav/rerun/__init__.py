@@ -89,7 +89,7 @@ class _Drawing:
         self.goals = len(replay.info["goals"])
         self.states: dict[tuple[int, int, int], int] = {}
         self.stale: set[int] = set()
-        self.before: list[float] | None = None
+        self.feet: list[list[float]] = []
         self.steps = 0
 
     def frame(self, frame: "Frame") -> None:
@@ -102,9 +102,8 @@ class _Drawing:
                 self.map()
             self.steps += 1
             draw.step_record(self.stream, {**frame.step, "events": []}, self.goals)
-            now = frame.step["agent"]["p_world"]
-            draw.trail(self.stream, self.before, now)
-            self.before = now
+            self.feet.append(frame.step["agent"]["p_world"])
+            draw.trail(self.stream, self.feet)
         self._pictures(frame)
         for level, text in frame.logs:
             draw.message(self.stream, level, text)

@@ -21,9 +21,11 @@ STATES = {1: ("occupied", (201, 205, 212)), 2: ("traversable", (120, 190, 140)),
           3: ("traversable_stair", (250, 214, 120)), 4: ("traversable_fake", (200, 220, 240)),
           5: ("stair", (245, 159, 0)), 6: ("stair_expanded", (240, 120, 40)),
           7: ("fake_stair", (190, 75, 150))}
+SEEN_THROUGH = (1, 2, 4)  # small points, to see ways, boxes and what is behind
 KINDS = {"live_poi": (214, 51, 108), "history_poi": (156, 54, 181),
          "traversable_frontier": (28, 126, 214), "descend_frontier": (232, 89, 12),
          "ascent_frontier": (245, 159, 0), "stair_frontier": (245, 159, 0)}
+TRAIL_PIECE = 50  # steps
 OTHER_KIND = (90, 90, 90)
 MASKS = {1: ("goal", (235, 60, 60)), 2: ("stairs", (60, 200, 90))}
 _LEVELS = {"DEBUG": rr.TextLogLevel.DEBUG, "WARNING": rr.TextLogLevel.WARN,
@@ -57,8 +59,8 @@ def voxels(recording: rr.RecordingStream, keys: NDArray[np.int32], states: NDArr
     for state in only:
         name, colour = STATES[state]
         centres = (keys[states == state] + 0.5) * voxel_m
-        recording.log(f"world/map/{name}",
-                      rr.Points3D(centres, radii=voxel_m / 2, colors=colour))
+        radius = voxel_m / (10 if state in SEEN_THROUGH else 2)
+        recording.log(f"world/map/{name}", rr.Points3D(centres, radii=radius, colors=colour))
 
 
 def changes(recording: rr.RecordingStream, keys: NDArray[np.int32], states: NDArray[np.uint8],
@@ -99,12 +101,15 @@ def step_record(recording: rr.RecordingStream, record: dict[str, Any],
         recording.log("log", rr.TextLog(event, level=rr.TextLogLevel.INFO))
 
 
-def trail(recording: rr.RecordingStream, before: Sequence[float] | None,
-          now: Sequence[float]) -> None:
-    """The piece of way since the step before; views show all pieces so far."""
-    if before is not None and list(before) != list(now):
-        recording.log("world/trail", rr.LineStrips3D([[before, now]], colors=(20, 120, 220),
-                                                     radii=0.015))
+def trail(recording: rr.RecordingStream, feet: Sequence[Sequence[float]]) -> None:
+    """The way so far through `feet`. It is drawn in pieces, an entity each, which
+    keep what was drawn last: a step costs no more when the way is long."""
+    if len(feet) < 2:
+        return
+    piece = (len(feet) - 2) // TRAIL_PIECE
+    points = np.array(feet[piece * TRAIL_PIECE:], float)
+    recording.log(f"world/trail/{piece}", rr.LineStrips3D([points], colors=(20, 120, 220),
+                                                          radii=0.03))
 
 
 def _finite(value: Any) -> bool:

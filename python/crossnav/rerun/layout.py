@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: MIT
 """How the viewer is arranged when a recording is opened for the first time."""
 
-import rerun as rr
 import rerun.blueprint as rrb
 
 
 def blueprint() -> rrb.Blueprint:
     """The map beside the camera's pictures, the scores below, on the timeline `step`."""
-    whole_way = rrb.VisibleTimeRanges(
-        [rr.VisibleTimeRange(timeline, start=rr.TimeRangeBoundary.infinite(),
-                             end=rr.TimeRangeBoundary.cursor_relative(seq=0))
-         for timeline in ("step",)])
     space = rrb.Spatial3DView(
         name="map", origin="/world",
-        contents=["/world/**", "- /world/changes", "- /world/camera/depth/**"],
-        overrides={"/world/trail": whole_way})
+        contents=["/world/**", "- /world/changes", "- /world/camera/depth/**"])
     pictures = rrb.Vertical(
         rrb.Spatial2DView(name="image, boxes, masks", origin="/world/camera/image"),
         rrb.Spatial2DView(name="depth", origin="/world/camera/depth"),
