@@ -13,28 +13,10 @@ namespace {
 std::vector<int> ReachableFloorsOf(const SceneContext& context, const std::string& goal,
                                    const Vector3d& p_start_world) {
   std::vector<int> floors;
-  for (const int floor : context.FloorsOf(goal)) {
-    std::vector<Vector3d> viewpoints;
-    for (const Target& target : context.TargetsOf(goal)) {
-      for (const Vector3d& p : target.viewpoints_world) {
-        if (context.navmesh().FloorOf(p) == floor) viewpoints.push_back(p);
-      }
-    }
+  for (const auto& [floor, viewpoints] : context.PlacesOf(goal).on_floor) {
     if (context.navmesh().Geodesic(p_start_world, viewpoints)) floors.push_back(floor);
   }
   return floors;
-}
-
-/// True where the goal can be observed from a viewpoint to which no floor change leads.
-bool IsSeenHere(const SceneContext& context, const std::string& goal, const Vector3d& p_start) {
-  const FloorParts& parts = context.Parts();
-  const int part = parts.PartAt(p_start), floor = context.navmesh().FloorOf(p_start);
-  for (const Target& target : context.TargetsOf(goal)) {
-    for (const Vector3d& p : target.viewpoints_world) {
-      if (context.navmesh().FloorOf(p) == floor && parts.PartAt(p) == part) return true;
-    }
-  }
-  return false;
 }
 
 std::string Text(const std::vector<int>& floors) {
@@ -69,28 +51,14 @@ void CompareCertificates(const Episode& claimed, const Episode& proven,
   }
 }
 
-/// True where a STOP at some place to which no floor change leads is a success (eval.success =
-/// box).
-bool IsSolvedHere(const SceneContext& context, const Vector3d& p_start, const std::string& goal,
-                  const EvalConfig& eval) {
-  const int floor = context.navmesh().FloorOf(p_start);
-  std::vector<const Target*> here;
-  for (const Target& target : context.TargetsOf(goal)) {
-    if (std::ranges::find(target.floors, floor) != target.floors.end()) here.push_back(&target);
-  }
-  if (here.empty()) return false;
-  return context.Parts().AnyPoint(context.Parts().PartAt(p_start), [&](const Vector3d& p_world) {
-    return std::ranges::any_of(here, [&](const Target* target) {
-      return IsWithinBoxRadius(*target, p_world, floor, eval);
-    });
-  });
-}
-
-/// The first stage, from 1, that no such place solves; 0 = all are solved.
+/// The first stage, from 1, that no STOP at a place to which no floor change leads solves; 0 = all
+/// are solved.
 int FirstStageElsewhere(const SceneContext& context, const Episode& episode,
                         const Vector3d& p_start, const EvalConfig& eval) {
+  const int floor = context.navmesh().FloorOf(p_start), part = context.Parts().PartAt(p_start);
   for (std::size_t k = 0; k < episode.goals.size(); ++k) {
-    if (!IsSolvedHere(context, p_start, episode.goals[k], eval)) return static_cast<int>(k) + 1;
+    if (!context.IsSolvedOnPart(episode.goals[k], floor, part, eval))
+      return static_cast<int>(k) + 1;
   }
   return 0;
 }
@@ -107,9 +75,11 @@ void Certify(const SceneContext& context, Episode& episode) {
   }
   episode.certificate.clear();
   episode.first_transition_stage = 0;
+  const int part = context.Parts().PartAt(p_start);
   for (std::size_t k = 0; k < episode.goals.size(); ++k) {
     episode.certificate.push_back(ReachableFloorsOf(context, episode.goals[k], p_start));
-    if (episode.first_transition_stage == 0 && !IsSeenHere(context, episode.goals[k], p_start)) {
+    if (episode.first_transition_stage == 0 &&
+        !context.IsSeenOnPart(episode.goals[k], episode.start_floor, part)) {
       episode.first_transition_stage = static_cast<int>(k) + 1;
     }
   }

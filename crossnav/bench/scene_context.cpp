@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "crossnav/bench/outcome.h"
 #include "crossnav/bench/viewpoint_cache.h"
 #include "crossnav/core/categories.h"
 
@@ -95,6 +96,9 @@ void SceneContext::UseGoals(const std::map<std::string, std::vector<GoalObject>>
     }
     if (!targets.empty()) targets_[key.substr(prefix.size())] = std::move(targets);
   }
+  places_.clear();
+  seen_.clear();
+  solved_.clear();
 }
 
 const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) const {
@@ -117,6 +121,55 @@ const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) cons
   return targets_.emplace(goal, std::move(targets)).first->second;
 }
 
+const GoalPlaces& SceneContext::PlacesOf(const std::string& goal) const {
+  const auto known = places_.find(goal);
+  if (known != places_.end()) return known->second;
+  std::vector<Vector3d> all;
+  std::map<int, std::vector<Vector3d>> on_floor;
+  GoalPlaces places;
+  for (const Target& target : TargetsOf(goal)) {
+    for (const Vector3d& p : target.viewpoints_world) {
+      const int floor = navmesh_->FloorOf(p);
+      all.push_back(p);
+      on_floor[floor].push_back(p);
+    }
+  }
+  places.viewpoints = navmesh_->FindGoals(all);
+  for (const auto& [floor, points] : on_floor) {
+    places.on_floor[floor] = navmesh_->FindGoals(points);
+  }
+  return places_.emplace(goal, std::move(places)).first->second;
+}
+
+bool SceneContext::IsSeenOnPart(const std::string& goal, int floor, int part) const {
+  const auto [seen, is_new] = seen_.try_emplace(goal);
+  if (is_new) {
+    for (const Target& target : TargetsOf(goal)) {
+      for (const Vector3d& p : target.viewpoints_world) {
+        seen->second.emplace(navmesh_->FloorOf(p), Parts().PartAt(p));
+      }
+    }
+  }
+  return seen->second.contains({floor, part});
+}
+
+bool SceneContext::IsSolvedOnPart(const std::string& goal, int floor, int part,
+                                  const EvalConfig& eval) const {
+  const std::tuple key(goal, floor, part, eval.success_radius_m);
+  const auto known = solved_.find(key);
+  if (known != solved_.end()) return known->second;
+  std::vector<const Target*> here;
+  for (const Target& target : TargetsOf(goal)) {
+    if (std::ranges::find(target.floors, floor) != target.floors.end()) here.push_back(&target);
+  }
+  const bool is_solved = !here.empty() && Parts().AnyPoint(part, [&](const Vector3d& p_world) {
+    return std::ranges::any_of(here, [&](const Target* target) {
+      return IsWithinBoxRadius(*target, p_world, floor, eval);
+    });
+  });
+  return solved_.emplace(key, is_solved).first->second;
+}
+
 std::vector<int> SceneContext::FloorsOf(const std::string& goal) const {
   std::set<int> floors;
   for (const Target& target : TargetsOf(goal)) {
@@ -127,13 +180,7 @@ std::vector<int> SceneContext::FloorsOf(const std::string& goal) const {
 
 std::optional<double> SceneContext::DistanceToGoal(const Vector3d& p_world,
                                                    const std::string& goal) const {
-  std::vector<Vector3d> viewpoints;
-  for (const Target& target : TargetsOf(goal)) {
-    viewpoints.insert(viewpoints.end(), target.viewpoints_world.begin(),
-                      target.viewpoints_world.end());
-  }
-  if (viewpoints.empty()) return std::nullopt;
-  return navmesh_->Geodesic(p_world, viewpoints);
+  return navmesh_->Geodesic(p_world, PlacesOf(goal).viewpoints);
 }
 
 std::optional<double> SceneContext::DistanceToGoalFromAbout(const Vector3d& p_world,

@@ -8,7 +8,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "crossnav/bench/episodes.h"
@@ -28,6 +30,12 @@ struct Target {
   Box3 box;
   std::vector<Vector3d> viewpoints_world;  ///< X(g); empty = cannot be observed from anywhere
   std::vector<int> floors;                 ///< of the viewpoints, sorted
+};
+
+/// Where a goal can be observed from, over all its instances.
+struct GoalPlaces {
+  sim::WalkGoals viewpoints;
+  std::map<int, sim::WalkGoals> on_floor;  ///< the same, by floor
 };
 
 class SceneContext {
@@ -50,6 +58,16 @@ class SceneContext {
 
   /// Instances of a category, or of a raw name where it is no category. Computed once per goal.
   const std::vector<Target>& TargetsOf(const std::string& goal) const;
+
+  /// The viewpoints of TargetsOf, found on the navmesh. Computed once per goal.
+  const GoalPlaces& PlacesOf(const std::string& goal) const;
+
+  /// True where the goal can be observed from some place of `part` (of Parts), on `floor`.
+  bool IsSeenOnPart(const std::string& goal, int floor, int part) const;
+
+  /// True where a STOP at some place of `part`, which is on `floor`, is a success under
+  /// eval.success = box. All places are tried, once per goal, part and radius.
+  bool IsSolvedOnPart(const std::string& goal, int floor, int part, const EvalConfig& eval) const;
 
   /// Sorted ids of the floors on which `goal` can be observed.
   std::vector<int> FloorsOf(const std::string& goal) const;
@@ -82,6 +100,9 @@ class SceneContext {
   std::unique_ptr<sim::RayCaster> caster_;
   SensorConfig sensor_;
   mutable std::map<std::string, std::vector<Target>> targets_;
+  mutable std::map<std::string, GoalPlaces> places_;
+  mutable std::map<std::string, std::set<std::pair<int, int>>> seen_;  // (floor, part)s
+  mutable std::map<std::tuple<std::string, int, int, double>, bool> solved_;
   mutable std::vector<Vector3d> walkable_world_;
   mutable std::unique_ptr<FloorParts> parts_;
 };

@@ -283,22 +283,33 @@ std::optional<double> NavMesh::Geodesic(const Vector3d& a_world, const Vector3d&
 std::optional<double> NavMesh::Geodesic(const Vector3d& a_world,
                                         std::span<const Vector3d> goals_world,
                                         std::size_t* nearest) const {
+  return Geodesic(a_world, FindGoals(goals_world), nearest);
+}
+
+WalkGoals NavMesh::FindGoals(std::span<const Vector3d> goals_world) const {
+  const std::lock_guard lock(impl_->mutex);
+  WalkGoals goals;
+  for (std::size_t i = 0; i < goals_world.size(); ++i) {
+    const auto goal = impl_->Find(goals_world[i], kSnapXy_m, kSnapZ_m);
+    if (goal) goals.places.push_back({goal->ref, WorldFromRecast(goal->p.data()), i});
+  }
+  return goals;
+}
+
+std::optional<double> NavMesh::Geodesic(const Vector3d& a_world, const WalkGoals& goals,
+                                        std::size_t* nearest) const {
   const std::lock_guard lock(impl_->mutex);
   const auto a = impl_->Find(a_world, kSnapXy_m, kSnapZ_m);
   if (!a) return std::nullopt;
-  std::vector<SurfacePoint> goals;
-  std::vector<std::size_t> index;
-  for (std::size_t i = 0; i < goals_world.size(); ++i) {
-    const auto goal = impl_->Find(goals_world[i], kSnapXy_m, kSnapZ_m);
-    if (!goal) continue;
-    goals.push_back({goal->ref, WorldFromRecast(goal->p.data())});
-    index.push_back(i);
+  std::vector<SurfacePoint> ends;
+  for (const WalkGoals::Place& place : goals.places) {
+    ends.push_back({static_cast<dtPolyRef>(place.polygon), place.p_world});
   }
-  const auto path = impl_->FindShortest(*a, goals);
+  const auto path = impl_->FindShortest(*a, ends);
   if (!path) return std::nullopt;
-  if (nearest != nullptr) *nearest = index[path->goal];
+  if (nearest != nullptr) *nearest = goals.places[path->goal].index;
   const auto points =
-      LiftPath(*impl_->query, *path, WorldFromRecast(a->p.data()), goals[path->goal].p_world);
+      LiftPath(*impl_->query, *path, WorldFromRecast(a->p.data()), ends[path->goal].p_world);
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i].p - points[i - 1].p).norm();
   return length;

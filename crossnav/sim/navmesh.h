@@ -63,6 +63,16 @@ struct FloorConnection {
   double rise_m = 0;
 };
 
+/// Goals of ways on one navmesh, found on its polygons once for many searches.
+struct WalkGoals {
+  struct Place {
+    std::uint64_t polygon = 0;
+    Vector3d p_world;       ///< on the surface
+    std::size_t index = 0;  ///< of the goal; those off the navmesh have no place
+  };
+  std::vector<Place> places;
+};
+
 class NavMesh {
  private:
   struct Impl;
@@ -93,6 +103,9 @@ class NavMesh {
   std::optional<double> Geodesic(const Vector3d& a_world, const Vector3d& b_world) const;
   /// Shortest over several goals; `nearest` gets the index of the goal.
   std::optional<double> Geodesic(const Vector3d& a_world, std::span<const Vector3d> goals_world,
+                                 std::size_t* nearest = nullptr) const;
+  WalkGoals FindGoals(std::span<const Vector3d> goals_world) const;
+  std::optional<double> Geodesic(const Vector3d& a_world, const WalkGoals& goals,
                                  std::size_t* nearest = nullptr) const;
   /// Corner points of the shortest path, first = a, last = b; empty where there is none.
   std::vector<Vector3d> ShortestPath(const Vector3d& a_world, const Vector3d& b_world) const;
