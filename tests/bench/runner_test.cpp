@@ -72,6 +72,8 @@ TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
   ASSERT_TRUE(context) << context.error().Message();
   const Target ours = (*context)->TargetsOf("toilet").front();
   const Vector3d p_far = (*context)->TargetsOf("sofa").front().viewpoints_world.front();
+  EXPECT_GT(*(*context)->DistanceToGoal(p_far, "toilet"),
+            1);  // what was worked out before is forgotten
   GoalObject goal;
   goal.object_id = ours.instance;
   goal.category = "toilet";
