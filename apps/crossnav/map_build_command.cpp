@@ -90,8 +90,8 @@ class Builder {
     if (encoder_ != nullptr) {
       const auto grid = encoder_->EncodeImage(obs);
       if (!grid) return tl::unexpected(grid.error());
-      memory_.Fuse(ends.pixels(), obs.depth_m, obs.camera, obs.T_world_camera,
-                   {grid->rows, grid->cols, grid->dim, grid->data});
+      memory_.FuseRuns(ends.runs(), obs.depth_m, obs.camera, obs.T_world_camera,
+                       {grid->rows, grid->cols, grid->dim, grid->data});
     }
     Show(so_far.counts, frame.share_done);
     return {};

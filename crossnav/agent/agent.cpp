@@ -202,17 +202,17 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   // eq:intra_frame_fusion, eq:supp_feature_fusion.
   const auto& grid = percept->features;
   const double level_m = world.has_level ? world.level_m : agent.p_world.z();
-  const std::vector<geometry::PixelVoxel> planar =
+  const std::vector<geometry::EndRun> planar =
       config.policy.planar ? CollapsedOn(level_m, end_voxels, config.map.voxel_m)
-                           : std::vector<geometry::PixelVoxel>{};
-  world.memory.Fuse(config.policy.planar ? planar : end_voxels.pixels(), obs.depth_m, obs.camera,
-                    obs.T_world_camera, {grid.rows, grid.cols, grid.dim, grid.data});
+                           : std::vector<geometry::EndRun>{};
+  world.memory.FuseRuns(config.policy.planar ? planar : end_voxels.runs(), obs.depth_m, obs.camera,
+                        obs.T_world_camera, {grid.rows, grid.cols, grid.dim, grid.data});
   clock.Stop("fuse");
 
   // Evidence only; nothing is promoted outside a session (sec. "Stair-State Promotion").
   if (!config.policy.planar) {
-    world.stairs.Update(percept->stair_probability, end_voxels, world.map, config.policy.stair,
-                        world.step);
+    world.stairs.Update(percept->stair_probability, end_voxels.runs(), world.map,
+                        config.policy.stair, world.step);
     world.flight_survey.Update(world.stairs, world.levels_m, agent.p_world, config.map.voxel_m,
                                &world.flights);
   }

@@ -5,12 +5,12 @@
 
 namespace crossnav::agent {
 
-std::vector<geometry::PixelVoxel> CollapsedOn(double level_m, const geometry::EndVoxels& ends,
-                                              double voxel_m) {
+std::vector<geometry::EndRun> CollapsedOn(double level_m, const geometry::EndVoxels& ends,
+                                          double voxel_m) {
   constexpr double kAbove_m = 0.5;  // chosen: where furniture is seen from beside it
   const int z = CellsFloor(level_m + kAbove_m, voxel_m);
-  std::vector<geometry::PixelVoxel> collapsed = ends.pixels();
-  for (geometry::PixelVoxel& end : collapsed) end.key.z = z;
+  std::vector<geometry::EndRun> collapsed = ends.runs();
+  for (geometry::EndRun& run : collapsed) run.key.z = z;
   return collapsed;
 }
 

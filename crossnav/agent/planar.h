@@ -10,7 +10,7 @@
 namespace crossnav::agent {
 
 /// The frame's end voxels with every key moved to half a metre above `level_m`.
-std::vector<geometry::PixelVoxel> CollapsedOn(double level_m, const geometry::EndVoxels& ends,
-                                              double voxel_m);
+std::vector<geometry::EndRun> CollapsedOn(double level_m, const geometry::EndVoxels& ends,
+                                          double voxel_m);
 
 }  // namespace crossnav::agent

@@ -25,6 +25,20 @@ struct EndRun {
   VoxelKey key;
 };
 
+/// The runs of a list in the order of pixels, in an image of `width`.
+inline std::vector<EndRun> RunsOf(const std::vector<PixelVoxel>& pixels, int width) {
+  std::vector<EndRun> runs;
+  for (const PixelVoxel& p : pixels) {
+    const bool goes_on = !runs.empty() && runs.back().key == p.key &&
+                         runs.back().pixel + runs.back().count == p.pixel && p.pixel % width != 0;
+    if (goes_on)
+      ++runs.back().count;
+    else
+      runs.push_back({p.pixel, 1, p.key});
+  }
+  return runs;
+}
+
 class EndVoxels {
  public:
   const std::vector<EndRun>& runs() const { return runs_; }

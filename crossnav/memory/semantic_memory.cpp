@@ -13,6 +13,8 @@
 namespace crossnav::memory {
 namespace {
 
+using geometry::EndRun;
+
 struct RowBlock {
   std::array<std::int32_t, geometry::kBlockVoxels> row;
   RowBlock() { row.fill(-1); }
@@ -72,7 +74,7 @@ struct SemanticMemory::Impl {
     row_of_slot.clear();
   }
 
-  void GatherWeights(const std::vector<PixelVoxel>& pixels, int width);
+  void GatherWeights(std::span<const EndRun> runs, int width);
   void FuseSlot(std::int32_t slot, const float* grid, const Vector3f& p_camera_world);
   void EnforceLimit();
   void KeepMostConfident(std::int64_t count);
@@ -86,38 +88,37 @@ struct SemanticMemory::Impl {
   }
 };
 
-// Walks the pixels once, cutting them into runs of one image row, voxel and cell interval.
-void SemanticMemory::Impl::GatherWeights(const std::vector<PixelVoxel>& pixels, int width) {
+// Cuts the runs where the cell interval changes, and joins again what lost pixels cut.
+void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width) {
   geometry::GridCursor<RowBlock> cursor(index);
   CellWeights::Run run;
   VoxelKey run_key;
+  int run_row = -1;
   const auto flush = [&] {
     if (run.total <= 0) return;
     std::int32_t& cell = cursor.Touch(run_key).row[geometry::CellIndexOf(run_key)];
     weights.Add(SlotOf(cell, run_key), run);
     run.total = run.right = 0;
   };
-  int v = 0, row_begin = 0, row_end = 0;
-  for (const PixelVoxel& p : pixels) {
-    const float q = quality.data[p.pixel];
-    if (q <= 0) continue;
-    const bool is_new_row = p.pixel < row_begin || p.pixel >= row_end;
-    if (is_new_row) {
-      flush();
-      v = p.pixel / width;
-      row_begin = v * width;
-      row_end = row_begin + width;
+  for (const EndRun& ends : runs) {
+    const int v = ends.pixel / width;
+    const float* q = &quality.data[static_cast<std::size_t>(v) * width];
+    const int u_end = ends.pixel - v * width + ends.count;
+    for (int u = u_end - ends.count; u < u_end;) {
+      const std::int32_t u_cell = u_axis.first[u];
+      if (v != run_row || run_key != ends.key || run.u_cell != u_cell) {
+        flush();
+        run_row = v;
+        run_key = ends.key;
+        run.u_cell = u_cell;
+        run.v_cell = v_axis.first[v];
+        run.v_fraction = v_axis.fraction[v];
+      }
+      for (; u < u_end && u_axis.first[u] == u_cell; ++u) {
+        run.total += q[u];
+        run.right += static_cast<double>(q[u]) * u_axis.fraction[u];
+      }
     }
-    const int u = p.pixel - row_begin;
-    if (is_new_row || run_key != p.key || run.u_cell != u_axis.first[u]) {
-      flush();
-      run_key = p.key;
-      run.u_cell = u_axis.first[u];
-      run.v_cell = v_axis.first[v];
-      run.v_fraction = v_axis.fraction[v];
-    }
-    run.total += q;
-    run.right += static_cast<double>(q) * u_axis.fraction[u];
   }
   flush();
 }
@@ -195,6 +196,12 @@ SemanticMemory& SemanticMemory::operator=(SemanticMemory&&) noexcept = default;
 void SemanticMemory::Fuse(const std::vector<PixelVoxel>& pixels, const DepthImage& depth_m,
                           const CameraIntrinsics& camera, const Pose& T_world_camera,
                           const FeatureGridView& features) {
+  FuseRuns(geometry::RunsOf(pixels, depth_m.width), depth_m, camera, T_world_camera, features);
+}
+
+void SemanticMemory::FuseRuns(std::span<const EndRun> runs, const DepthImage& depth_m,
+                              const CameraIntrinsics& camera, const Pose& T_world_camera,
+                              const FeatureGridView& features) {
   Impl& m = *impl_;
   CROSSNAV_CHECK(features.rows > 0 && features.cols > 0 && features.dim > 0 &&
                      features.data.size() ==
@@ -208,7 +215,7 @@ void SemanticMemory::Fuse(const std::vector<PixelVoxel>& pixels, const DepthImag
   }
   ObservationQuality(depth_m, camera, m.config, m.quality);
   m.PrepareAxes(depth_m, features);
-  m.GatherWeights(pixels, depth_m.width);
+  m.GatherWeights(runs, depth_m.width);
   const Vector3f p_camera_world = T_world_camera.translation().cast<float>();
   for (std::int32_t slot = 0; slot < m.weights.size(); ++slot)
     m.FuseSlot(slot, features.data.data(), p_camera_world);

@@ -92,9 +92,13 @@ class SemanticMemory {
   SemanticMemory(SemanticMemory&&) noexcept;
   SemanticMemory& operator=(SemanticMemory&&) noexcept;
 
-  /// Lifts the frame's features to the end voxels `pixels` (from VoxelMap::Integrate) and fuses
+  /// Lifts the frame's features to the end voxels `runs` (from VoxelMap::Integrate) and fuses
   /// them (eq:intra_frame_fusion, eq:supp_feature_fusion). A grid that holds NaN or infinity is
   /// left out and counted. With `max_rows` set, row numbers may change here and only here.
+  void FuseRuns(std::span<const geometry::EndRun> runs, const DepthImage& depth_m,
+                const CameraIntrinsics& camera, const Pose& T_world_camera,
+                const FeatureGridView& features);
+  /// The same pixel by pixel, in the order of pixels.
   void Fuse(const std::vector<PixelVoxel>& pixels, const DepthImage& depth_m,
             const CameraIntrinsics& camera, const Pose& T_world_camera,
             const FeatureGridView& features);

@@ -13,7 +13,7 @@ namespace crossnav::policy {
 namespace {
 
 using geometry::CenterOf;
-using geometry::PixelVoxel;
+using geometry::EndRun;
 
 /// Labels of the 4-connected components of the mask with at least `min_px` pixels; 0 = none.
 Image<std::int32_t> LabelComponents(const Image<float>& probability, double threshold, int min_px,
@@ -57,9 +57,8 @@ struct Lifted {
 
 }  // namespace
 
-void StairEvidence::Update(const Image<float>& probability,
-                           const std::vector<PixelVoxel>& end_voxels, const VoxelMap& map,
-                           const StairConfig& config, int step) {
+void StairEvidence::Update(const Image<float>& probability, const std::vector<EndRun>& ends,
+                           const VoxelMap& map, const StairConfig& config, int step) {
   last_seen_.clear();
   const bool has_any = std::any_of(probability.data.begin(), probability.data.end(),
                                    [&](float p) { return p >= config.pixel_threshold; });
@@ -71,14 +70,16 @@ void StairEvidence::Update(const Image<float>& probability,
   std::int32_t last_label = 0;
   VoxelKey last_key;
   double* best = nullptr;  // of the last pixel's voxel, which is mostly this one's
-  for (const PixelVoxel& pixel : end_voxels) {
-    const std::int32_t label = labels.data[pixel.pixel];
-    if (label <= 0) continue;
-    if (label != last_label || pixel.key != last_key)
-      best = &components[label - 1].probability[pixel.key];
-    last_label = label;
-    last_key = pixel.key;
-    *best = std::max(*best, static_cast<double>(probability.data[pixel.pixel]));
+  for (const EndRun& run : ends) {
+    for (std::int32_t pixel = run.pixel; pixel < run.pixel + run.count; ++pixel) {
+      const std::int32_t label = labels.data[pixel];
+      if (label <= 0) continue;
+      if (label != last_label || run.key != last_key)
+        best = &components[label - 1].probability[run.key];
+      last_label = label;
+      last_key = run.key;
+      *best = std::max(*best, static_cast<double>(probability.data[pixel]));
+    }
   }
   for (const Lifted& component : components) {
     std::vector<VoxelKey> keys;

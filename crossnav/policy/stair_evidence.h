@@ -28,8 +28,8 @@ struct StairVoxel {
 
 class StairEvidence {
  public:
-  /// Adds one frame: components of the mask, lifted through `end_voxels` of the map's integration.
-  void Update(const Image<float>& probability, const std::vector<geometry::PixelVoxel>& end_voxels,
+  /// Adds one frame: components of the mask, lifted through `ends` of the map's integration.
+  void Update(const Image<float>& probability, const std::vector<geometry::EndRun>& ends,
               const VoxelMap& map, const StairConfig& config, int step);
 
   const std::map<VoxelKey, StairVoxel>& voxels() const { return voxels_; }

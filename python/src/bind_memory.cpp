@@ -53,7 +53,7 @@ void Fuse(MemoryHandle& self, MapHandle& map, const GridIn& features) {
                                      dim,
                                      {features.data(), features.size()}};
   const nb::gil_scoped_release others_run;
-  self.owned->Fuse(*map.ends, map.depth_m, map.camera, map.T_world_camera, view);
+  self.owned->FuseRuns(map.ends->runs(), map.depth_m, map.camera, map.T_world_camera, view);
 }
 
 std::vector<MemoryCluster> Query(MemoryHandle& self, const VectorIn& text, std::optional<int> top_k,

@@ -129,6 +129,24 @@ TEST(SemanticMemoryTest, OrderOfFramesDoesNotMatterBeyondRounding) {
   }
 }
 
+TEST(SemanticMemoryTest, HowTheRunsAreCutChangesNothing) {
+  Rng rng(12);
+  const TestFrame f = MakeFrame(60, 40, 6, 8, 32, rng);
+  std::vector<geometry::EndRun> single;
+  for (const PixelVoxel& p : f.pixels) single.push_back({p.pixel, 1, p.key});
+  const auto runs = geometry::RunsOf(f.pixels, f.depth.width);
+  ASSERT_LT(runs.size(), single.size());
+  SemanticMemory by_pixel(FloatRows()), by_run(FloatRows());
+  by_pixel.FuseRuns(single, f.depth, f.camera, f.T_world_camera, f.grid);
+  by_run.FuseRuns(runs, f.depth, f.camera, f.T_world_camera, f.grid);
+  ASSERT_EQ(by_pixel.Size(), by_run.Size());
+  for (std::int64_t row = 0; row < by_run.Size(); ++row) {
+    EXPECT_EQ(by_pixel.Keys()[row], by_run.Keys()[row]);
+    EXPECT_EQ(by_pixel.WeightAt(row), by_run.WeightAt(row));
+    EXPECT_EQ(by_pixel.FeatureAt(row), by_run.FeatureAt(row));
+  }
+}
+
 TEST(SemanticMemoryTest, HalfStorageStaysCloseOverManyFrames) {
   Rng rng(9);
   TestFrame f = MakeFrame(16, 12, 3, 4, 96, rng);

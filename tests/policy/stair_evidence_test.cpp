@@ -9,14 +9,14 @@
 namespace crossnav::policy {
 namespace {
 
-using geometry::PixelVoxel;
+using geometry::EndRun;
 using test::FlightWorld;
 using test::MakeFlight;
 
 /// A frame in which each voxel of `voxels` fills one pixel of a solid block of stair mask.
 struct Frame {
   Image<float> probability;
-  std::vector<PixelVoxel> ends;
+  std::vector<EndRun> ends;
 };
 
 Frame FrameOf(const std::vector<VoxelKey>& voxels, float probability = 0.8F) {
@@ -25,7 +25,7 @@ Frame FrameOf(const std::vector<VoxelKey>& voxels, float probability = 0.8F) {
   Frame frame{Image<float>(kWidth, rows + 4, 0.0F), {}};
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     frame.probability.data[i] = probability;
-    frame.ends.push_back({static_cast<std::int32_t>(i), voxels[i]});
+    frame.ends.push_back({static_cast<std::int32_t>(i), 1, voxels[i]});
   }
   return frame;
 }
@@ -53,12 +53,12 @@ TEST(StairEvidence, ComponentsUnderEightyPixelsAreIgnored) {
 TEST(StairEvidence, PiecesThatTouchAtACornerAreTwo) {
   const FlightWorld world = MakeFlight();
   Image<float> probability(40, 20, 0.0F);
-  std::vector<PixelVoxel> ends;
+  std::vector<EndRun> ends;
   for (int i = 0; i < 2; ++i)
     for (int v = 0; v < 8; ++v)
       for (int u = 0; u < 8; ++u) {  // two squares of 64, corner to corner
         probability.At(8 * i + u, 8 * i + v) = 0.9F;
-        ends.push_back({(8 * i + v) * 40 + 8 * i + u, world.flight[ends.size()]});
+        ends.push_back({(8 * i + v) * 40 + 8 * i + u, 1, world.flight[ends.size()]});
       }
   StairEvidence evidence;
   evidence.Update(probability, ends, world.map, {}, 0);

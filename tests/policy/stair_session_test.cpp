@@ -20,10 +20,10 @@ StairEvidence SeeAll(const VoxelMap& map, const std::vector<VoxelKey>& voxels,
                      float probability = 0.8F) {
   constexpr int kWidth = 32;
   Image<float> mask(kWidth, static_cast<int>(voxels.size()) / kWidth + 2, 0.0F);
-  std::vector<geometry::PixelVoxel> ends;
+  std::vector<geometry::EndRun> ends;
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     mask.data[i] = probability;
-    ends.push_back({static_cast<std::int32_t>(i), voxels[i]});
+    ends.push_back({static_cast<std::int32_t>(i), 1, voxels[i]});
   }
   StairEvidence evidence;
   for (int step = 0; step < 3; ++step) evidence.Update(mask, ends, map, {}, step);
