@@ -2,6 +2,7 @@
 #include "crossnav/geometry/end_rows.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 // This file is compiled once per instruction set by the include below.
 #undef HWY_TARGET_INCLUDE
@@ -98,38 +99,71 @@ struct RowPart {
   const std::int32_t *x, *y, *z;
 };
 
-// Lists `first` + i for every i < count where the two differ.
-int FindDifferent(RowPart a, RowPart b, int count, int first, std::int32_t* out) {
-  const hn::CappedTag<std::int32_t, 16> d;
+using Keys = hn::CappedTag<std::int32_t, 16>;
+
+// Where two voxels differ.
+struct Differ {
+  static HWY_INLINE hn::Mask<Keys> Of(RowPart a, RowPart b, int i) {
+    const Keys d;
+    const auto differ = [&](const std::int32_t* p, const std::int32_t* q) {
+      return hn::Ne(hn::LoadU(d, p + i), hn::LoadU(d, q + i));
+    };
+    return hn::Or(hn::Or(differ(a.x, b.x), differ(a.y, b.y)), differ(a.z, b.z));
+  }
+  static bool At(RowPart a, RowPart b, int i) {
+    return a.x[i] != b.x[i] || a.y[i] != b.y[i] || a.z[i] != b.z[i];
+  }
+};
+
+// Where two voxels share no face, or only one is there; maybe where none is.
+struct Apart {
+  static HWY_INLINE hn::Mask<Keys> Of(RowPart a, RowPart b, int i) {
+    const Keys d;
+    const auto none = hn::Set(d, kNoEnd);
+    const auto ax = hn::LoadU(d, a.x + i), bx = hn::LoadU(d, b.x + i);
+    const auto off = [&](const std::int32_t* p, const std::int32_t* q) {
+      return hn::Abs(hn::Sub(hn::LoadU(d, p + i), hn::LoadU(d, q + i)));
+    };
+    const auto sum = hn::Add(hn::Abs(hn::Sub(ax, bx)), hn::Add(off(a.y, b.y), off(a.z, b.z)));
+    const auto is_one = hn::Xor(hn::Eq(ax, none), hn::Eq(bx, none));
+    return hn::Or(is_one, hn::Gt(sum, hn::Set(d, 1)));
+  }
+  static bool At(RowPart a, RowPart b, int i) {
+    if ((a.x[i] == kNoEnd) != (b.x[i] == kNoEnd)) return true;
+    return std::abs(a.x[i] - b.x[i]) + std::abs(a.y[i] - b.y[i]) + std::abs(a.z[i] - b.z[i]) > 1;
+  }
+};
+
+// Lists `first` + i for every i < count where the two are so.
+template <class How>
+int FindWhere(RowPart a, RowPart b, int count, int first, std::int32_t* out) {
+  const Keys d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   std::array<std::uint8_t, 8> bytes{};
-  const auto differ = [&](const std::int32_t* p, const std::int32_t* q, int i) {
-    return hn::Ne(hn::LoadU(d, p + i), hn::LoadU(d, q + i));
-  };
   int found = 0, i = 0;
   for (; i + lanes <= count; i += lanes) {
-    const auto is_other =
-        hn::Or(hn::Or(differ(a.x, b.x, i), differ(a.y, b.y, i)), differ(a.z, b.z, i));
     // By scanning bits: storing compressed lanes is slow on some machines.
-    hn::StoreMaskBits(d, is_other, bytes.data());
+    hn::StoreMaskBits(d, How::Of(a, b, i), bytes.data());
     for (unsigned bits = bytes[0] | bytes[1] << 8; bits != 0; bits &= bits - 1)
       out[found++] = first + i + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
   }
   for (; i < count; ++i)
-    if (a.x[i] != b.x[i] || a.y[i] != b.y[i] || a.z[i] != b.z[i]) out[found++] = first + i;
+    if (How::At(a, b, i)) out[found++] = first + i;
   return found;
 }
 
 void FindRunsLanes(int width, RowEnds* ends) {
   const RowPart row{ends->x.data(), ends->y.data(), ends->z.data()};
   ends->starts[0] = 0;
-  ends->start_count = 1 + FindDifferent({row.x + 1, row.y + 1, row.z + 1}, row, width - 1, 1,
-                                        ends->starts.data() + 1);
+  ends->start_count = 1 + FindWhere<Differ>({row.x + 1, row.y + 1, row.z + 1}, row, width - 1, 1,
+                                            ends->starts.data() + 1);
 }
 
-int FindChangesLanes(int width, const RowEnds& row, const RowEnds& next, std::int32_t* out) {
-  return FindDifferent({row.x.data(), row.y.data(), row.z.data()},
-                       {next.x.data(), next.y.data(), next.z.data()}, width, 0, out);
+int FindApartLanes(int width, const RowEnds& row, const RowEnds& next, int shift,
+                   std::int32_t* out) {
+  return FindWhere<Apart>({row.x.data(), row.y.data(), row.z.data()},
+                          {next.x.data() + shift, next.y.data() + shift, next.z.data() + shift},
+                          width - shift, 0, out);
 }
 
 }  // namespace crossnav::geometry::HWY_NAMESPACE
@@ -140,7 +174,7 @@ namespace crossnav::geometry {
 
 HWY_EXPORT(ComputeRowLanes);
 HWY_EXPORT(FindRunsLanes);
-HWY_EXPORT(FindChangesLanes);
+HWY_EXPORT(FindApartLanes);
 
 namespace {
 constexpr int kPad = 64;  // chosen: more lanes than any instruction set has
@@ -163,8 +197,8 @@ void FindRuns(int width, RowEnds* ends) {
   HWY_DYNAMIC_DISPATCH(FindRunsLanes)(width, ends);
 }
 
-int FindChanges(int width, const RowEnds& row, const RowEnds& next, std::int32_t* out) {
-  return HWY_DYNAMIC_DISPATCH(FindChangesLanes)(width, row, next, out);
+int FindApart(int width, const RowEnds& row, const RowEnds& next, int shift, std::int32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(FindApartLanes)(width, row, next, shift, out);
 }
 
 }  // namespace crossnav::geometry

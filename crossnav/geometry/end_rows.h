@@ -38,8 +38,8 @@ void ComputeRow(const float* depth_m, int width, const RowRays& rays, RowEnds* e
 /// Fills `starts` from x, y, z.
 void FindRuns(int width, RowEnds* ends);
 
-/// Pixels whose voxels differ from row to row, into `out`, which has room for width + 64. Returns
-/// how many.
-int FindChanges(int width, const RowEnds& row, const RowEnds& next, std::int32_t* out);
+/// Pixels u of `row` whose voxel and that of u + shift in `next` share no face, or one of which is
+/// missing (maybe both are), into `out`, which has room for width + 64. Returns how many.
+int FindApart(int width, const RowEnds& row, const RowEnds& next, int shift, std::int32_t* out);
 
 }  // namespace crossnav::geometry

@@ -6,6 +6,10 @@
 namespace crossnav::geometry {
 namespace {
 
+int MaxCount(const MapConfig& config) {
+  return std::max(config.max_hits, config.min_hits);
+}
+
 /// map.clearing = never: once hit, always hit.
 void MergeForever(VoxelBlock& block) {
   const BlockMask surface = block.Surface();
@@ -24,7 +28,7 @@ void MergeForever(VoxelBlock& block) {
 /// reverse, so that what has changed is believed after a few frames whatever was seen before.
 void MergeCounted(VoxelBlock& block, const MapConfig& config) {
   if (!block.counts) block.counts = std::make_unique<HitCounts>();
-  const int max_count = std::max(config.max_hits, config.min_hits);
+  const int max_count = MaxCount(config);
   const auto is_occupied = [&](const HitCount& count) {
     return count.hits >= std::max<double>(config.min_hits, config.hit_ratio * count.passes);
   };
@@ -35,12 +39,14 @@ void MergeCounted(VoxelBlock& block, const MapConfig& config) {
     if (count.passes > 0) --count.passes;
     if (is_occupied(count)) block.hit.Set(cell);
   });
+  block.settled &= ~block.frame_hit;
   const BlockMask passed = block.frame_free & ~block.frame_hit;
-  ForEachCell(passed, [&](int cell) {
+  ForEachCell(passed & ~block.settled, [&](int cell) {
     HitCount& count = (*block.counts)[cell];
     if (count.passes < max_count) ++count.passes;
     if (count.hits > 0) --count.hits;
     if (!is_occupied(count)) block.hit.Reset(cell);
+    if (IsSettled(count, config)) block.settled.Set(cell);
   });
   block.changed_free |= passed & ~block.free;
   block.free |= passed;
@@ -51,13 +57,21 @@ void MergeCounted(VoxelBlock& block, const MapConfig& config) {
 
 }  // namespace
 
+bool IsSettled(const HitCount& count, const MapConfig& config) {
+  return count.hits == 0 && count.passes >= MaxCount(config);
+}
+
 void FrameMarker::Find(const VoxelKey& key) {
   block_ = nullptr;
   if (!IsKept(*map_, key)) return;
   block_key_ = BlockKeyOf(key);
-  GridEntry& entry = map_->grid.TouchEntry(block_key_);
-  ListInFrame(*map_, entry);
-  block_ = &entry.block;
+  Known& known = KnownOf(block_key_);
+  if (known.block == nullptr || known.key != block_key_) {
+    GridEntry& entry = map_->grid.TouchEntry(block_key_);
+    ListInFrame(*map_, entry);
+    known = {block_key_, &entry.block};
+  }
+  block_ = known.block;
 }
 
 void ListInFrame(MapData& map, GridEntry& entry) {

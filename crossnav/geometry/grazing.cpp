@@ -2,6 +2,7 @@
 #include "crossnav/geometry/grazing.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstdlib>
 
@@ -36,6 +37,12 @@ void AddGap(MapData& map, const RowEnds& a, int ua, const RowEnds& b, int ub, co
     const Apart apart = ApartOf(a, ua, b, ub);
     if (apart.sum < 2) return;
     found.is_wide = apart.greatest > 1;
+    found.first = {a.x[ua], a.y[ua], a.z[ua]};
+    if (!found.is_wide) {
+      found.step = {static_cast<std::int8_t>(b.x[ub] - a.x[ua]),
+                    static_cast<std::int8_t>(b.y[ub] - a.y[ua]),
+                    static_cast<std::int8_t>(b.z[ub] - a.z[ua])};
+    }
   } else {
     found.is_wide = true;
   }
@@ -109,32 +116,74 @@ void ForEachSegment(const PixelLine& line, bool is_wide, double depth_max_m, F&&
 }  // namespace
 
 void FindGaps(MapData& map, int v, int width, const RowEnds& row, const RowEnds* above) {
-  for (int i = 1; i < row.start_count; ++i) {
-    const int u = row.starts[i];
-    AddGap(map, row, u - 1, row, u, {u - 1, v, false, false});
+  map.apart_pixels.resize(row.starts.size());
+  const int across = FindApart(width, row, row, 1, map.apart_pixels.data());
+  for (int i = 0; i < across; ++i) {
+    const int u = map.apart_pixels[i];
+    AddGap(map, row, u, row, u + 1, {u, v, false, false, {}, {}});
   }
   if (above == nullptr) return;
-  map.changed_pixels.resize(row.starts.size());
-  const int count = FindChanges(width, *above, row, map.changed_pixels.data());
-  for (int i = 0; i < count; ++i) {
-    const int u = map.changed_pixels[i];
-    AddGap(map, *above, u, row, u, {u, v - 1, true, false});
+  const int down = FindApart(width, *above, row, 0, map.apart_pixels.data());
+  for (int i = 0; i < down; ++i) {
+    const int u = map.apart_pixels[i];
+    AddGap(map, *above, u, row, u, {u, v - 1, true, false, {}, {}});
   }
 }
 
+namespace {
+
+/// Occupied voxels that the frame passed, few of all: what is not among them needs no look at the
+/// map. By hash; a false "maybe" costs that look.
+class Contested {
+ public:
+  explicit Contested(const MapData& map) {
+    for (const GridEntry* entry : map.frame) {
+      ForEachCell(entry->block.hit & entry->block.frame_free,
+                  [&](int cell) { bits_[HashOf(KeyInBlock(entry->key, cell))] = true; });
+    }
+  }
+  bool Maybe(const VoxelKey& key) const { return bits_[HashOf(key)]; }
+  bool MaybeBetween(const PixelGap& gap) const {
+    for (int corner = 1; corner < 7; ++corner) {
+      if (Maybe(gap.first + VoxelKey{(corner & 1) != 0 ? gap.step[0] : 0,
+                                     (corner & 2) != 0 ? gap.step[1] : 0,
+                                     (corner & 4) != 0 ? gap.step[2] : 0}))
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kBits = 1 << 16;  // chosen: in the first cache, mostly empty
+  static std::size_t HashOf(const VoxelKey& key) {
+    const auto mixed = static_cast<std::uint32_t>(key.x) * 73856093U ^
+                       static_cast<std::uint32_t>(key.y) * 19349663U ^
+                       static_cast<std::uint32_t>(key.z) * 83492791U;
+    return (mixed ^ mixed >> 16) % kBits;
+  }
+  std::bitset<kBits> bits_;
+};
+
+}  // namespace
+
 void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame) {
+  if (map.gaps.empty()) return;
+  const Contested contested(map);
   GridCursor<VoxelBlock> cursor(map.grid);
   const auto spare = [&](const Vector3d& a_vox, const Vector3d& b_vox) {
     WalkRay(a_vox, b_vox, [&](const VoxelKey& key) {
+      if (!contested.Maybe(key)) return true;
       VoxelBlock* block = cursor.Find(key);
       if (block != nullptr && block->hit.Test(CellIndexOf(key)))
         block->frame_free.Reset(CellIndexOf(key));
       return true;
     });
   };
-  for (const PixelGap& gap : map.gaps)
+  for (const PixelGap& gap : map.gaps) {
+    if (!gap.is_wide && !contested.MaybeBetween(gap)) continue;
     ForEachSegment(PixelLine(frame, gap, map.config.voxel_m), gap.is_wide, map.config.depth_max_m,
                    spare);
+  }
 }
 
 }  // namespace crossnav::geometry

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "crossnav/geometry/frame.h"
 #include "crossnav/geometry/map_data.h"
 
 namespace crossnav::geometry {
@@ -48,6 +49,8 @@ Result<VoxelMap> ImportBlocks(const std::vector<MapBlock>& blocks, const MapConf
     if (is_counted && !from.counts.empty()) {
       to.counts = std::make_unique<HitCounts>();
       std::copy(from.counts.begin(), from.counts.end(), to.counts->begin());
+      for (int cell = 0; cell < kBlockVoxels; ++cell)
+        if (IsSettled(from.counts[cell], config) && !to.hit.Test(cell)) to.settled.Set(cell);
     }
     to.changed_surface = to.Surface();
     to.changed_free = to.free;

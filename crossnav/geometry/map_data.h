@@ -2,6 +2,7 @@
 // What a VoxelMap is made of, shared by the room's own source files. Internal.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -31,21 +32,23 @@ using GridEntry = Grid::Entry;
 struct PixelGap {
   int u = 0, v = 0;
   bool is_column = false;
-  bool is_wide = false;  ///< the voxels do not touch at all
+  bool is_wide = false;               ///< the voxels do not touch at all
+  VoxelKey first;                     ///< the end voxel of (u, v), where they touch
+  std::array<std::int8_t, 3> step{};  ///< from it to the other's: -1, 0 or 1 along each axis
 };
 
 struct MapData {
   MapConfig config;
   MapCells cells;
   Grid grid;
-  std::vector<GridEntry*> changed;           ///< blocks whose evidence changed since UpdateStates()
-  std::vector<GridEntry*> frame;             ///< blocks the current frame touched
-  std::vector<PixelGap> gaps;                ///< of the current frame, map.clearing = evidence
-  std::vector<std::int32_t> changed_pixels;  ///< scratch
-  RowEnds row_above;                         ///< scratch
-  RowEnds row_ends;                          ///< scratch
-  DepthView view;                            ///< of the current frame
-  EndVoxels ends;                            ///< of the current frame
+  std::vector<GridEntry*> changed;         ///< blocks whose evidence changed since UpdateStates()
+  std::vector<GridEntry*> frame;           ///< blocks the current frame touched
+  std::vector<PixelGap> gaps;              ///< of the current frame, map.clearing = evidence
+  std::vector<std::int32_t> apart_pixels;  ///< scratch
+  RowEnds row_above;                       ///< scratch
+  RowEnds row_ends;                        ///< scratch
+  DepthView view;                          ///< of the current frame
+  EndVoxels ends;                          ///< of the current frame
   std::vector<StateChange> changes;
   std::uint64_t revision = 0;
 };

@@ -154,7 +154,8 @@ class Projection {
   /// Voxels of the block whose evidence a passing ray could change.
   BlockMask Open(const VoxelBlock* block) const {
     if (block == nullptr) return ~BlockMask();
-    if (is_counted_) return ~block->frame_hit;
+    if (is_counted_)
+      return ~(block->frame_hit | (block->settled & block->free & ~block->agent_support));
     return ~(block->hit | block->frame_hit | (block->free & ~block->agent_support));
   }
 

@@ -43,11 +43,11 @@ class SparseGrid {
     Block block;
   };
 
-  SparseGrid() : slots_(64, kEmpty) {}
+  SparseGrid() : slots_(64) {}
 
   /// The block at `block_key`, or null. Cost O(1).
   const Block* Find(const VoxelKey& block_key) const {
-    const std::int32_t index = slots_[SlotOf(block_key)];
+    const std::int32_t index = slots_[SlotOf(block_key)].index;
     return index == kEmpty ? nullptr : &entries_[index].block;
   }
   Block* Find(const VoxelKey& block_key) {
@@ -56,7 +56,7 @@ class SparseGrid {
 
   /// The same with its key.
   Entry* FindEntry(const VoxelKey& block_key) {
-    const std::int32_t index = slots_[SlotOf(block_key)];
+    const std::int32_t index = slots_[SlotOf(block_key)].index;
     return index == kEmpty ? nullptr : &entries_[index];
   }
 
@@ -66,15 +66,15 @@ class SparseGrid {
   /// The same with its key; its address stays valid as long as the grid lives.
   Entry& TouchEntry(const VoxelKey& block_key) {
     std::size_t slot = SlotOf(block_key);
-    if (slots_[slot] == kEmpty) {
+    if (slots_[slot].index == kEmpty) {
       if (2 * (entries_.size() + 1) > slots_.size()) {
         Rehash(2 * slots_.size());
         slot = SlotOf(block_key);
       }
-      slots_[slot] = static_cast<std::int32_t>(entries_.size());
+      slots_[slot] = {block_key, static_cast<std::int32_t>(entries_.size())};
       entries_.push_back(Entry{block_key, Block()});
     }
-    return entries_[slots_[slot]];
+    return entries_[slots_[slot].index];
   }
 
   std::size_t size() const { return entries_.size(); }
@@ -83,27 +83,31 @@ class SparseGrid {
 
   /// Bytes held, without what blocks allocate themselves.
   std::size_t Bytes() const {
-    return slots_.size() * sizeof(std::int32_t) + entries_.size() * sizeof(Entry);
+    return slots_.size() * sizeof(Slot) + entries_.size() * sizeof(Entry);
   }
 
  private:
   static constexpr std::int32_t kEmpty = -1;
 
+  struct Slot {  // with its key, so that a search touches no block
+    VoxelKey key;
+    std::int32_t index = kEmpty;
+  };
+
   std::size_t SlotOf(const VoxelKey& block_key) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = VoxelKeyHash()(block_key) & mask;
-    while (slots_[slot] != kEmpty && entries_[slots_[slot]].key != block_key)
-      slot = (slot + 1) & mask;
+    while (slots_[slot].index != kEmpty && slots_[slot].key != block_key) slot = (slot + 1) & mask;
     return slot;
   }
 
   void Rehash(std::size_t slot_count) {
-    slots_.assign(slot_count, kEmpty);
+    slots_.assign(slot_count, Slot());
     for (std::size_t i = 0; i < entries_.size(); ++i)
-      slots_[SlotOf(entries_[i].key)] = static_cast<std::int32_t>(i);
+      slots_[SlotOf(entries_[i].key)] = {entries_[i].key, static_cast<std::int32_t>(i)};
   }
 
-  std::vector<std::int32_t> slots_;  // open addressing, power of two
+  std::vector<Slot> slots_;  // open addressing, power of two
   std::deque<Entry> entries_;
 };
 

@@ -35,6 +35,7 @@ struct VoxelBlock {
   BlockMask stair_low;      ///< bits 0 and 1 of the StairMark
   BlockMask stair_high;
   std::unique_ptr<HitCounts> counts;  ///< null where clearing = never
+  BlockMask settled;  ///< by its counts free for sure: another pass changes nothing of them
 
   // Derived: bits 0-2 VoxelState, bit 3 inflated.
   std::array<std::uint8_t, kBlockVoxels> cells{};

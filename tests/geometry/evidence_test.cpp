@@ -67,6 +67,32 @@ TEST_P(EvidenceTest, AnObjectThatMovedAwayIsGoneAfterFiveFramesThatLookThroughIt
     }
 }
 
+TEST_P(EvidenceTest, WhatAppearsWhereAllWasFreeForLongIsThereAfterTwoFramesAndGoesAgain) {
+  BoxRooms rooms;
+  rooms.shell = BoxOf(0.03, 0.03, 0.03, 6.03, 5.03, 2.63);
+  BoxRooms with_box = rooms;
+  with_box.solids.push_back(BoxOf(3.02, 2.13, 0.03, 3.61, 2.74, 0.91));
+  const CameraIntrinsics camera = IntrinsicsFromHfov(160, 160, DegToRad(90));
+  VoxelMap map(EvidenceConfig(GetParam()));
+  const AgentPose agent = StandAt(0.8, 2.2, 0, -20);
+  const VoxelKey front = KeyOf({3.02 + 0.01, 2.4, 0.5}, 0.1);
+  for (int i = 0; i < 40; ++i) Look(map, rooms, camera, agent);
+  map.UpdateStates();
+  EXPECT_FALSE(IsSurface(map.StateAt(front)));
+  // Evidence of files is judged anew.
+  auto read = ImportBlocks(ExportBlocks(map), map.config());
+  ASSERT_TRUE(read) << read.error().Message();
+  for (VoxelMap* each : {&map, &*read}) {
+    for (int i = 0; i < 2; ++i) Look(*each, with_box, camera, agent);
+    each->UpdateStates();
+    EXPECT_TRUE(IsSurface(each->StateAt(front)));
+    for (int i = 0; i < 5; ++i) Look(*each, rooms, camera, agent);
+    each->UpdateStates();
+    EXPECT_FALSE(IsSurface(each->StateAt(front)));
+  }
+  EXPECT_EQ(ExportBlocks(map), ExportBlocks(*read));
+}
+
 /// Share of the voxels of the wall y = `wall_y` that stay, of those occupied before.
 double ShareKept(const VoxelMap& map, const KeySet& wall) {
   int kept = 0;
