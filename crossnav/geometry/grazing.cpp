@@ -113,25 +113,6 @@ void ForEachSegment(const PixelLine& line, bool is_wide, double depth_max_m, F&&
   ContinuePlane(line, 1, depth_max_m, visit);
 }
 
-}  // namespace
-
-void FindGaps(MapData& map, int v, int width, const RowEnds& row, const RowEnds* above) {
-  map.apart_pixels.resize(row.starts.size());
-  const int across = FindApart(width, row, row, 1, map.apart_pixels.data());
-  for (int i = 0; i < across; ++i) {
-    const int u = map.apart_pixels[i];
-    AddGap(map, row, u, row, u + 1, {u, v, false, false, {}, {}});
-  }
-  if (above == nullptr) return;
-  const int down = FindApart(width, *above, row, 0, map.apart_pixels.data());
-  for (int i = 0; i < down; ++i) {
-    const int u = map.apart_pixels[i];
-    AddGap(map, *above, u, row, u, {u, v - 1, true, false, {}, {}});
-  }
-}
-
-namespace {
-
 /// Occupied voxels that the frame passed, few of all: what is not among them needs no look at the
 /// map. By hash; a false "maybe" costs that look.
 class Contested {
@@ -165,6 +146,21 @@ class Contested {
 };
 
 }  // namespace
+
+void FindGaps(MapData& map, int v, int width, const RowEnds& row, const RowEnds* above) {
+  map.apart_pixels.resize(row.starts.size());
+  const int across = FindApart(width, row, row, 1, map.apart_pixels.data());
+  for (int i = 0; i < across; ++i) {
+    const int u = map.apart_pixels[i];
+    AddGap(map, row, u, row, u + 1, {u, v, false, false, {}, {}});
+  }
+  if (above == nullptr) return;
+  const int down = FindApart(width, *above, row, 0, map.apart_pixels.data());
+  for (int i = 0; i < down; ++i) {
+    const int u = map.apart_pixels[i];
+    AddGap(map, *above, u, row, u, {u, v - 1, true, false, {}, {}});
+  }
+}
 
 void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame) {
   if (map.gaps.empty()) return;
