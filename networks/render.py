@@ -5,7 +5,9 @@ Houses that are there are kept, so that a run that was stopped goes on.
 """
 
 import argparse
+import concurrent.futures
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -52,6 +54,7 @@ def main():
     parser.add_argument("--pack", type=pathlib.Path, default=furniture.default_pack())
     parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
     parser.add_argument("--sets", nargs="+", default=list(common.SETS))
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="houses at a time")
     args = parser.parse_args()
     train, held = furniture.split(args.pack, args.data / "furniture")
     parts = {"train": train, "held": held}
@@ -59,10 +62,13 @@ def main():
         start = time.time()
         folder = args.data / name
         folder.mkdir(parents=True, exist_ok=True)
-        for seed in common.SETS[name]["seeds"]:
-            out = folder / f"{seed:05}"
-            if not (out / "models.json").exists():
-                render_house(args.program, name, seed, parts, out)
+        wanted = [(seed, folder / f"{seed:05}") for seed in common.SETS[name]["seeds"]]
+        missing = [(seed, out) for seed, out in wanted if not (out / "models.json").exists()]
+        with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+            made = pool.map(lambda house: render_house(args.program, name, house[0], parts, house[1]), missing)
+            for done, _ in enumerate(made, 1):
+                if done % 10 == 0:
+                    print(f"{name}: {done} of {len(missing)} houses, {time.time() - start:.0f} s", flush=True)
         print(f"{name}: {len(list(folder.glob('*/models.json')))} houses, "
               f"{time.time() - start:.0f} s", flush=True)
 

@@ -6,6 +6,7 @@ small network is run again and again. The mean of its weights goes to `masks.pt`
 """
 
 import argparse
+import os
 import pathlib
 import time
 
@@ -38,7 +39,7 @@ def arguments():
     parser.add_argument("--minutes", type=float, default=60, help="at most; the end comes at the earlier of both")
     parser.add_argument("--batch", type=int, default=32)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--seed", type=int, default=1)
     return parser.parse_args()
 
@@ -78,7 +79,7 @@ def collect(network, places, weights, count, rng):
         image, depth, height = (torch.from_numpy(np.ascontiguousarray(inputs[key]))[None]
                                 for key in ("image", "depth", "height"))
         image = (image.float() / 255).contiguous(memory_format=torch.channels_last)
-        with torch.no_grad(), torch.autocast("cpu", dtype=torch.bfloat16):
+        with torch.no_grad(), train.autocast(torch.device("cpu")):
             share = torch.softmax(network.raw(image, depth, height)["mask"].float(), 1)
         rows += windows_of(sample, inputs, share[0], rng)
     return {key: np.stack([row[key] for row in rows[:count]]) for key in rows[0]}
@@ -116,7 +117,7 @@ def batch_of(windows, chosen, rng):
 
 
 def step(head, optimizer, seen, own):
-    with torch.autocast("cpu", dtype=torch.bfloat16):
+    with train.autocast(torch.device("cpu")):
         logits = head(seen)
     loss, parts = losses.window(logits.float()[:, 0], own)
     optimizer.zero_grad(set_to_none=True)

@@ -18,35 +18,19 @@ namespace {
 constexpr double kBend = 0.5;
 constexpr double kFarthest_m = 1000;  // chosen: what is farther is no surface of a house
 
-/// Greatest and summed distance of two voxels along the axes.
-struct Apart {
-  int greatest = 0, sum = 0;
-};
-
-Apart ApartOf(const RowEnds& a, int ua, const RowEnds& b, int ub) {
-  const int dx = std::abs(a.x[ua] - b.x[ub]), dy = std::abs(a.y[ua] - b.y[ub]),
-            dz = std::abs(a.z[ua] - b.z[ub]);
-  return {std::max({dx, dy, dz}), dx + dy + dz};
-}
-
-void AddGap(MapData& map, const RowEnds& a, int ua, const RowEnds& b, int ub, const PixelGap& gap) {
+/// Of two voxels that share no face, or one of which is missing (both are: no gap).
+void AddGap(MapData& map, const RowEnds& a, int ua, const RowEnds& b, int ub, PixelGap gap) {
   const bool is_a = a.x[ua] != kNoEnd, is_b = b.x[ub] != kNoEnd;
   if (!is_a && !is_b) return;
-  PixelGap found = gap;
+  gap.is_wide = true;
   if (is_a && is_b) {
-    const Apart apart = ApartOf(a, ua, b, ub);
-    if (apart.sum < 2) return;
-    found.is_wide = apart.greatest > 1;
-    found.first = {a.x[ua], a.y[ua], a.z[ua]};
-    if (!found.is_wide) {
-      found.step = {static_cast<std::int8_t>(b.x[ub] - a.x[ua]),
-                    static_cast<std::int8_t>(b.y[ub] - a.y[ua]),
-                    static_cast<std::int8_t>(b.z[ub] - a.z[ua])};
-    }
-  } else {
-    found.is_wide = true;
+    const VoxelKey first{a.x[ua], a.y[ua], a.z[ua]};
+    const VoxelKey step = VoxelKey{b.x[ub], b.y[ub], b.z[ub]} - first;
+    gap.is_wide = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}) > 1;
+    gap.first = first;
+    gap.step = step;
   }
-  map.gaps.push_back(found);
+  map.gaps.push_back(gap);
 }
 
 /// Inverse depth of a pixel, NaN outside the image or where it says nothing.
@@ -126,9 +110,9 @@ class Contested {
   bool Maybe(const VoxelKey& key) const { return bits_[HashOf(key)]; }
   bool MaybeBetween(const PixelGap& gap) const {
     for (int corner = 1; corner < 7; ++corner) {
-      if (Maybe(gap.first + VoxelKey{(corner & 1) != 0 ? gap.step[0] : 0,
-                                     (corner & 2) != 0 ? gap.step[1] : 0,
-                                     (corner & 4) != 0 ? gap.step[2] : 0}))
+      if (Maybe(gap.first + VoxelKey{(corner & 1) != 0 ? gap.step.x : 0,
+                                     (corner & 2) != 0 ? gap.step.y : 0,
+                                     (corner & 4) != 0 ? gap.step.z : 0}))
         return true;
     }
     return false;
@@ -152,13 +136,13 @@ void FindGaps(MapData& map, int v, int width, const RowEnds& row, const RowEnds*
   const int across = FindApart(width, row, row, 1, map.apart_pixels.data());
   for (int i = 0; i < across; ++i) {
     const int u = map.apart_pixels[i];
-    AddGap(map, row, u, row, u + 1, {u, v, false, false, {}, {}});
+    AddGap(map, row, u, row, u + 1, PixelGap(u, v, false));
   }
   if (above == nullptr) return;
   const int down = FindApart(width, *above, row, 0, map.apart_pixels.data());
   for (int i = 0; i < down; ++i) {
     const int u = map.apart_pixels[i];
-    AddGap(map, *above, u, row, u, {u, v - 1, true, false, {}, {}});
+    AddGap(map, *above, u, row, u, PixelGap(u, v - 1, true));
   }
 }
 

@@ -2,7 +2,6 @@
 // What a VoxelMap is made of, shared by the room's own source files. Internal.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,9 +31,10 @@ using GridEntry = Grid::Entry;
 struct PixelGap {
   int u = 0, v = 0;
   bool is_column = false;
-  bool is_wide = false;               ///< the voxels do not touch at all
-  VoxelKey first;                     ///< the end voxel of (u, v), where they touch
-  std::array<std::int8_t, 3> step{};  ///< from it to the other's: -1, 0 or 1 along each axis
+  bool is_wide = false;  ///< the voxels do not touch at all, or one is missing
+  VoxelKey first, step;  ///< the end voxel of (u, v), and from it to the other's; where both are
+
+  PixelGap(int pixel_u, int pixel_v, bool is_down) : u(pixel_u), v(pixel_v), is_column(is_down) {}
 };
 
 struct MapData {

@@ -104,6 +104,7 @@ class NavMesh {
   /// Shortest over several goals; `nearest` gets the index of the goal.
   std::optional<double> Geodesic(const Vector3d& a_world, std::span<const Vector3d> goals_world,
                                  std::size_t* nearest = nullptr) const;
+  /// The nearest places of the navmesh, as Geodesic would find them each time.
   WalkGoals FindGoals(std::span<const Vector3d> goals_world) const;
   std::optional<double> Geodesic(const Vector3d& a_world, const WalkGoals& goals,
                                  std::size_t* nearest = nullptr) const;
