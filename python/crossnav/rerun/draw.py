@@ -27,7 +27,7 @@ KINDS = {"live_poi": (214, 51, 108), "history_poi": (156, 54, 181),
          "ascent_frontier": (245, 159, 0), "stair_frontier": (245, 159, 0)}
 TRAIL_PIECE = 50  # steps
 OTHER_KIND = (90, 90, 90)
-MASKS = {1: ("goal", (235, 60, 60)), 2: ("stairs", (60, 200, 90))}
+MASKS = {0: ("", (0, 0, 0, 0)), 1: ("goal", (235, 60, 60)), 2: ("stairs", (60, 200, 90))}
 _LEVELS = {"DEBUG": rr.TextLogLevel.DEBUG, "WARNING": rr.TextLogLevel.WARN,
            "ERROR": rr.TextLogLevel.ERROR, "FATAL": rr.TextLogLevel.CRITICAL}
 _CENTRE = np.array([[1, 0, 0.5], [0, 1, 0.5], [0, 0, 1]])  # in Rerun a pixel's edge is whole
@@ -212,8 +212,8 @@ def maps(recording: rr.RecordingStream, png: bytes, sight: dict[str, Any] | None
     low, high = (sight or {}).get("similarity_min"), (sight or {}).get("similarity_max")
     if low is not None and high is not None:
         blue = np.asarray(picture)[:, :, 2].astype(np.float32) / 255
-        recording.log("similarity", rr.Tensor(low + (high - low) * blue,
-                                              dim_names=("height", "width")))
+        recording.log("similarity", rr.DepthImage(low + (high - low) * blue, meter=1.0,
+                                                  colormap="viridis", depth_range=(0, 1)))
         recording.log("scores/similarity_max", rr.Scalars(high))
 
 

@@ -12,7 +12,7 @@ def blueprint() -> rrb.Blueprint:
     pictures = rrb.Vertical(
         rrb.Spatial2DView(name="image, boxes, masks", origin="/world/camera/image"),
         rrb.Spatial2DView(name="depth", origin="/world/camera/depth"),
-        rrb.TensorView(name="similarity", origin="/similarity"))
+        rrb.Spatial2DView(name="similarity", origin="/similarity"))
     below = rrb.Horizontal(
         rrb.TextDocumentView(name="status", origin="/status"),
         rrb.TimeSeriesView(name="scores", origin="/", contents=["/scores/**", "/claim/**"]),
