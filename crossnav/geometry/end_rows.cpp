@@ -69,11 +69,11 @@ HWY_INLINE void ComputeLanes(const float* depth_m, int u, const RowRays& rays, R
     if (flags[i] != 0) ends->special[ends->special_count++] = u + static_cast<int>(i);
 }
 
-void ComputeRowLanes(const float* depth_m, int width, const RowRays& rays, RowEnds* ends,
+void ComputeRowLanes(const float* depth_m, RowSpan pixels, const RowRays& rays, RowEnds* ends,
                      float* reach_m) {
-  const int lanes = static_cast<int>(hn::Lanes(Wide()));
+  const int lanes = static_cast<int>(hn::Lanes(Wide())), width = pixels.end;
   ends->special_count = 0;
-  int u = 0;
+  int u = pixels.first;
   for (; u + lanes <= width; u += lanes) ComputeLanes(depth_m, u, rays, ends, reach_m);
   if (u >= width) return;
   // The rest through a padded copy.
@@ -159,11 +159,13 @@ void FindRunsLanes(int width, RowEnds* ends) {
                                             ends->starts.data() + 1);
 }
 
-int FindApartLanes(int width, const RowEnds& row, const RowEnds& next, int shift,
+int FindApartLanes(RowSpan pixels, const RowEnds& row, const RowEnds& next, int shift,
                    std::int32_t* out) {
-  return FindWhere<Apart>({row.x.data(), row.y.data(), row.z.data()},
-                          {next.x.data() + shift, next.y.data() + shift, next.z.data() + shift},
-                          width - shift, 0, out);
+  const auto from = [](const RowEnds& ends, int u) {
+    return RowPart{ends.x.data() + u, ends.y.data() + u, ends.z.data() + u};
+  };
+  return FindWhere<Apart>(from(row, pixels.first), from(next, pixels.first + shift),
+                          pixels.end - pixels.first, pixels.first, out);
 }
 
 }  // namespace crossnav::geometry::HWY_NAMESPACE
@@ -188,17 +190,18 @@ void RowEnds::Resize(int width) {
   }
 }
 
-void ComputeRow(const float* depth_m, int width, const RowRays& rays, RowEnds* ends,
+void ComputeRow(const float* depth_m, RowSpan pixels, const RowRays& rays, RowEnds* ends,
                 float* reach_m) {
-  HWY_DYNAMIC_DISPATCH(ComputeRowLanes)(depth_m, width, rays, ends, reach_m);
+  HWY_DYNAMIC_DISPATCH(ComputeRowLanes)(depth_m, pixels, rays, ends, reach_m);
 }
 
 void FindRuns(int width, RowEnds* ends) {
   HWY_DYNAMIC_DISPATCH(FindRunsLanes)(width, ends);
 }
 
-int FindApart(int width, const RowEnds& row, const RowEnds& next, int shift, std::int32_t* out) {
-  return HWY_DYNAMIC_DISPATCH(FindApartLanes)(width, row, next, shift, out);
+int FindApart(RowSpan pixels, const RowEnds& row, const RowEnds& next, int shift,
+              std::int32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(FindApartLanes)(pixels, row, next, shift, out);
 }
 
 }  // namespace crossnav::geometry

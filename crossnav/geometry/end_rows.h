@@ -31,15 +31,21 @@ struct RowEnds {
   void Resize(int width);
 };
 
-/// Fills x, y, z, special and `reach_m` (see DepthView) of `width` pixels.
-void ComputeRow(const float* depth_m, int width, const RowRays& rays, RowEnds* ends,
+/// Pixels of a row, from `first` up to `end`, which is none of them.
+struct RowSpan {
+  int first = 0, end = 0;
+};
+
+/// Fills x, y, z, special and `reach_m` (see DepthView) of a row's pixels.
+void ComputeRow(const float* depth_m, RowSpan pixels, const RowRays& rays, RowEnds* ends,
                 float* reach_m);
 
 /// Fills `starts` from x, y, z.
 void FindRuns(int width, RowEnds* ends);
 
-/// Pixels u of `row` whose voxel and that of u + shift in `next` share no face, or one of which is
-/// missing (maybe both are), into `out`, which has room for width + 64. Returns how many.
-int FindApart(int width, const RowEnds& row, const RowEnds& next, int shift, std::int32_t* out);
+/// Those pixels u of `row` whose voxel and that of u + shift in `next` share no face, or one of
+/// which is missing (maybe both are), into `out`, which has room for all. Returns how many.
+int FindApart(RowSpan pixels, const RowEnds& row, const RowEnds& next, int shift,
+              std::int32_t* out);
 
 }  // namespace crossnav::geometry

@@ -6,7 +6,6 @@
 #include "crossnav/geometry/back_projection.h"
 #include "crossnav/geometry/end_rows.h"
 #include "crossnav/geometry/frame.h"
-#include "crossnav/geometry/grazing.h"
 #include "crossnav/geometry/integrate.h"
 #include "crossnav/geometry/ray_walk.h"
 
@@ -29,7 +28,7 @@ RowRays RaysOfRow(const DepthFrame& frame, const MapConfig& config, int v) {
 }
 
 /// Settles the pixels that ComputeRow left open: literally, and without an end beyond depth_max.
-void SettleSpecial(const MapConfig& config, const DepthFrame& frame, int v, RowEnds* ends,
+void SettleSpecial(const DepthFrame& frame, const MapConfig& config, int v, RowEnds* ends,
                    KeyBounds* bounds) {
   for (int i = 0; i < ends->special_count; ++i) {
     const int u = ends->special[i];
@@ -63,6 +62,13 @@ void MarkRuns(MapData& map, const RowEnds& ends, int v, FrameMarker& marker, Key
 
 }  // namespace
 
+void ComputeEnds(const DepthFrame& frame, const MapConfig& config, int v, RowSpan pixels,
+                 RowEnds* ends, float* reach_m, KeyBounds* bounds) {
+  const float* depth_m = &frame.depth_m.At(0, v);
+  ComputeRow(depth_m, pixels, RaysOfRow(frame, config, v), ends, reach_m);
+  SettleSpecial(frame, config, v, ends, bounds);
+}
+
 KeyBounds CollectEnds(MapData& map, const DepthFrame& frame) {
   const int width = frame.depth_m.width, height = frame.depth_m.height;
   const VoxelKey camera_key =
@@ -70,19 +76,11 @@ KeyBounds CollectEnds(MapData& map, const DepthFrame& frame) {
   KeyBounds bounds{camera_key, camera_key};
   FrameMarker marker(map);
   map.row_ends.Resize(width);
-  map.row_above.Resize(width);
   map.ends.Clear();
-  map.gaps.clear();
-  const bool is_counted = map.config.clearing == "evidence";
   for (int v = 0; v < height; ++v) {
-    const float* depth_m = &frame.depth_m.data[static_cast<std::size_t>(v) * width];
-    ComputeRow(depth_m, width, RaysOfRow(frame, map.config, v), &map.row_ends, map.view.Row(v));
-    SettleSpecial(map.config, frame, v, &map.row_ends, &bounds);
+    ComputeEnds(frame, map.config, v, {0, width}, &map.row_ends, map.view.Row(v), &bounds);
     FindRuns(width, &map.row_ends);
     MarkRuns(map, map.row_ends, v, marker, &bounds);
-    if (!is_counted) continue;
-    FindGaps(map, v, width, map.row_ends, v > 0 ? &map.row_above : nullptr);
-    std::swap(map.row_ends, map.row_above);
   }
   for (const GridEntry* entry : map.frame) {
     bounds.Add(KeyInBlock(entry->key, 0));

@@ -2,9 +2,11 @@
 #include "crossnav/geometry/grazing.h"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "crossnav/geometry/back_projection.h"
 #include "crossnav/geometry/ray_walk.h"
@@ -18,20 +20,15 @@ namespace {
 constexpr double kBend = 0.5;
 constexpr double kFarthest_m = 1000;  // chosen: what is farther is no surface of a house
 
-/// Of two voxels that share no face, or one of which is missing (both are: no gap).
-void AddGap(MapData& map, const RowEnds& a, int ua, const RowEnds& b, int ub, PixelGap gap) {
-  const bool is_a = a.x[ua] != kNoEnd, is_b = b.x[ub] != kNoEnd;
-  if (!is_a && !is_b) return;
-  gap.is_wide = true;
-  if (is_a && is_b) {
-    const VoxelKey first{a.x[ua], a.y[ua], a.z[ua]};
-    const VoxelKey step = VoxelKey{b.x[ub], b.y[ub], b.z[ub]} - first;
-    gap.is_wide = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}) > 1;
-    gap.first = first;
-    gap.step = step;
-  }
-  map.gaps.push_back(gap);
-}
+constexpr double kRounding_px = 0.01;  // chosen: far above that of a projection
+constexpr double kNear_m = 0.01;       // chosen: what is nearer may be seen anywhere
+
+/// Two neighbouring pixels whose end voxels do not share a face: (u, v) and the one to the right of
+/// it, or below it.
+struct PixelGap {
+  int u = 0, v = 0;
+  bool is_column = false;
+};
 
 /// Inverse depth of a pixel, NaN outside the image or where it says nothing.
 double InverseDepth(const DepthFrame& frame, int u, int v) {
@@ -103,16 +100,20 @@ class Contested {
  public:
   explicit Contested(const MapData& map) {
     for (const GridEntry* entry : map.frame) {
-      ForEachCell(entry->block.hit & entry->block.frame_free,
-                  [&](int cell) { bits_[HashOf(KeyInBlock(entry->key, cell))] = true; });
+      const VoxelBlock& block = entry->block;
+      ForEachCell(block.hit & block.frame_free & ~block.frame_hit, [&](int cell) {
+        keys_.push_back(KeyInBlock(entry->key, cell));
+        bits_[HashOf(keys_.back())] = true;
+      });
     }
   }
+  const std::vector<VoxelKey>& keys() const { return keys_; }
   bool Maybe(const VoxelKey& key) const { return bits_[HashOf(key)]; }
-  bool MaybeBetween(const PixelGap& gap) const {
+  /// Of the voxels between two that touch.
+  bool MaybeBetween(const VoxelKey& first, const VoxelKey& step) const {
     for (int corner = 1; corner < 7; ++corner) {
-      if (Maybe(gap.first + VoxelKey{(corner & 1) != 0 ? gap.step.x : 0,
-                                     (corner & 2) != 0 ? gap.step.y : 0,
-                                     (corner & 4) != 0 ? gap.step.z : 0}))
+      if (Maybe(first + VoxelKey{(corner & 1) != 0 ? step.x : 0, (corner & 2) != 0 ? step.y : 0,
+                                 (corner & 4) != 0 ? step.z : 0}))
         return true;
     }
     return false;
@@ -126,29 +127,125 @@ class Contested {
                        static_cast<std::uint32_t>(key.z) * 83492791U;
     return (mixed ^ mixed >> 16) % kBits;
   }
+  std::vector<VoxelKey> keys_;
   std::bitset<kBits> bits_;
 };
 
-}  // namespace
+/// Pixels by whose rays some contested voxel may be seen, and those beside them: a gap's segments
+/// lie between its rays, so that other gaps have nothing to spare.
+class GapPixels {
+ public:
+  static constexpr int kWordPixels = 64;
 
-void FindGaps(MapData& map, int v, int width, const RowEnds& row, const RowEnds* above) {
-  map.apart_pixels.resize(row.starts.size());
-  const int across = FindApart(width, row, row, 1, map.apart_pixels.data());
-  for (int i = 0; i < across; ++i) {
-    const int u = map.apart_pixels[i];
-    AddGap(map, row, u, row, u + 1, PixelGap(u, v, false));
+  GapPixels(const DepthFrame& frame, const std::vector<VoxelKey>& contested, double voxel_m)
+      : width_(frame.depth_m.width),
+        height_(frame.depth_m.height),
+        words_(width_ / kWordPixels + 1) {
+    bits_.resize(static_cast<std::size_t>(words_) * height_);
+    const Pose T_camera_world = frame.T_world_camera.inverse();
+    for (const VoxelKey& key : contested) Add(RectOf(frame.camera, T_camera_world, key, voxel_m));
   }
-  if (above == nullptr) return;
-  const int down = FindApart(width, *above, row, 0, map.apart_pixels.data());
-  for (int i = 0; i < down; ++i) {
-    const int u = map.apart_pixels[i];
-    AddGap(map, *above, u, row, u, PixelGap(u, v - 1, true));
+
+  void Add(const PixelRect& rect) {
+    if (rect.empty()) return;
+    for (int v = rect.v0; v <= rect.v1; ++v)
+      for (int word = rect.u0 / kWordPixels; word <= rect.u1 / kWordPixels; ++word) {
+        const int from = std::max(rect.u0 - word * kWordPixels, 0);
+        const int to = std::min(rect.u1 - word * kWordPixels, kWordPixels - 1);
+        bits_[static_cast<std::size_t>(v) * words_ + word] |=
+            ~std::uint64_t{0} << from & ~std::uint64_t{0} >> (kWordPixels - 1 - to);
+      }
+  }
+
+  int words() const { return words_; }
+  PixelRect All() const { return {0, 0, width_ - 1, height_ - 1}; }
+  RowSpan PixelsOf(int word) const {
+    return {word * kWordPixels, std::min((word + 1) * kWordPixels, width_)};
+  }
+  bool Any(int word, int v) const { return v >= 0 && WordOf(word, v) != 0; }
+  bool Test(int u, int v) const {
+    return (WordOf(u / kWordPixels, v) >> (u % kWordPixels) & 1) != 0;
+  }
+
+ private:
+  std::uint64_t WordOf(int word, int v) const {
+    return bits_[static_cast<std::size_t>(v) * words_ + word];
+  }
+
+  /// Of the gaps whose pixels are on both sides of some of the voxel's picture, or on it.
+  PixelRect RectOf(const CameraIntrinsics& K, const Pose& T_camera_world, const VoxelKey& key,
+                   double voxel_m) const {
+    double left = width_, top = height_, right = -1, bottom = -1;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3d p_camera =
+          T_camera_world * (voxel_m * Vector3d(key.x + (corner & 1), key.y + (corner >> 1 & 1),
+                                               key.z + (corner >> 2)));
+      if (p_camera.z() < kNear_m) return All();
+      const double u = K.cx + K.fx * p_camera.x() / p_camera.z();
+      const double v = K.cy + K.fy * p_camera.y() / p_camera.z();
+      left = std::min(left, u), right = std::max(right, u);
+      top = std::min(top, v), bottom = std::max(bottom, v);
+    }
+    const auto at_least = [](double px) { return static_cast<int>(std::ceil(std::max(px, 0.0))); };
+    const auto at_most = [](double px, int size) {
+      return static_cast<int>(std::floor(std::min(px, size - 1.0)));
+    };
+    return {at_least(left - 1 - kRounding_px), at_least(top - 1 - kRounding_px),
+            at_most(right + kRounding_px, width_), at_most(bottom + kRounding_px, height_)};
+  }
+
+  int width_, height_, words_;
+  std::vector<std::uint64_t> bits_;
+};
+
+/// Calls visit(gap, a, b) for the gaps at such pixels, with the end voxels of both; x is kNoEnd
+/// where there is none.
+template <class F>
+void ForEachGap(const DepthFrame& frame, const MapConfig& config, const GapPixels& where,
+                F&& visit) {
+  const int width = frame.depth_m.width, height = frame.depth_m.height;
+  RowEnds row, above;
+  row.Resize(width);
+  above.Resize(width);
+  std::vector<float> reach_m(width);
+  std::array<std::int32_t, GapPixels::kWordPixels> apart{};
+  KeyBounds unused{};
+  const auto in = [](const RowEnds& ends, int u) {
+    return VoxelKey{ends.x[u], ends.y[u], ends.z[u]};
+  };
+  for (int v = 0; v < height; ++v) {
+    const auto is_needed = [&](int word) { return where.Any(word, v) || where.Any(word, v - 1); };
+    for (int word = 0; word < where.words(); ++word) {
+      if (!is_needed(word)) continue;
+      RowSpan span = where.PixelsOf(word);
+      while (word + 1 < where.words() && is_needed(word + 1)) span.end = where.PixelsOf(++word).end;
+      span.end = std::min(span.end + 1, width);
+      ComputeEnds(frame, config, v, span, &row, reach_m.data(), &unused);
+    }
+    const auto visit_apart = [&](const RowEnds& from, RowSpan pixels, bool is_column) {
+      const int v_from = is_column ? v - 1 : v, shift = is_column ? 0 : 1;
+      const int count = FindApart(pixels, from, row, shift, apart.data());
+      for (int i = 0; i < count; ++i) {
+        const int u = apart[i];
+        if (where.Test(u, v_from))
+          visit(PixelGap{u, v_from, is_column}, in(from, u), in(row, u + shift));
+      }
+    };
+    for (int word = 0; word < where.words(); ++word) {
+      RowSpan pixels = where.PixelsOf(word);
+      if (where.Any(word, v - 1)) visit_apart(above, pixels, true);
+      pixels.end = std::min(pixels.end, width - 1);
+      if (where.Any(word, v)) visit_apart(row, pixels, false);
+    }
+    std::swap(row, above);
   }
 }
 
-void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame) {
-  if (map.gaps.empty()) return;
+}  // namespace
+
+void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame, GapSearch search) {
   const Contested contested(map);
+  if (contested.keys().empty()) return;
   GridCursor<VoxelBlock> cursor(map.grid);
   const auto spare = [&](const Vector3d& a_vox, const Vector3d& b_vox) {
     WalkRay(a_vox, b_vox, [&](const VoxelKey& key) {
@@ -159,11 +256,19 @@ void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame) {
       return true;
     });
   };
-  for (const PixelGap& gap : map.gaps) {
-    if (!gap.is_wide && !contested.MaybeBetween(gap)) continue;
-    ForEachSegment(PixelLine(frame, gap, map.config.voxel_m), gap.is_wide, map.config.depth_max_m,
-                   spare);
-  }
+  GapPixels where(frame, contested.keys(), map.config.voxel_m);
+  if (search == GapSearch::kEverywhere) where.Add(where.All());
+  ForEachGap(
+      frame, map.config, where, [&](const PixelGap& gap, const VoxelKey& a, const VoxelKey& b) {
+        const bool is_a = a.x != kNoEnd, is_b = b.x != kNoEnd;
+        if (!is_a && !is_b) return;
+        const VoxelKey step = is_a && is_b ? b - a : VoxelKey{};
+        const bool is_wide =
+            !is_a || !is_b || std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}) > 1;
+        if (!is_wide && !contested.MaybeBetween(a, step)) return;
+        ForEachSegment(PixelLine(frame, gap, map.config.voxel_m), is_wide, map.config.depth_max_m,
+                       spare);
+      });
 }
 
 }  // namespace crossnav::geometry

@@ -6,16 +6,16 @@
 // goes. Internal to the map.
 #pragma once
 
-#include "crossnav/geometry/end_rows.h"
 #include "crossnav/geometry/integrate.h"
 
 namespace crossnav::geometry {
 
-/// Adds to map.gaps the pixel pairs of the row, and between the row and the one above it, whose end
-/// voxels do not share a face. `above` is null for the first row.
-void FindGaps(MapData& map, int v, int width, const RowEnds& row, const RowEnds* above);
+/// kWhereContested looks only at the pixels in which occupied voxels that were passed may be seen,
+/// few of all; with the same result.
+enum class GapSearch { kWhereContested, kEverywhere };
 
-/// Takes the occupied voxels between the ends of map.gaps out of what the frame passed.
-void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame);
+/// Takes the occupied voxels between the ends of neighbouring pixels out of what the frame passed.
+void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame,
+                         GapSearch search = GapSearch::kWhereContested);
 
 }  // namespace crossnav::geometry

@@ -26,6 +26,11 @@ struct KeyBounds {
   }
 };
 
+/// End voxels of pixels of row v, and how far they reach (see DepthView). Those that were computed
+/// literally are added to `bounds`, be they beyond depth_max.
+void ComputeEnds(const DepthFrame& frame, const MapConfig& config, int v, RowSpan pixels,
+                 RowEnds* ends, float* reach_m, KeyBounds* bounds);
+
 /// Marks the end voxels of the frame and lists them in map.pixels.
 KeyBounds CollectEnds(MapData& map, const DepthFrame& frame);
 

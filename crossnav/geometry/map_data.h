@@ -26,29 +26,15 @@ MapCells CellsOf(const MapConfig& config);
 using Grid = SparseGrid<VoxelBlock>;
 using GridEntry = Grid::Entry;
 
-/// Two neighbouring pixels whose end voxels do not share a face: (u, v) and the one to the right of
-/// it, or below it.
-struct PixelGap {
-  int u = 0, v = 0;
-  bool is_column = false;
-  bool is_wide = false;  ///< the voxels do not touch at all, or one is missing
-  VoxelKey first, step;  ///< the end voxel of (u, v), and from it to the other's; where both are
-
-  PixelGap(int pixel_u, int pixel_v, bool is_down) : u(pixel_u), v(pixel_v), is_column(is_down) {}
-};
-
 struct MapData {
   MapConfig config;
   MapCells cells;
   Grid grid;
-  std::vector<GridEntry*> changed;         ///< blocks whose evidence changed since UpdateStates()
-  std::vector<GridEntry*> frame;           ///< blocks the current frame touched
-  std::vector<PixelGap> gaps;              ///< of the current frame, map.clearing = evidence
-  std::vector<std::int32_t> apart_pixels;  ///< scratch
-  RowEnds row_above;                       ///< scratch
-  RowEnds row_ends;                        ///< scratch
-  DepthView view;                          ///< of the current frame
-  EndVoxels ends;                          ///< of the current frame
+  std::vector<GridEntry*> changed;  ///< blocks whose evidence changed since UpdateStates()
+  std::vector<GridEntry*> frame;    ///< blocks the current frame touched
+  RowEnds row_ends;                 ///< scratch
+  DepthView view;                   ///< of the current frame
+  EndVoxels ends;                   ///< of the current frame
   std::vector<StateChange> changes;
   std::uint64_t revision = 0;
 };

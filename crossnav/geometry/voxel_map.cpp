@@ -68,7 +68,7 @@ const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntr
     CollectFreeByProjection(*data_, frame, bounds);
   else
     CollectFreeByWalking(*data_, frame);
-  SpareSurfacesInGaps(*data_, frame);
+  if (data_->config.clearing == "evidence") SpareSurfacesInGaps(*data_, frame);
   MergeFrame(*data_);
   return data_->ends;
 }
