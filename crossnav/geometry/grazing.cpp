@@ -198,48 +198,67 @@ class GapPixels {
   std::vector<std::uint64_t> bits_;
 };
 
-/// Calls visit(gap, a, b) for the gaps at such pixels, with the end voxels of both; x is kNoEnd
-/// where there is none.
-template <class F>
-void ForEachGap(const DepthFrame& frame, const MapConfig& config, const GapPixels& where,
-                F&& visit) {
-  const int width = frame.depth_m.width, height = frame.depth_m.height;
-  RowEnds row, above;
-  row.Resize(width);
-  above.Resize(width);
-  std::vector<float> reach_m(width);
-  std::array<std::int32_t, GapPixels::kWordPixels> apart{};
-  KeyBounds unused{};
-  const auto in = [](const RowEnds& ends, int u) {
-    return VoxelKey{ends.x[u], ends.y[u], ends.z[u]};
-  };
-  for (int v = 0; v < height; ++v) {
-    const auto is_needed = [&](int word) { return where.Any(word, v) || where.Any(word, v - 1); };
-    for (int word = 0; word < where.words(); ++word) {
-      if (!is_needed(word)) continue;
-      RowSpan span = where.PixelsOf(word);
-      while (word + 1 < where.words() && is_needed(word + 1)) span.end = where.PixelsOf(++word).end;
-      span.end = std::min(span.end + 1, width);
-      ComputeEnds(frame, config, v, span, &row, reach_m.data(), &unused);
-    }
-    const auto visit_apart = [&](const RowEnds& from, RowSpan pixels, bool is_column) {
-      const int v_from = is_column ? v - 1 : v, shift = is_column ? 0 : 1;
-      const int count = FindApart(pixels, from, row, shift, apart.data());
-      for (int i = 0; i < count; ++i) {
-        const int u = apart[i];
-        if (where.Test(u, v_from))
-          visit(PixelGap{u, v_from, is_column}, in(from, u), in(row, u + shift));
-      }
-    };
-    for (int word = 0; word < where.words(); ++word) {
-      RowSpan pixels = where.PixelsOf(word);
-      if (where.Any(word, v - 1)) visit_apart(above, pixels, true);
-      pixels.end = std::min(pixels.end, width - 1);
-      if (where.Any(word, v)) visit_apart(row, pixels, false);
-    }
-    std::swap(row, above);
+/// The gaps at such pixels.
+class GapFinder {
+ public:
+  GapFinder(const DepthFrame& frame, const MapConfig& config, const GapPixels& where)
+      : frame_(frame), config_(config), where_(where), reach_m_(frame.depth_m.width) {
+    row_.Resize(frame.depth_m.width);
+    above_.Resize(frame.depth_m.width);
   }
-}
+
+  /// Calls visit(gap, a, b) with the end voxels of both pixels; x is kNoEnd where there is none.
+  template <class F>
+  void ForEach(F&& visit) {
+    for (int v = 0; v < frame_.depth_m.height; ++v) {
+      ComputeNeeded(v);
+      for (int word = 0; word < where_.words(); ++word) {
+        RowSpan pixels = where_.PixelsOf(word);
+        if (where_.Any(word, v - 1)) VisitApart(above_, pixels, v - 1, true, visit);
+        pixels.end = std::min(pixels.end, frame_.depth_m.width - 1);
+        if (where_.Any(word, v)) VisitApart(row_, pixels, v, false, visit);
+      }
+      std::swap(row_, above_);
+    }
+  }
+
+ private:
+  bool IsNeeded(int word, int v) const { return where_.Any(word, v) || where_.Any(word, v - 1); }
+
+  /// The row's end voxels at the words that are asked of, in it or above, and one pixel more.
+  void ComputeNeeded(int v) {
+    KeyBounds unused{};
+    for (int word = 0; word < where_.words(); ++word) {
+      if (!IsNeeded(word, v)) continue;
+      RowSpan span = where_.PixelsOf(word);
+      while (word + 1 < where_.words() && IsNeeded(word + 1, v))
+        span.end = where_.PixelsOf(++word).end;
+      span.end = std::min(span.end + 1, frame_.depth_m.width);
+      ComputeEnds(frame_, config_, v, span, &row_, reach_m_.data(), &unused);
+    }
+  }
+
+  /// Between `from`, which is row v, and the pixels beside it or, in row_, below it.
+  template <class F>
+  void VisitApart(const RowEnds& from, RowSpan pixels, int v, bool is_column, F& visit) {
+    const auto key = [](const RowEnds& ends, int u) {
+      return VoxelKey{ends.x[u], ends.y[u], ends.z[u]};
+    };
+    const int shift = is_column ? 0 : 1;
+    const int count = FindApart(pixels, from, row_, shift, apart_.data());
+    for (int i = 0; i < count; ++i) {
+      const int u = apart_[i];
+      if (where_.Test(u, v)) visit(PixelGap{u, v, is_column}, key(from, u), key(row_, u + shift));
+    }
+  }
+
+  const DepthFrame& frame_;
+  const MapConfig& config_;
+  const GapPixels& where_;
+  RowEnds row_, above_;
+  std::vector<float> reach_m_;
+  std::array<std::int32_t, GapPixels::kWordPixels> apart_{};
+};
 
 }  // namespace
 
@@ -258,17 +277,17 @@ void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame, GapSearch search
   };
   GapPixels where(frame, contested.keys(), map.config.voxel_m);
   if (search == GapSearch::kEverywhere) where.Add(where.All());
-  ForEachGap(
-      frame, map.config, where, [&](const PixelGap& gap, const VoxelKey& a, const VoxelKey& b) {
-        const bool is_a = a.x != kNoEnd, is_b = b.x != kNoEnd;
-        if (!is_a && !is_b) return;
-        const VoxelKey step = is_a && is_b ? b - a : VoxelKey{};
-        const bool is_wide =
-            !is_a || !is_b || std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}) > 1;
-        if (!is_wide && !contested.MaybeBetween(a, step)) return;
-        ForEachSegment(PixelLine(frame, gap, map.config.voxel_m), is_wide, map.config.depth_max_m,
-                       spare);
-      });
+  const auto look_into = [&](const PixelGap& gap, const VoxelKey& a, const VoxelKey& b) {
+    const bool is_a = a.x != kNoEnd, is_b = b.x != kNoEnd;
+    if (!is_a && !is_b) return;
+    const VoxelKey step = is_a && is_b ? b - a : VoxelKey{};
+    const bool is_wide =
+        !is_a || !is_b || std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}) > 1;
+    if (!is_wide && !contested.MaybeBetween(a, step)) return;
+    ForEachSegment(PixelLine(frame, gap, map.config.voxel_m), is_wide, map.config.depth_max_m,
+                   spare);
+  };
+  GapFinder(frame, map.config, where).ForEach(look_into);
 }
 
 }  // namespace crossnav::geometry
