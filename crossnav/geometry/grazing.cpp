@@ -18,8 +18,7 @@ namespace {
 // differ by this share. At an edge in depth the steps on both sides are near zero against that of
 // the edge.
 constexpr double kBend = 0.5;
-constexpr double kFarthest_m = 1000;  // chosen: what is farther is no surface of a house
-
+constexpr double kFarthest_m = 1000;   // chosen: what is farther is no surface of a house
 constexpr double kRounding_px = 0.01;  // chosen: far above that of a projection
 constexpr double kNear_m = 0.01;       // chosen: what is nearer may be seen anywhere
 
@@ -172,7 +171,7 @@ class GapPixels {
     return bits_[static_cast<std::size_t>(v) * words_ + word];
   }
 
-  /// Of the gaps whose pixels are on both sides of some of the voxel's picture, or on it.
+  /// First pixels of gaps that the voxel's picture touches: on it, or one before it.
   PixelRect RectOf(const CameraIntrinsics& K, const Pose& T_camera_world, const VoxelKey& key,
                    double voxel_m) const {
     double left = width_, top = height_, right = -1, bottom = -1;
@@ -186,12 +185,13 @@ class GapPixels {
       left = std::min(left, u), right = std::max(right, u);
       top = std::min(top, v), bottom = std::max(bottom, v);
     }
-    const auto at_least = [](double px) { return static_cast<int>(std::ceil(std::max(px, 0.0))); };
-    const auto at_most = [](double px, int size) {
-      return static_cast<int>(std::floor(std::min(px, size - 1.0)));
+    const auto from = [](double px, int size) {
+      return static_cast<int>(std::ceil(std::clamp<double>(px - 1 - kRounding_px, 0, size)));
     };
-    return {at_least(left - 1 - kRounding_px), at_least(top - 1 - kRounding_px),
-            at_most(right + kRounding_px, width_), at_most(bottom + kRounding_px, height_)};
+    const auto to = [](double px, int size) {
+      return static_cast<int>(std::floor(std::clamp<double>(px + kRounding_px, -1, size - 1)));
+    };
+    return {from(left, width_), from(top, height_), to(right, width_), to(bottom, height_)};
   }
 
   int width_, height_, words_;
