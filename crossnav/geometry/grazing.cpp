@@ -139,7 +139,7 @@ class GapPixels {
   GapPixels(const DepthFrame& frame, const std::vector<VoxelKey>& contested, double voxel_m)
       : width_(frame.depth_m.width),
         height_(frame.depth_m.height),
-        words_(width_ / kWordPixels + 1) {
+        words_((width_ + kWordPixels - 1) / kWordPixels) {
     bits_.resize(static_cast<std::size_t>(words_) * height_);
     const Pose T_camera_world = frame.T_world_camera.inverse();
     for (const VoxelKey& key : contested) Add(RectOf(frame.camera, T_camera_world, key, voxel_m));

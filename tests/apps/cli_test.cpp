@@ -308,6 +308,14 @@ TEST_F(Cli, ContactSheetAndFloorPlanAreDrawn) {
   EXPECT_NE(ReadText(At("named.png")), ReadText(At("plain.png")));
 }
 
+// Assimp's Draco has another tinygltf inside, which took the place of ours and crashed the program.
+TEST_F(Cli, AGeneratedHouseIsReadWhereAssimpIsInstalled) {
+  ASSERT_EQ(Run(std::string(kOneRoom) + " --furniture none").exit_code, 0);
+  const Outcome info = Run("scene info houses/00005-House5 --json");
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_EQ(Json::parse(info.out)["floors"].size(), 1U);
+}
+
 TEST_F(Cli, WorldStatsCountsHousesAndKeepsNone) {
   const Outcome outcome =
       Run("world stats --seed 5 --count 2 --floors 1 --area 60 --furniture none --json");

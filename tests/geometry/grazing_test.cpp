@@ -13,20 +13,26 @@ namespace {
 using testing::RandomFrame;
 using testing::TestFrame;
 
-struct Spared {
-  std::vector<BlockMask> passed;  ///< occupied voxels that count as passed, by block
-  int passed_before = 0, passed_after = 0;
-};
-
-int CountPassed(const MapData& map) {
-  int count = 0;
+/// Occupied voxels that a frame passed, by block.
+std::vector<BlockMask> PassedOf(const MapData& map) {
+  std::vector<BlockMask> passed;
   for (const GridEntry* entry : map.frame)
-    count += (entry->block.hit & entry->block.frame_free).Count();
+    passed.push_back(entry->block.hit & entry->block.frame_free & ~entry->block.frame_hit);
+  return passed;
+}
+
+int CountOf(const std::vector<BlockMask>& masks) {
+  int count = 0;
+  for (const BlockMask& mask : masks) count += mask.Count();
   return count;
 }
 
-/// What `search` leaves of a frame's passes, in a map that has seen the frames before it.
-Spared Spare(const std::vector<TestFrame>& frames, GapSearch search) {
+struct Passed {
+  std::vector<BlockMask> before, after;
+};
+
+/// What the last frame passes, before and after sparing, in a map that has seen those before it.
+Passed Spare(const std::vector<TestFrame>& frames, GapSearch search) {
   MapConfig config;
   config.clearing = "evidence";
   config.min_hits = 1;
@@ -39,13 +45,9 @@ Spared Spare(const std::vector<TestFrame>& frames, GapSearch search) {
   data.view.Resize(last.depth_m.width, last.depth_m.height);
   CollectEnds(data, frame);
   CollectFreeByWalking(data, frame);
-  Spared spared;
-  spared.passed_before = CountPassed(data);
+  const std::vector<BlockMask> before = PassedOf(data);
   SpareSurfacesInGaps(data, frame, search);
-  spared.passed_after = CountPassed(data);
-  for (const GridEntry* entry : data.frame)
-    spared.passed.push_back(entry->block.hit & entry->block.frame_free & ~entry->block.frame_hit);
-  return spared;
+  return {before, PassedOf(data)};
 }
 
 TEST(Grazing, LookingWhereVoxelsAreContestedSparesWhatLookingEverywhereDoes) {
@@ -58,11 +60,11 @@ TEST(Grazing, LookingWhereVoxelsAreContestedSparesWhatLookingEverywhereDoes) {
       frame.T_world_camera.translation() +=
           Vector3d(rng.Normal(), rng.Normal(), rng.Normal()) * 0.2;
     }
-    const Spared some = Spare(frames, GapSearch::kWhereContested);
-    const Spared all = Spare(frames, GapSearch::kEverywhere);
-    ASSERT_EQ(some.passed, all.passed) << "round " << round;
-    spared += all.passed_before - all.passed_after;
-    gone += all.passed_after;
+    const Passed some = Spare(frames, GapSearch::kWhereContested);
+    const Passed all = Spare(frames, GapSearch::kEverywhere);
+    ASSERT_EQ(some.after, all.after) << "round " << round;
+    spared += CountOf(all.before) - CountOf(all.after);
+    gone += CountOf(all.after);
   }
   EXPECT_GT(spared, 1000);
   EXPECT_GT(gone, 1000);
