@@ -31,7 +31,7 @@ for target in "${targets[@]}"; do
   log="$build/logs/$target.$(date +%s).log"
   status=0
   "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout="${FUZZ_TIMEOUT:-2}" -rss_limit_mb=2048 \
-    -print_final_stats=1 -artifact_prefix="$build/findings/$target-" "${folders[@]}" \
+    -detect_leaks=0 -print_final_stats=1 -artifact_prefix="$build/findings/$target-" "${folders[@]}" \
     >"$log" 2>&1 || status=$?
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%-16s %10s executions, exit %s\n' "$target" "${runs:-?}" "$status"

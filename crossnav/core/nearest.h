@@ -8,9 +8,6 @@
 
 namespace crossnav {
 
-/// Letters to insert, remove or change.
-int EditDistance(std::string_view a, std::string_view b);
-
 /// `; did you mean "name"?` with the nearest of `names`, the first of equals; empty where none is
 /// near.
 std::string DidYouMean(std::string_view word, std::span<const std::string> names);

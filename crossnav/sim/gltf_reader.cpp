@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -16,7 +17,6 @@ namespace crossnav::sim {
 namespace {
 
 constexpr int kMaxNodeDepth = 64;  // chosen: deeper is a cycle or an attack
-constexpr int kMaxNodes = 1'000'000;
 // A mesh may stand at many places: the file may be small and what it draws large, but not without
 // limit. Above kFreeElements a file draws at most as many vertices and as many triangles as it has
 // bytes.
@@ -36,7 +36,7 @@ std::uint8_t LinearToSrgb(double linear) {
 class Reader {
  public:
   Reader(const tinygltf::Model& gltf, std::string where, const GltfOptions& options)
-      : gltf_(gltf), where_(std::move(where)), options_(options) {
+      : gltf_(gltf), where_(std::move(where)), options_(options), is_drawn_(gltf.nodes.size()) {
     std::size_t bytes = 0;
     for (const auto& buffer : gltf.buffers) bytes += buffer.data.size();
     most_elements_ = std::clamp(bytes, kFreeElements, kMaxElements);
@@ -46,7 +46,7 @@ class Reader {
     if (auto ok = ReadMaterials(); !ok) return tl::unexpected(ok.error());
     std::vector<int> roots;
     if (gltf_.scenes.empty()) {
-      for (std::size_t i = 0; i < gltf_.nodes.size(); ++i) roots.push_back(static_cast<int>(i));
+      roots = NodesWithoutParent();
     } else {
       const auto scene = static_cast<std::size_t>(std::max(gltf_.defaultScene, 0));
       if (scene >= gltf_.scenes.size()) return Bad("the default scene does not exist");
@@ -168,18 +168,31 @@ class Reader {
     return T.matrix();
   }
 
+  std::vector<int> NodesWithoutParent() const {
+    std::vector<bool> is_child(gltf_.nodes.size());
+    for (const auto& node : gltf_.nodes)
+      for (const int child : node.children)
+        if (child >= 0 && child < static_cast<int>(is_child.size()))
+          is_child[static_cast<std::size_t>(child)] = true;
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+      if (!is_child[i]) nodes.push_back(static_cast<int>(i));
+    return nodes;
+  }
+
   struct Place {
     int depth = 0, parent = -1;  ///< index into GltfModel::parts
   };
 
-  // NOLINTNEXTLINE(misc-no-recursion): depth and total are limited
+  // NOLINTNEXTLINE(misc-no-recursion): depth is limited
   Result<void> AddNode(int index, const Eigen::Matrix4d& T_file_parent, Place place) {
     const std::string at = "node " + std::to_string(index);
     if (index < 0 || index >= static_cast<int>(gltf_.nodes.size()))
       return Bad("does not exist", at);
-    if (place.depth > kMaxNodeDepth) return Bad("is nested deeper than 64 levels (a cycle?)", at);
-    if (++nodes_visited_ > kMaxNodes)
-      return Bad("more than a million nodes (one that shares its children?)", at);
+    if (place.depth > kMaxNodeDepth) return Bad("is nested deeper than 64 levels", at);
+    if (std::exchange(is_drawn_[static_cast<std::size_t>(index)], char{true}) != 0)
+      return Bad("hangs in two places of the node tree, or below itself, which glTF does not allow",
+                 at);
     const tinygltf::Node& node = gltf_.nodes[static_cast<std::size_t>(index)];
     const Eigen::Matrix4d T_file_node = T_file_parent * LocalTransform(node);
     if (!T_file_node.allFinite()) return Bad("has a transform that is not finite", at);
@@ -333,7 +346,7 @@ class Reader {
   GltfOptions options_;
   GltfModel model_;
   std::vector<int> image_texture_;
-  int nodes_visited_ = 0;
+  std::vector<char> is_drawn_;  // by node
   std::size_t most_elements_ = 0;
 };
 

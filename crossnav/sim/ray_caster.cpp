@@ -3,22 +3,23 @@
 
 #include <array>
 #include <cmath>
+#include <mutex>
 
 #include "crossnav/core/check.h"
 #include "crossnav/sim/embree_shim.h"
+#include "crossnav/sim/shade_lanes.h"
 #include "crossnav/sim/shading.h"
 
 namespace crossnav::sim {
 namespace {
 
-constexpr int kLanes = 16;
-constexpr int kTileWidth = 4, kTileHeight = 4;  // px, kLanes together
+// Rays go to Embree in tiles of 4 packets, one below the other.
+constexpr int kLanes = 8;
+constexpr int kPacketWidth = 4, kPacketHeight = 2;  // px, kLanes together
+constexpr int kPackets = 4;
+constexpr int kTileHeight = kPackets * kPacketHeight;
 
-constexpr std::array<int, kLanes> AllLanes() {
-  std::array<int, kLanes> lanes{};
-  for (int& lane : lanes) lane = -1;
-  return lanes;
-}
+using Packet = RTCRayHit8;
 
 /// n . p = offset for p on the triangle. World frame, metres.
 struct Plane {
@@ -32,16 +33,28 @@ Plane PlaneOf(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
   return {normal, normal.dot(p)};
 }
 
-/// Where the ray meets the plane of the triangle that Embree found, worked out here: Embree divides
-/// by an estimate of the processor, which differs from maker to maker. `otherwise`, Embree's
-/// answer, where the ray only grazes the plane.
-float MeetingWith(const Plane& plane, const Vector3d& origin, const Vector3d& direction,
-                  float otherwise) {
-  const double across = plane.normal.dot(direction);
-  constexpr double kGraze = 1e-6;  // chosen: sine of the angle, far below a pixel's
-  if (across * across < kGraze * kGraze * plane.normal.squaredNorm()) return otherwise;
-  return static_cast<float>((plane.offset - plane.normal.dot(origin)) / across);
-}
+/// Where rays from `origin` meet the plane of the triangle that Embree found, worked out here:
+/// Embree divides by an estimate of the processor, which differs from maker to maker.
+class Meeting {
+ public:
+  Meeting(const Plane& plane, const Vector3d& origin)
+      : normal_(plane.normal), rise_(plane.offset - plane.normal.dot(origin)) {
+    constexpr double kGraze = 1e-6;  // chosen: sine of the angle, far below a pixel's
+    least_ = kGraze * kGraze * plane.normal.squaredNorm();
+  }
+
+  /// Ray parameter of the meeting; `otherwise`, Embree's answer, where the ray only grazes the
+  /// plane.
+  float At(float x, float y, float z, float otherwise) const {
+    const double across = normal_.x() * x + (normal_.y() * y + normal_.z() * z);
+    const auto meets = static_cast<float>(rise_ / across);
+    return across * across < least_ ? otherwise : meets;
+  }
+
+ private:
+  Vector3d normal_;
+  double rise_, least_;
+};
 
 }  // namespace
 
@@ -51,8 +64,9 @@ struct RayCaster::Impl {
   EmbreeScene rays;
   // Geometry 0 is opaque; geometry 1 holds the triangles with holes and pays for the filter.
   std::array<std::vector<std::uint32_t>, 2> triangles;  // Embree's primitive -> scene triangle
-  std::array<std::vector<TriangleLook>, 2> looks;
   std::array<std::vector<Plane>, 2> planes;
+  mutable std::once_flag is_coloured;
+  mutable std::optional<Skins> skins;  // since the first picture in colours
 
   explicit Impl(const Scene& s) : scene(s) {}
 
@@ -74,13 +88,6 @@ struct RayCaster::Impl {
       return std::min(static_cast<int>((x - std::floor(x)) * static_cast<float>(size)), size - 1);
     };
     return opaque.At(pick(u, opaque.width), pick(v, opaque.height)) == 0;
-  }
-
-  TriangleLook LookOf(std::size_t t) const {
-    const Material& m = scene.materials[scene.mesh.triangle_material[t]];
-    const bool textured = m.texture >= 0 && !scene.mesh.uvs.empty();
-    const bool is_flat = !textured && scene.mesh.vertex_colours.empty();
-    return {scene.mesh.triangle_instance[t], m.colour, is_flat, m.is_unlit};
   }
 
   static void FilterHoles(const RTCFilterFunctionNArguments* arguments) {
@@ -109,7 +116,6 @@ struct RayCaster::Impl {
     for (const Vector3f& v : mesh.vertices) vertices = std::copy_n(v.data(), 3, vertices);
     for (const std::uint32_t t : chosen) {
       indices = std::copy_n(mesh.triangles[t].data(), 3, indices);
-      looks[id].push_back(LookOf(t));
       const auto& corner = mesh.triangles[t];
       planes[id].push_back(
           PlaneOf(mesh.vertices[corner[0]], mesh.vertices[corner[1]], mesh.vertices[corner[2]]));
@@ -143,11 +149,10 @@ struct RayCaster::Impl {
   };
 
   Rgb8 ColourOf(const Hit& hit, float light) const {
-    const TriangleLook& look = looks[hit.geometry][hit.primitive];
-    const Colour3f base =
-        look.is_flat ? Colour3f{float(look.colour.r), float(look.colour.g), float(look.colour.b)}
-                     : SurfaceColour(scene, triangles[hit.geometry][hit.primitive], hit.s, hit.t);
-    const float share = look.is_unlit ? 1.0F : light;
+    const std::uint32_t triangle = triangles[hit.geometry][hit.primitive];
+    const Colour3f base = SurfaceColour(scene, triangle, hit.s, hit.t);
+    const bool is_unlit = scene.materials[scene.mesh.triangle_material[triangle]].is_unlit;
+    const float share = is_unlit ? 1.0F : light;
     const auto byte = [share](float x) {
       return static_cast<std::uint8_t>(
           static_cast<int>(x * share + 0.5F));  // NOLINT: never negative
@@ -155,8 +160,16 @@ struct RayCaster::Impl {
     return {byte(base.r), byte(base.g), byte(base.b)};
   }
 
-  void StoreColour(const RTCRayHit16& packet, int u0, int v0, RgbImage& rgb) const;
-  void StoreGeometry(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const;
+  const Skins& Coloured() const {
+    std::call_once(is_coloured, [this] { skins.emplace(scene); });
+    return *skins;
+  }
+
+  struct Place;
+  void StoreColour(const Packet& packet, const Place& place, const Skins& looks,
+                   RgbImage& rgb) const;
+  void StoreGeometry(const Packet& packet, const Place& place, const Vector3d& origin,
+                     Frame& frame) const;
 };
 
 RayCaster::RayCaster(const Scene& scene, const std::string& instructions)
@@ -168,28 +181,30 @@ RayCaster::RayCaster(RayCaster&&) noexcept = default;
 
 namespace {
 
-/// A pinhole camera as float rays from one point; z of the direction in the camera frame is 1, so
-/// that the ray parameter is planar depth.
-struct RayGenerator {
-  Vector3f origin, forward, right, down;  // right and down per unit of normalised image plane
-  float fx, fy, cx, cy;
-
-  RayGenerator(const CameraIntrinsics& K, const Pose& T_world_camera)
-      : origin(T_world_camera.translation().cast<float>()),
-        forward(T_world_camera.linear().col(2).cast<float>()),
-        right(T_world_camera.linear().col(0).cast<float>()),
-        down(T_world_camera.linear().col(1).cast<float>()),
-        fx(static_cast<float>(K.fx)),
-        fy(static_cast<float>(K.fy)),
-        cx(static_cast<float>(K.cx)),
-        cy(static_cast<float>(K.cy)) {}
+/// A pinhole camera's float rays from one point; z of the direction in the camera frame is 1, so
+/// that the ray parameter is planar depth. Pixels beyond the picture have rays, too.
+class Rays {
+ public:
+  Rays(const CameraIntrinsics& K, const Pose& T_world_camera)
+      : origin_(T_world_camera.translation().cast<float>()) {
+    const Eigen::Matrix3f R = T_world_camera.linear().cast<float>();
+    const auto at = [](int pixel, double centre, double focal) {
+      return (static_cast<float>(pixel) - static_cast<float>(centre)) / static_cast<float>(focal);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int u = 0; u < K.width_px + kPacketWidth; ++u)
+        across_[axis].push_back(R(axis, 2) + at(u, K.cx, K.fx) * R(axis, 0));
+      for (int v = 0; v < K.height_px + kTileHeight; ++v)
+        down_[axis].push_back(at(v, K.cy, K.fy) * R(axis, 1));
+    }
+  }
 
   /// What is the same for all packets of a picture; Embree leaves it as it is.
-  void Begin(RTCRayHit16& packet) const {
+  void Begin(Packet& packet) const {
     for (int lane = 0; lane < kLanes; ++lane) {
-      packet.ray.org_x[lane] = origin.x();
-      packet.ray.org_y[lane] = origin.y();
-      packet.ray.org_z[lane] = origin.z();
+      packet.ray.org_x[lane] = origin_.x();
+      packet.ray.org_y[lane] = origin_.y();
+      packet.ray.org_z[lane] = origin_.z();
       packet.ray.tnear[lane] = 0;
       packet.ray.time[lane] = 0;
       packet.ray.mask[lane] = ~0U;
@@ -199,73 +214,84 @@ struct RayGenerator {
     }
   }
 
-  void Fill(int u0, int v0, RTCRayHit16& packet) const {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int u = u0 + lane % kTileWidth, v = v0 + lane / kTileWidth;
-      const float x = (static_cast<float>(u) - cx) / fx;
-      const float y = (static_cast<float>(v) - cy) / fy;
-      packet.ray.dir_x[lane] = forward.x() + x * right.x() + y * down.x();
-      packet.ray.dir_y[lane] = forward.y() + x * right.y() + y * down.y();
-      packet.ray.dir_z[lane] = forward.z() + x * right.z() + y * down.z();
-      packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
-      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    }
+  void Fill(int u0, int v0, Packet& packet) const {
+    Point(0, u0, v0, packet.ray.dir_x);
+    Point(1, u0, v0, packet.ray.dir_y);
+    Point(2, u0, v0, packet.ray.dir_z);
+    std::fill_n(packet.ray.tfar, kLanes, std::numeric_limits<float>::infinity());
+    std::fill_n(packet.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
   }
+
+  const Vector3f& origin() const { return origin_; }
+
+ private:
+  void Point(std::size_t axis, int u0, int v0, float* direction) const {
+    const float *across = &across_[axis][static_cast<std::size_t>(u0)],
+                *down = &down_[axis][static_cast<std::size_t>(v0)];
+    for (int y = 0; y < kPacketHeight; ++y)
+      for (int x = 0; x < kPacketWidth; ++x) *direction++ = across[x] + down[y];
+  }
+
+  Vector3f origin_;
+  std::array<std::vector<float>, 3> across_, down_;  // by axis: what the column adds, and the row
 };
-
-/// Marks the lanes of a tile that lie in the picture.
-void MarkInside(int columns, int rows, std::array<int, kLanes>& valid) {
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const bool inside = lane % kTileWidth < columns && lane / kTileWidth < rows;
-    valid[static_cast<std::size_t>(lane)] = inside ? -1 : 0;
-  }
-}
-
-/// Embree 3 without AVX-512 reports hits of lanes that are not valid, too.
-void DropOutside(const std::array<int, kLanes>& valid, RTCRayHit16& packet) {
-  for (int lane = 0; lane < kLanes; ++lane)
-    if (valid[static_cast<std::size_t>(lane)] == 0)
-      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-}
 
 }  // namespace
 
-/// Place of a packet's lane in the picture.
-std::size_t PixelOf(int u0, int v0, int lane, int width) {
-  return static_cast<std::size_t>(v0 + lane / kTileWidth) * static_cast<std::size_t>(width) +
-         static_cast<std::size_t>(u0 + lane % kTileWidth);
-}
+/// Where a packet lies in the picture.
+struct RayCaster::Impl::Place {
+  int u0, v0, width, height;
+
+  bool Holds(int lane) const {
+    return u0 + lane % kPacketWidth < width && v0 + lane / kPacketWidth < height;
+  }
+  std::size_t PixelOf(int lane) const {
+    return static_cast<std::size_t>(v0 + lane / kPacketWidth) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(u0 + lane % kPacketWidth);
+  }
+};
 
 /// Writes the colours of a packet's hits; lanes without a hit stay as they are.
-void RayCaster::Impl::StoreColour(const RTCRayHit16& packet, int u0, int v0, RgbImage& rgb) const {
-  std::array<float, kLanes> light;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    light[static_cast<std::size_t>(lane)] =
-        Light({packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]},
-              {packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]});
-  }
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const unsigned geometry = packet.hit.geomID[lane], primitive = packet.hit.primID[lane];
+void RayCaster::Impl::StoreColour(const Packet& packet, const Place& place, const Skins& looks,
+                                  RgbImage& rgb) const {
+  static_assert(kLanes == kShadeLanes);
+  std::array<std::int32_t, kLanes> triangle{};
+  bool is_hit = false;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const unsigned geometry = packet.hit.geomID[lane];
     if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
-    rgb.data[PixelOf(u0, v0, lane, rgb.width)] =
-        ColourOf({geometry, primitive, packet.hit.u[lane], packet.hit.v[lane]},
-                 light[static_cast<std::size_t>(lane)]);
+    triangle[lane] = static_cast<std::int32_t>(triangles[geometry][packet.hit.primID[lane]]);
+    is_hit = true;
+  }
+  if (!is_hit) return;
+  std::array<std::uint32_t, kLanes> colours;
+  ShadePacket(looks,
+              {triangle.data(),
+               packet.hit.u,
+               packet.hit.v,
+               {packet.hit.Ng_x, packet.hit.Ng_y, packet.hit.Ng_z},
+               {packet.ray.dir_x, packet.ray.dir_y, packet.ray.dir_z}},
+              colours);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID || !place.Holds(lane)) continue;
+    const std::uint32_t colour = colours[static_cast<std::size_t>(lane)];
+    rgb.data[place.PixelOf(lane)] = {static_cast<std::uint8_t>(colour),
+                                     static_cast<std::uint8_t>(colour >> 8),
+                                     static_cast<std::uint8_t>(colour >> 16)};
   }
 }
 
 /// Writes depth and instance of a packet's hits; lanes without a hit stay as they are.
-void RayCaster::Impl::StoreGeometry(const RTCRayHit16& packet, int u0, int v0, Frame& frame) const {
+void RayCaster::Impl::StoreGeometry(const Packet& packet, const Place& place,
+                                    const Vector3d& origin, Frame& frame) const {
   for (int lane = 0; lane < kLanes; ++lane) {
-    const unsigned geometry = packet.hit.geomID[lane];
-    if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
-    const std::size_t pixel = PixelOf(u0, v0, lane, frame.depth_m.width);
-    const unsigned primitive = packet.hit.primID[lane];
-    frame.depth_m.data[pixel] =
-        MeetingWith(planes[geometry][primitive],
-                    {packet.ray.org_x[lane], packet.ray.org_y[lane], packet.ray.org_z[lane]},
-                    {packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]},
-                    packet.ray.tfar[lane]);
-    frame.instance.data[pixel] = looks[geometry][primitive].instance;
+    const unsigned geometry = packet.hit.geomID[lane], primitive = packet.hit.primID[lane];
+    if (geometry == RTC_INVALID_GEOMETRY_ID || !place.Holds(lane)) continue;
+    const std::size_t pixel = place.PixelOf(lane);
+    frame.depth_m.data[pixel] = Meeting(planes[geometry][primitive], origin)
+                                    .At(packet.ray.dir_x[lane], packet.ray.dir_y[lane],
+                                        packet.ray.dir_z[lane], packet.ray.tfar[lane]);
+    frame.instance.data[pixel] = scene.mesh.triangle_instance[triangles[geometry][primitive]];
   }
 }
 
@@ -275,20 +301,25 @@ Frame RayCaster::Render(const CameraIntrinsics& camera, const Pose& T_world_came
   CROSSNAV_CHECK(width > 0 && height > 0, "camera without pixels");
   CROSSNAV_CHECK(IsValidPose(T_world_camera), "camera pose is not a finite rotation");
   Frame frame{RgbImage(width, height), DepthImage(width, height), InstanceImage(width, height)};
-  const RayGenerator generator(camera, T_world_camera);
-  alignas(64) std::array<int, kLanes> valid = AllLanes();
-  alignas(64) RTCRayHit16 packet{};
-  generator.Begin(packet);
+  const Rays rays(camera, T_world_camera);
+  const Vector3d origin = rays.origin().cast<double>();
+  const Skins* skins = channels == Channels::kAll ? &impl_->Coloured() : nullptr;
+  alignas(64) std::array<Packet, kPackets> tile{};
+  for (Packet& packet : tile) rays.Begin(packet);
   for (int v0 = 0; v0 < height; v0 += kTileHeight) {
-    for (int u0 = 0; u0 < width; u0 += kTileWidth) {
-      generator.Fill(u0, v0, packet);
-      const bool is_whole = u0 + kTileWidth <= width && v0 + kTileHeight <= height;
-      if (!is_whole) MarkInside(width - u0, height - v0, valid);
-      IntersectPacket(impl_->rays.get(), valid.data(), &packet);
-      if (!is_whole) DropOutside(valid, packet);
-      impl_->StoreGeometry(packet, u0, v0, frame);
-      if (channels == Channels::kAll) impl_->StoreColour(packet, u0, v0, frame.rgb);
-      if (!is_whole) valid = AllLanes();
+    for (int u0 = 0; u0 < width; u0 += kPacketWidth) {
+      Impl::Place place{u0, v0, width, height};
+      for (Packet& packet : tile) {
+        rays.Fill(u0, place.v0, packet);
+        place.v0 += kPacketHeight;
+      }
+      IntersectStream(impl_->rays.get(), tile);
+      place.v0 = v0;
+      for (const Packet& packet : tile) {
+        impl_->StoreGeometry(packet, place, origin, frame);
+        if (skins != nullptr) impl_->StoreColour(packet, place, *skins, frame.rgb);
+        place.v0 += kPacketHeight;
+      }
     }
   }
   return frame;
@@ -313,12 +344,12 @@ std::optional<RayHit> RayCaster::Cast(const Vector3d& p_world, const Vector3d& d
   IntersectOne(impl_->rays.get(), &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   RayHit hit;
-  hit.distance_m = MeetingWith(impl_->planes[ray.hit.geomID][ray.hit.primID],
-                               {ray.ray.org_x, ray.ray.org_y, ray.ray.org_z},
-                               {ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z}, ray.ray.tfar);
-  hit.instance = impl_->looks[ray.hit.geomID][ray.hit.primID].instance;
+  hit.distance_m = Meeting(impl_->planes[ray.hit.geomID][ray.hit.primID],
+                           {ray.ray.org_x, ray.ray.org_y, ray.ray.org_z})
+                       .At(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z, ray.ray.tfar);
   hit.p_world = p_world + direction / length * hit.distance_m;
   hit.triangle = impl_->triangles[ray.hit.geomID][ray.hit.primID];
+  hit.instance = impl_->scene.mesh.triangle_instance[hit.triangle];
   hit.colour = impl_->ColourOf({ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v},
                                Light({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, d));
   return hit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ray-cast camera: colour, planar depth and instance id in one pass (Embree, packets of 16).
+// The ray-cast camera: colour, planar depth and instance id in one pass (Embree, streams of packets).
 // Deterministic. Rendering is const and may be called from several threads.
 #pragma once
 

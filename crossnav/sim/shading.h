@@ -12,15 +12,6 @@
 
 namespace crossnav::sim {
 
-/// What a hit needs to know of its triangle, eight bytes so that it stays in the cache.
-struct TriangleLook {
-  std::int32_t instance = 0;
-  Rgb8 colour;                ///< final where `is_flat`
-  bool is_flat : 1 = true;    ///< neither texture nor vertex colours
-  bool is_unlit : 1 = false;  ///< shows its colour as it is
-};
-static_assert(sizeof(TriangleLook) == 8);
-
 struct Colour3f {
   float r = 0, g = 0, b = 0;
 };
@@ -68,7 +59,6 @@ inline Colour3f SurfaceColour(const Scene& scene, std::uint32_t triangle, float 
 }
 
 /// Share of light [0, 1] on a surface with normal `n` seen along the ray `d` (world, any lengths).
-/// Plain arithmetic, so that a loop over lanes vectorises.
 inline float Light(const Vector3f& n, const Vector3f& d) {
   const float turned = n.x() * d.x() + n.y() * d.y() + n.z() * d.z();
   const float n2 = n.x() * n.x() + n.y() * n.y() + n.z() * n.z() + 1e-30F;

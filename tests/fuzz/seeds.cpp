@@ -230,8 +230,16 @@ void AddRecordings(const Seeds& seeds) {
 }
 
 void AddMap(const Seeds& seeds) {
+  // As few blocks as possible: each costs every execution.
   store::testing::SmallWorld world;
-  world.AddFrame(0);
+  const CameraIntrinsics camera = IntrinsicsFromHfov(4, 4, 0.2);
+  DepthImage depth(4, 4);
+  std::fill(depth.data.begin(), depth.data.end(), 0.3F);
+  const Pose T_world_camera = CameraPose({{0.1, 0.1, 0}, 0, 0}, 0.3);
+  const std::vector<float> features(store::testing::kDim, 0.5F);
+  const auto& pixels = world.map.Integrate(depth, camera, T_world_camera);
+  world.memory.Fuse(pixels, depth, camera, T_world_camera, {1, 1, store::testing::kDim, features});
+  world.map.UpdateStates();
   const fs::path file = seeds.Scratch("map.tmp");
   (void)store::SaveMemory(file, world.map, world.memory, {});
   seeds.Move("map", "home.map", file);

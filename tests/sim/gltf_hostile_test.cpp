@@ -68,7 +68,7 @@ TEST(HostileGltf, EveryTruncationIsRefusedOrConsistent) {
   }
 }
 
-TEST(HostileGltf, NodesThatShareTheirChildrenFortyLevelsAreRefused) {
+TEST(HostileGltf, NodesThatShareTheirChildrenAreRefused) {
   GlbMaker maker;
   maker.AddMesh({{"attributes", {{"POSITION", maker.Positions(SquareCorners())}}}});
   for (int i = 0; i < 40; ++i) maker.json["nodes"].push_back({{"children", {i, i}}});
@@ -76,7 +76,7 @@ TEST(HostileGltf, NodesThatShareTheirChildrenFortyLevelsAreRefused) {
   const auto bytes = maker.Bytes();
   const auto model = ParseGlb(bytes, "hostile.glb", {});
   ASSERT_FALSE(model.has_value());
-  EXPECT_NE(model.error().what.find("shares its children"), std::string::npos)
+  EXPECT_NE(model.error().what.find("hangs in two places"), std::string::npos)
       << model.error().what;
 }
 

@@ -180,11 +180,24 @@ TEST(GltfReader, ErrorsNameTheFileTheNodeAndTheAccessor) {
   EXPECT_EQ(ErrorOf(empty), "test.glb: holds no triangles");
 }
 
+// The children of a file without scenes were drawn twice: below their parent, and as roots.
+TEST(GltfReader, WithoutScenesEveryNodeIsDrawnOnce) {
+  GlbMaker maker;
+  const int position = maker.Positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  maker.AddMesh({{"attributes", {{"POSITION", position}}}});
+  maker.AddRoot({{"children", {0}}, {"translation", {5, 0, 0}}});
+  maker.json.erase("scenes");
+  maker.json.erase("scene");
+  const GltfModel model = Parse(maker);
+  ASSERT_EQ(model.mesh.triangles.size(), 1U);
+  EXPECT_EQ(model.mesh.vertices[0].norm(), 5);
+}
+
 TEST(GltfReader, ACycleOfNodesIsAnError) {
   GlbMaker maker;
   maker.AddMesh({{"attributes", {{"POSITION", maker.Positions(SquareCorners())}}}});
   maker.json["nodes"][0]["children"] = {0};
-  EXPECT_NE(ErrorOf(maker).find("cycle"), std::string::npos) << ErrorOf(maker);
+  EXPECT_NE(ErrorOf(maker).find("below itself"), std::string::npos) << ErrorOf(maker);
 }
 
 TEST(GltfReader, AMissingFileIsNotFound) {
