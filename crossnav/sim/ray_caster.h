@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ray-cast camera: colour, planar depth and instance id in one pass (Embree, streams of packets).
-// Deterministic. Rendering is const and may be called from several threads.
+// What is seen of a scene: along one ray (Embree), and by a camera (rasterizer.h). Deterministic.
+// Both are const and may be called from several threads.
 #pragma once
 
 #include <memory>
@@ -8,20 +8,11 @@
 #include <string>
 
 #include "crossnav/core/camera.h"
-#include "crossnav/core/image.h"
 #include "crossnav/core/pose.h"
+#include "crossnav/sim/frame.h"
 #include "crossnav/sim/scene.h"
 
 namespace crossnav::sim {
-
-/// What a picture is to hold. Shading and texture look-ups are a third of its cost.
-enum class Channels { kAll, kWithoutColour };
-
-struct Frame {
-  RgbImage rgb;            ///< black where colour was not asked for
-  DepthImage depth_m;      ///< planar z, 0 where no surface
-  InstanceImage instance;  ///< 0 where none
-};
 
 /// AVX2 on newer processors, too: which of two surfaces a ray meets at their common edge differs
 /// from one set of instructions to another, and the same episode is to go the same way everywhere.
