@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "crossnav/bench/json_value.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/text_shape.h"
@@ -78,9 +79,9 @@ class Line {
   template <class T>
   Result<T> Convert(const Json& value, const char* key) const {
     try {
-      return value.get<T>();
-    } catch (const Json::exception&) {
-      return Missing(key, "has the wrong type");
+      return ValueOf<T>(value);
+    } catch (const Json::exception& error) {
+      return Missing(key, error.id == kNumberOutOfRange ? "is out of range" : "has the wrong type");
     }
   }
   tl::unexpected<Error> Missing(const char* key, const char* what) const {
@@ -345,9 +346,8 @@ std::string ToJsonLine(const EpisodeRecord& record, bool with_timings) {
                {"goals", record.goals},
                {"actions", record.actions}};
   if (with_timings) json["wall_s"] = record.wall_s;
-  if (record.failed) {
+  if (record.failed)
     json["failed"] = {{"reason", record.failed->reason}, {"message", record.failed->message}};
-  }
   json["stages"] = std::move(stages);
   if (with_timings) {
     Json timings = Json::object();
@@ -382,7 +382,7 @@ Result<ResultFile> ReadResults(const std::filesystem::path& path) {
     ++number;
     const std::string where = path.string() + ": line " + std::to_string(number);
     if (end > begin) {
-      const auto ok = ReadLineSafely(text.substr(begin, end - begin), number, where, file);
+      auto ok = ReadLineSafely(text.substr(begin, end - begin), number, where, file);
       if (!ok) return tl::unexpected(ok.error());
     }
     if (!file.episodes.empty() && ids.size() < file.episodes.size() &&

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crossnav/bench/gzip_file.h"
+#include "crossnav/bench/json_value.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/nearest.h"
 #include "crossnav/core/rng.h"
@@ -89,15 +90,15 @@ Result<SuiteManifest> ReadManifest(const std::filesystem::path& path) {
   if (auto ok = CheckJsonShape(*text, path.string()); !ok) return tl::unexpected(ok.error());
   try {
     const Json json = Json::parse(*text);
-    if (json.at("format").get<int>() != kFormat) {
+    if (ValueOf<int>(json.at("format")) != kFormat) {
       return Fail(ErrorCode::kUnsupported, "is of another format; make the suite anew",
                   path.string() + ": format");
     }
     manifest.suite = json.at("suite");
-    manifest.generator_version = json.at("generator_version");
+    manifest.generator_version = ValueOf<int>(json.at("generator_version"));
     manifest.furniture = json.at("furniture");
-    manifest.episodes = json.at("episodes");
-    manifest.first_transitions = json.at("first_transition_stage").get<std::vector<int>>();
+    manifest.episodes = ValueOf<int>(json.at("episodes"));
+    manifest.first_transitions = ValueOf<std::vector<int>>(json.at("first_transition_stage"));
     manifest.episodes_hash = json.at("episodes_hash");
     manifest.meshes = json.at("meshes").get<std::map<std::string, std::string>>();
     hash = json.at("hash");

@@ -256,6 +256,8 @@ TEST(ResultRecords, NonsenseInsideWellFormedLinesIsRefused) {
            {"\"shard\":\"0/1\"", "\"shard\":\"7/2\"", "7/2"},
            {"\"shard\":\"0/1\"", "\"shard\":\"0/0\"", "0/0"},
            {"\"episodes\":3", "\"episodes\":-3", "episodes"},
+           {"\"episodes\":3", "\"episodes\":2e82", "\"episodes\" is out of range"},
+           {"\"episodes\":3", "\"episodes\":4294967299", "\"episodes\" is out of range"},
            {"\"actions\":0,\"wall_s\"", "\"actions\":-5,\"wall_s\"", "actions"},
            {"\"first_transition_stage\":0", "\"first_transition_stage\":9", "stage"},
            {"\"transitions\":0", "\"transitions\":-1", "transitions"},

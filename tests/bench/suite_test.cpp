@@ -68,6 +68,9 @@ TEST(Suite, ManifestRoundTripsAndItsHashGuardsIt) {
   EXPECT_NE(tampered.error().Message().find("manifest.json: hash"), std::string::npos);
   crossnav::test::WriteText(path, "{}");
   EXPECT_FALSE(ReadManifest(path));
+  text.replace(text.find("24"), 2, "2e99");
+  crossnav::test::WriteText(path, text);
+  EXPECT_NE(ReadManifest(path).error().Message().find("out of range"), std::string::npos);
 }
 
 TEST(Suite, ManifestOfAnotherSuiteOrGeneratorIsRefusedWithItsKey) {

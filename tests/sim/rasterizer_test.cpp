@@ -178,14 +178,16 @@ TEST(Rasterizer, PicturesAreTheSameOnEveryInstructionSetAndInEveryThread) {
   const auto view = [](int i) {
     return CameraPose({{0.3 * i - 1, 0.2, 0.1}, 0.8 * i, 0.1 * i - 0.4}, 0.88);
   };
-  std::vector<Frame> expected;
-  for (int i = 0; i < 8; ++i) expected.push_back(rasterizer.Render(K, view(i), Channels::kAll));
+  std::array<Frame, 8> expected;
+  for (int i = 0; i < 8; ++i)
+    expected[static_cast<std::size_t>(i)] = rasterizer.Render(K, view(i), Channels::kAll);
   const std::int64_t all = hwy::SupportedTargets() & HWY_TARGETS;
   for (std::int64_t left = all; left != 0; left &= left - 1) {
     hwy::SetSupportedTargetsForTest(left & -left);
     hwy::GetChosenTarget().DeInit();
     for (int i = 0; i < 8; ++i)
-      EXPECT_TRUE(rasterizer.Render(K, view(i), Channels::kAll) == expected[i])
+      EXPECT_TRUE(rasterizer.Render(K, view(i), Channels::kAll) ==
+                  expected[static_cast<std::size_t>(i)])
           << "view " << i << ", target " << (left & -left);
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().DeInit();
