@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The geometric map against OctoMap on the same frames in one run, alternating frame by frame, by
-// process CPU time of one thread. Prints milliseconds per frame and ratios. Insertion includes
-// back-projection on both sides: OctoMap gets the points that this program computes for it.
+// The geometric map against OctoMap, and against Bonxai where it was given (-DBONXAI_ROOT), on the
+// same frames in one run, alternating frame by frame, by process CPU time of one thread. Prints
+// milliseconds per frame and ratios. Insertion includes back-projection here and for OctoMap;
+// Bonxai gets its points for nothing.
 //   map_benchmark [compare] [frames]     insertion and classification, house of boxes
 //   map_benchmark scene FOLDER [frames]  the same on a walk through a scene with a noisy sensor,
 //                                        depth up to 5 m and up to 10 m
@@ -15,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,9 @@
 
 #ifdef CROSSNAV_HAVE_OCTOMAP
 #include <octomap/OcTree.h>
+#endif
+#ifdef CROSSNAV_HAVE_BONXAI
+#include <bonxai_map/probabilistic_map.hpp>
 #endif
 
 namespace {
@@ -136,12 +141,9 @@ MapConfig ConfigOf(const char* rays, const char* clearing, double depth_max_m) {
   return config;
 }
 
-#ifdef CROSSNAV_HAVE_OCTOMAP
-/// What a user of OctoMap writes: back-project, then insert the cloud.
-void InsertIntoOctomap(octomap::OcTree& tree, const CameraIntrinsics& K, const Frame& frame,
-                       double depth_max_m, bool is_discretized) {
-  octomap::Pointcloud cloud;
-  cloud.reserve(frame.depth_m.data.size());
+/// Calls `use` with each point of a frame that the map would take; world [m].
+template <class F>
+void BackProject(const CameraIntrinsics& K, const Frame& frame, double depth_max_m, F&& use) {
   const double depth_min_m = MapConfig().depth_min_m;
   const Eigen::Matrix3d R = frame.T_world_camera.linear();
   const Vector3d t = frame.T_world_camera.translation();
@@ -149,13 +151,49 @@ void InsertIntoOctomap(octomap::OcTree& tree, const CameraIntrinsics& K, const F
     for (int u = 0; u < K.width_px; ++u) {
       const float z = frame.depth_m.At(u, v);
       if (!(z >= depth_min_m && z <= depth_max_m)) continue;
-      const Vector3d p = R * BackProjectPixel(K, u, v, z) + t;
-      cloud.push_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
-                      static_cast<float>(p.z()));
+      use(Vector3d(R * BackProjectPixel(K, u, v, z) + t));
     }
+}
+
+#ifdef CROSSNAV_HAVE_OCTOMAP
+/// What a user of OctoMap writes: back-project, then insert the cloud.
+void InsertIntoOctomap(octomap::OcTree& tree, const CameraIntrinsics& K, const Frame& frame,
+                       double depth_max_m, bool is_discretized) {
+  octomap::Pointcloud cloud;
+  cloud.reserve(frame.depth_m.data.size());
+  BackProject(K, frame, depth_max_m, [&cloud](const Vector3d& p) {
+    cloud.push_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                    static_cast<float>(p.z()));
+  });
+  const Vector3d t = frame.T_world_camera.translation();
   const octomap::point3d origin(static_cast<float>(t.x()), static_cast<float>(t.y()),
                                 static_cast<float>(t.z()));
   tree.insertPointCloud(cloud, origin, -1, true, is_discretized);
+}
+#endif
+
+#ifdef CROSSNAV_HAVE_BONXAI
+using BonxaiMap = std::unique_ptr<Bonxai::ProbabilisticMap>;
+
+/// `is_exact`: rays pass every voxel that they cross, as in Bonxai's newer versions by default.
+BonxaiMap MakeBonxai(bool is_exact) {
+  using Options = Bonxai::ProbabilisticMap::Options;
+  auto map = std::make_unique<Bonxai::ProbabilisticMap>(0.1);
+  Options options;
+  options.ray_mode = is_exact ? Options::RayMode::Exact : Options::RayMode::Approximate;
+  map->setOptions(options);
+  return map;
+}
+
+/// CPU time of the insertion alone [ms].
+double InsertIntoBonxai(Bonxai::ProbabilisticMap& map, const CameraIntrinsics& K,
+                        const Frame& frame, double depth_max_m) {
+  std::vector<Vector3d> points;
+  points.reserve(frame.depth_m.data.size());
+  BackProject(K, frame, depth_max_m, [&points](const Vector3d& p) { points.push_back(p); });
+  const Vector3d origin = frame.T_world_camera.translation();
+  constexpr double kFar_m = 1e3;  // all points are within
+  return Time([&] { map.insertPointCloud(points, origin, kFar_m); });
 }
 #endif
 
@@ -192,6 +230,10 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
   Column discretized{"OctoMap discretized"}, literal{"OctoMap exact, every 8th"};
   octomap::OcTree tree_discretized(0.1), tree_literal(0.1);
 #endif
+#ifdef CROSSNAV_HAVE_BONXAI
+  Column bonxai{"Bonxai, points given"}, bonxai_skipping{"Bonxai that skips voxels"};
+  BonxaiMap bonxai_map = MakeBonxai(true), bonxai_skipping_map = MakeBonxai(false);
+#endif
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Frame frame = frames[i];  // a copy: as if a camera had just made it
     if (fresh) {
@@ -223,6 +265,14 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
         literal.ms.push_back(
             Time([&] { InsertIntoOctomap(tree_literal, K, frame, depth_max_m, false); }));
 #endif
+#ifdef CROSSNAV_HAVE_BONXAI
+      if (fresh) {
+        bonxai_map = MakeBonxai(true);
+        bonxai_skipping_map = MakeBonxai(false);
+      }
+      bonxai.ms.push_back(InsertIntoBonxai(*bonxai_map, K, frame, depth_max_m));
+      bonxai_skipping.ms.push_back(InsertIntoBonxai(*bonxai_skipping_map, K, frame, depth_max_m));
+#endif
     };
     if (i % 2 == 0) {
       ours();
@@ -249,6 +299,14 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
               literal.Mean() / exact.Mean());
 #else
   std::printf("  OctoMap is not installed (liboctomap-dev): no comparison\n");
+#endif
+#ifdef CROSSNAV_HAVE_BONXAI
+  for (const Column* column : {&bonxai, &bonxai_skipping}) {
+    column->Print();
+    std::printf("  %28s          ratio to fast %.2f, exact %.2f, evidence %.2f\n", "",
+                column->Mean() / fast.Mean(), column->Mean() / exact.Mean(),
+                column->Mean() / counted.Mean());
+  }
 #endif
 }
 
