@@ -23,6 +23,8 @@ using M = hn::Mask<Wide>;
 constexpr float kNear_m = 0.05F;     // chosen: what is nearer is looked for in the whole picture
 constexpr float kMargin_px = 0.05F;  // chosen: above the rounding of a pixel coordinate
 constexpr int kTile = 8;             // px
+constexpr float kFlat = 1e-25F;      // chosen: what is seen edge-on to the last bit, or no triangle
+constexpr float kHighest = 1e6F;     // [1/m], of what reaches behind the camera
 
 struct Point {
   V x, y, z;
@@ -114,7 +116,7 @@ HWY_INLINE void Project(const Octet& octet, const RasterView& view, Footprints& 
     const Point normal = Cross(Minus(b, a), Minus(c, a));
     const V rise = Dot(normal, a);
     const M alive =
-        hn::And(hn::And(hn::Gt(farthest, zero), hn::Gt(hn::Abs(rise), hn::Set(d, 1e-25F))),
+        hn::And(hn::And(hn::Gt(farthest, zero), hn::Gt(hn::Abs(rise), hn::Set(d, kFlat))),
                 hn::And(hn::Ge(u1, u0), hn::Ge(v1, v0)));
     std::array<std::uint8_t, 8> bits{};
     hn::StoreMaskBits(d, alive, bits.data());
@@ -134,7 +136,7 @@ HWY_INLINE void Project(const Octet& octet, const RasterView& view, Footprints& 
     StorePoint({hn::Mul(normal.x, scale), hn::Mul(normal.y, scale), hn::Mul(normal.z, scale)},
                out.inverse_depth.data(), i);
     hn::StoreU(hn::Div(one, farthest), d, out.least.data() + i);
-    hn::StoreU(hn::IfThenElse(is_front, Greatest(ia, ib, ic), hn::Set(d, 1e6F)), d,
+    hn::StoreU(hn::IfThenElse(is_front, Greatest(ia, ib, ic), hn::Set(d, kHighest)), d,
                out.greatest.data() + i);
     hn::StoreU(hn::ConvertTo(di, u0), di, out.box[0].data() + i);
     hn::StoreU(hn::ConvertTo(di, u1), di, out.box[1].data() + i);
@@ -160,12 +162,12 @@ void Remember(const Octet& octet, const Footprints& prints, std::size_t lane,
   for (int k = 0; k < 3; ++k) drawn.normal[static_cast<std::size_t>(k)] = static_cast<float>(n[k]);
 }
 
-// One triangle's functions of the pixel.
+// One triangle's functions of the pixel: weight k at (u, v) is wx[k] u + wy[k] v + wc[k].
 struct Brush {
-  V wx[3], w0[3];
+  V wx[3];
   float wy[3], wc[3];
   V dx;
-  float dy, dc;
+  float dy, dc;  // likewise of the inverse depth
   V least, greatest;
 
   HWY_INLINE Brush(const Footprints& prints, std::size_t lane) {
@@ -234,7 +236,7 @@ struct Stroke {
       const V before = hn::LoadU(d, nearest + u);
       M takes = hn::And(hn::Ge(outside, hn::Zero(d)), hn::Gt(depth, before));
       if (hn::AllFalse(d, takes)) continue;
-      takes = Solid<kHoles>(takes, weight, triangle, is_hole);
+      takes = Solid<kHoles>(takes, weight, triangle, is_hole);  // padding may be drawn on, too
       hn::StoreU(hn::IfThenElse(takes, depth, before), d, nearest + u);
       const auto old = hn::LoadU(du, marks + u);
       hn::StoreU(hn::IfThenElse(hn::RebindMask(du, takes), mark, old), du, marks + u);
