@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// A day of steps in one process: one agent in the embedded house looks for one goal after the
-// other, as a robot that lives there does. Prints memory and time at intervals; exit status 1 if
-// more than 5 % was added after the first fifth. Usage: soak [--steps N] [--every N]      default:
-// 200000, 5000
+// A day of steps in one process: one agent in a house looks for one goal after the other, as a
+// robot that lives there does. Prints memory and time at intervals, and at the end what each stage
+// of a step cost at step 100, 1000, 5000 and 50000 side by side, which is to grow with nothing but
+// what there is to see. Exit status 1 if more than 5 % of memory was added after the first fifth.
+// Usage:
+//   soak [--steps N] [--every N] [--px N] [--dim N] [--scene FOLDER]
+// Defaults: 200000, 5000, 64 pixels a side, 32 features, the embedded house.
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,12 +32,12 @@ namespace {
 
 using namespace crossnav;  // NOLINT: a program, not a header
 
-constexpr int kSide_px = 64;
 constexpr int kStepsPerGoal = 500;  // then the next goal's turn, found or not
 constexpr double kMostGrowth = 1.05;
 
 struct Options {
-  long steps = 200'000, every = 5000;
+  long steps = 200'000, every = 5000, px = 64, dim = 32;
+  std::filesystem::path scene;  ///< empty: the embedded house
 };
 
 double ResidentMb() {
@@ -47,10 +53,46 @@ double CpuMs() {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
+/// What a step's stages cost over the hundred steps up to some ages.
+class Ages {
+ public:
+  void Add(long step, const std::vector<trace::StageTime>& stages) {
+    const auto age = std::find_if(kAges.begin(), kAges.end(),
+                                  [step](long a) { return step > a - kMeanOf && step <= a; });
+    if (age == kAges.end()) return;
+    const auto column = static_cast<std::size_t>(age - kAges.begin());
+    columns_ = std::max(columns_, column + 1);
+    for (const trace::StageTime& stage : stages) {
+      if (!sums_.contains(stage.stage)) order_.push_back(stage.stage);
+      sums_[stage.stage][column] += stage.ms;
+    }
+  }
+
+  void Print() const {
+    std::printf("CPU ms of a stage, means of the %ld steps up to step\n%-16s", kMeanOf, "");
+    for (std::size_t i = 0; i < columns_; ++i) std::printf("%9ld", kAges[i]);
+    for (const std::string& stage : order_) {
+      std::printf("\n%-16s", stage.c_str());
+      for (std::size_t i = 0; i < columns_; ++i)
+        std::printf("%9.2f", sums_.at(stage)[i] / static_cast<double>(kMeanOf));
+    }
+    std::printf("\n");
+  }
+
+ private:
+  static constexpr long kMeanOf = 100;
+  static constexpr std::array<long, 4> kAges{100, 1000, 5000, 50000};
+
+  std::map<std::string, std::array<double, kAges.size()>> sums_;
+  std::vector<std::string> order_;
+  std::size_t columns_ = 0;
+};
+
 /// Steps on until all are done; the memory in use at each interval's end, or what failed.
 Result<std::vector<double>> Live(agent::Agent& agent, sim::Simulator& simulator,
                                  const Options& options) {
   std::vector<double> resident_mb;
+  Ages ages;
   std::size_t goal = 0;
   int left = 0;
   double start_ms = CpuMs();
@@ -60,8 +102,15 @@ Result<std::vector<double>> Live(agent::Agent& agent, sim::Simulator& simulator,
         return tl::unexpected(ok.error());
       left = kStepsPerGoal;
     }
-    const auto done = agent.Step(simulator.Observe());
+    const double before_ms = CpuMs();
+    const Observation observation = simulator.Observe();
+    const double observed_ms = CpuMs();
+    const auto done = agent.Step(observation);
     if (!done) return tl::unexpected(done.error());
+    std::vector<trace::StageTime> stages = done->timing;
+    stages.push_back({"simulator", observed_ms - before_ms});
+    stages.push_back({"step", CpuMs() - before_ms});
+    ages.Add(step, stages);
     if (done->all_explored || done->action == Action::kStop) {
       left = 0;
     } else {
@@ -75,12 +124,14 @@ Result<std::vector<double>> Live(agent::Agent& agent, sim::Simulator& simulator,
     std::fflush(stdout);
     start_ms = CpuMs();
   }
+  ages.Print();
   return resident_mb;
 }
 
 Result<std::vector<double>> Soak(const Options& options) {
   const auto scratch = std::filesystem::temp_directory_path() / "crossnav_soak";
-  const auto folder = world::WriteEmbeddedHouse(scratch);
+  const auto folder = options.scene.empty() ? world::WriteEmbeddedHouse(scratch)
+                                            : Result<std::filesystem::path>(options.scene);
   if (!folder) return tl::unexpected(folder.error());
   const auto scene = sim::LoadScene(*folder);
   if (!scene) return tl::unexpected(scene.error());
@@ -88,11 +139,11 @@ Result<std::vector<double>> Soak(const Options& options) {
   if (!navmesh) return tl::unexpected(navmesh.error());
   const sim::RayCaster caster(*scene);
   agent::Config config;
-  config.sensor.width_px = config.sensor.height_px = kSide_px;
+  config.sensor.width_px = config.sensor.height_px = static_cast<int>(options.px);
   sim::Simulator simulator(*scene, *navmesh, caster, config.sensor, config.action);
   sim::GroundTruthConfig truth;
-  truth.min_visible_px = 5;
-  truth.feature_dim = 32;
+  if (options.px < 320) truth.min_visible_px = 5;
+  truth.feature_dim = static_cast<int>(options.dim);
   auto perception = sim::GroundTruthPerception(simulator, truth);
   if (!perception) return tl::unexpected(perception.error());
   agent::Agent agent(config, std::move(*perception));
@@ -109,10 +160,13 @@ int main(int argc, char** argv) {
   Options options;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string word = argv[i];
+    if (word == "--scene") options.scene = argv[i + 1];
     const long value = std::atol(argv[i + 1]);
     if (value < 1) continue;
     if (word == "--steps") options.steps = value;
     if (word == "--every") options.every = value;
+    if (word == "--px") options.px = value;
+    if (word == "--dim") options.dim = value;
   }
   const auto resident_mb = Soak(options);
   if (!resident_mb) {
