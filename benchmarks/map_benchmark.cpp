@@ -208,7 +208,9 @@ struct Column {
   double At(double share) const {
     std::vector<double> sorted = ms;
     std::sort(sorted.begin(), sorted.end());
-    return sorted.empty() ? 0 : sorted[static_cast<std::size_t>(share * (sorted.size() - 1) + 0.5)];
+    return sorted.empty()
+               ? 0
+               : sorted[static_cast<std::size_t>(std::lround(share * (sorted.size() - 1)))];
   }
   void Print() const {
     std::printf("  %-28s %8.2f   p50 %7.2f   p95 %7.2f\n", name, Mean(), At(0.5), At(0.95));
@@ -235,7 +237,8 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
   BonxaiMap bonxai_map = MakeBonxai(true), bonxai_skipping_map = MakeBonxai(false);
 #endif
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Frame frame = frames[i];  // a copy: as if a camera had just made it
+    // A copy: as if a camera had just made it.
+    const Frame frame = frames[i];  // NOLINT(performance-unnecessary-copy-initialization)
     if (fresh) {
       fast_map = make("fast", "never");
       exact_map = make("exact", "never");

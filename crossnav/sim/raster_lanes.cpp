@@ -24,7 +24,10 @@ constexpr float kNear_m = 0.05F;     // chosen: what is nearer is looked for in 
 constexpr float kMargin_px = 0.05F;  // chosen: above the rounding of a pixel coordinate
 constexpr int kTile = 8;             // px
 constexpr float kFlat = 1e-25F;      // chosen: what is seen edge-on to the last bit, or no triangle
-constexpr float kHighest = 1e6F;     // [1/m], of what reaches behind the camera
+// chosen: of surfaces nearer to each other than this share of their depth the first is shown, not
+// now one and now the other.
+constexpr float kNearer = 1.00001F;
+constexpr float kHighest = 1e6F;  // [1/m], of what reaches behind the camera
 
 struct Point {
   V x, y, z;
@@ -234,7 +237,8 @@ struct Stroke {
       const V depth =
           hn::Min(hn::Max(hn::Add(hn::Mul(brush.dx, fu), depth_row), brush.least), brush.greatest);
       const V before = hn::LoadU(d, nearest + u);
-      M takes = hn::And(hn::Ge(outside, hn::Zero(d)), hn::Gt(depth, before));
+      M takes = hn::And(hn::Ge(outside, hn::Zero(d)),
+                        hn::Gt(depth, hn::Mul(before, hn::Set(d, kNearer))));
       if (hn::AllFalse(d, takes)) continue;
       takes = Solid<kHoles>(takes, weight, triangle, is_hole);  // padding may be drawn on, too
       hn::StoreU(hn::IfThenElse(takes, depth, before), d, nearest + u);

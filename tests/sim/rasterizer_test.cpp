@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -108,6 +110,24 @@ TEST(Rasterizer, NoPixelFallsBetweenNeighbours) {
       for (const float depth_m : frame.depth_m.data) ASSERT_GT(depth_m, 0);
     }
   }
+}
+
+// Walls of neighbouring rooms may lie in one plane; they came out as a pattern of both.
+TEST(Rasterizer, OfSurfacesThatCoincideOneIsShown) {
+  MicroScene m;
+  m.Begin("wall");
+  m.Quad({2, -1, -1}, {2.3, 1.1, -1}, {2.3, 1.1, 1}, {2, -1, 1});
+  const int other = m.Begin("other wall");  // other triangles of the same plane
+  m.Quad({2.3, 1.1, 1}, {2, -1, 1}, {2, -1, -1}, {2.3, 1.1, -1});
+  const Scene scene = m.Finish();
+  const Frame frame =
+      Rasterizer(scene).Render(IntrinsicsFromHfov(160, 160, DegToRad(90)),
+                               CameraPose({{0, 0, 0}, 0.2, 0.1}, 0), Channels::kWithoutColour);
+  const auto count = [&](int instance) {
+    return std::count(frame.instance.data.begin(), frame.instance.data.end(), instance);
+  };
+  EXPECT_GT(count(other - 1), 2000);
+  EXPECT_EQ(count(other), 0);
 }
 
 /// Textures, colours at the corners, holes.
