@@ -2,9 +2,7 @@
 // Embree 3 and 4 behind one set of names. Private to sim's .cpp files.
 #pragma once
 
-#include <array>
 #include <memory>
-#include <span>
 #include <string>
 #include <type_traits>
 
@@ -34,24 +32,6 @@ inline std::string EmbreeConfig(const std::string& instructions) {
 inline void Commit(RTCScene scene) {
   tbb::task_arena alone(1);
   alone.execute([scene] { rtcCommitScene(scene); });
-}
-
-/// Closest hits of `packets` of 8 rays from one place in about the same direction. Embree 3 takes
-/// up to 32 rays of a stream through its tree together; Embree 4 has no streams any more.
-inline void IntersectStream(RTCScene scene, std::span<RTCRayHit8> packets) {
-#if RTC_VERSION_MAJOR >= 4
-  alignas(32) static constexpr std::array<int, 8> kAll{-1, -1, -1, -1, -1, -1, -1, -1};
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  for (RTCRayHit8& packet : packets) rtcIntersect8(kAll.data(), scene, &packet, &arguments);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersectNM(scene, &context, reinterpret_cast<RTCRayHitN*>(packets.data()), 8,
-                 static_cast<unsigned>(packets.size()), sizeof(RTCRayHit8));
-#endif
 }
 
 /// Closest hit of one ray.

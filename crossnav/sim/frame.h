@@ -6,7 +6,7 @@
 
 namespace crossnav::sim {
 
-/// What a picture is to hold. Shading and texture look-ups are most of its cost.
+/// What a picture is to hold. Shading and texture look-ups are half of its cost.
 enum class Channels { kAll, kWithoutColour };
 
 struct Frame {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "crossnav/sim/triangle_plane.h"
+
 // This file is compiled once per instruction set by the include below.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crossnav/sim/raster_lanes.cpp"  // NOLINT
@@ -158,10 +160,9 @@ void Remember(const Octet& octet, const Footprints& prints, std::size_t lane,
     return Vector3d(octet.corners[k][0][lane], octet.corners[k][1][lane],
                     octet.corners[k][2][lane]);
   };
-  const Vector3d a = corner(0), n = (corner(1) - a).cross(corner(2) - a);
-  constexpr double kGraze = 1e-6;  // chosen: sine of the angle, far below a pixel's
-  drawn.plane = {n.x(), n.y(), n.z(), n.dot(a) - n.dot(view.origin.cast<double>()),
-                 kGraze * kGraze * n.squaredNorm()};
+  const SeenPlane plane = SeePlane(corner(0), corner(1), corner(2), view.origin.cast<double>());
+  const Vector3d& n = plane.normal;
+  drawn.plane = {n.x(), n.y(), n.z(), plane.rise, plane.least};
   for (int k = 0; k < 3; ++k) drawn.normal[static_cast<std::size_t>(k)] = static_cast<float>(n[k]);
 }
 

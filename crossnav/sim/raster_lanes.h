@@ -22,8 +22,7 @@ struct alignas(128) Drawn {
   std::array<float, 3> normal{};  ///< world, any length
   std::uint32_t triangle = 0;     ///< of the mesh
   std::int32_t instance = 0;
-  std::array<double, 5> plane{};  ///< normal, its product with a corner seen from the origin, and
-                                  ///< the square of the least product with a ray
+  std::array<double, 5> plane{};  ///< of SeenPlane: normal, rise, least
 };
 
 /// Which triangle every pixel shows.

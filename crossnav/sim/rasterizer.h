@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pictures of a scene, triangle by triangle: what a ray through the middle of each pixel meets
-// first, at a quarter of the time that asking rays takes where they come by the hundred thousand
-// (docs/architecture.md, "Pictures"). Deterministic, and the same on every processor. Rendering is
-// const and may be called from several threads.
+// first, in a third of the time that rays take (docs/architecture.md, "Pictures"). Deterministic,
+// with the same bytes on every set of instructions. Rendering is const and may be called from
+// several threads.
 #pragma once
 
 #include <memory>

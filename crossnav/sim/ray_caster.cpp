@@ -10,54 +10,15 @@
 #include "crossnav/sim/holes.h"
 #include "crossnav/sim/rasterizer.h"
 #include "crossnav/sim/shading.h"
+#include "crossnav/sim/triangle_plane.h"
 
 namespace crossnav::sim {
-namespace {
-
-/// n . p = offset for p on the triangle. World frame, metres.
-struct Plane {
-  Vector3d normal = Vector3d::Zero();  ///< not of unit length
-  double offset = 0;
-};
-
-Plane PlaneOf(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
-  const Vector3d p = a.cast<double>();
-  const Vector3d normal = (b.cast<double>() - p).cross(c.cast<double>() - p);
-  return {normal, normal.dot(p)};
-}
-
-/// Where rays from `origin` meet the plane of the triangle that Embree found, worked out here:
-/// Embree divides by an estimate of the processor, which differs from maker to maker.
-class Meeting {
- public:
-  Meeting(const Plane& plane, const Vector3d& origin)
-      : normal_(plane.normal), rise_(plane.offset - plane.normal.dot(origin)) {
-    constexpr double kGraze = 1e-6;  // chosen: sine of the angle, far below a pixel's
-    least_ = kGraze * kGraze * plane.normal.squaredNorm();
-  }
-
-  /// Ray parameter of the meeting; `otherwise`, Embree's answer, where the ray only grazes the
-  /// plane.
-  float At(float x, float y, float z, float otherwise) const {
-    const double across = normal_.x() * x + (normal_.y() * y + normal_.z() * z);
-    const auto meets = static_cast<float>(rise_ / across);
-    return across * across < least_ ? otherwise : meets;
-  }
-
- private:
-  Vector3d normal_;
-  double rise_, least_;
-};
-
-}  // namespace
-
 struct RayCaster::Impl {
   const Scene& scene;
   EmbreeDevice device;
   EmbreeScene rays;
   // Geometry 0 is opaque; geometry 1 holds the triangles with holes and pays for the filter.
   std::array<std::vector<std::uint32_t>, 2> triangles;  // Embree's primitive -> scene triangle
-  std::array<std::vector<Plane>, 2> planes;
   mutable std::once_flag is_drawn;
   mutable std::optional<Rasterizer> rasterizer;  // since the first picture
 
@@ -87,12 +48,8 @@ struct RayCaster::Impl {
                                 3 * sizeof(std::uint32_t), chosen.size()));
     CROSSNAV_CHECK(vertices != nullptr && indices != nullptr, "out of memory for the scene");
     for (const Vector3f& v : mesh.vertices) vertices = std::copy_n(v.data(), 3, vertices);
-    for (const std::uint32_t t : chosen) {
+    for (const std::uint32_t t : chosen)
       indices = std::copy_n(mesh.triangles[t].data(), 3, indices);
-      const auto& corner = mesh.triangles[t];
-      planes[id].push_back(
-          PlaneOf(mesh.vertices[corner[0]], mesh.vertices[corner[1]], mesh.vertices[corner[2]]));
-    }
     if (id == 1) {
       rtcSetGeometryUserData(geometry, this);
       rtcSetGeometryIntersectFilterFunction(geometry, FilterHoles);
@@ -116,14 +73,22 @@ struct RayCaster::Impl {
     Commit(rays.get());
   }
 
-  struct Hit {
-    unsigned geometry, primitive;
-    float s, t;  // weights of the second and third corner
-  };
+  // How far along a ray its triangle is; Embree's answer where the ray only grazes the plane.
+  float DistanceTo(std::uint32_t triangle, const RTCRay& ray) const {
+    const auto corner = [&](std::size_t k) {
+      return Vector3d(scene.mesh.vertices[scene.mesh.triangles[triangle][k]].cast<double>());
+    };
+    const SeenPlane plane =
+        SeePlane(corner(0), corner(1), corner(2), {ray.org_x, ray.org_y, ray.org_z});
+    // In this order pictures add up, too.
+    const double along = plane.normal.x() * ray.dir_x +
+                         (plane.normal.y() * ray.dir_y + plane.normal.z() * ray.dir_z);
+    return along * along < plane.least ? ray.tfar : static_cast<float>(plane.rise / along);
+  }
 
-  Rgb8 ColourOf(const Hit& hit, float light) const {
-    const std::uint32_t triangle = triangles[hit.geometry][hit.primitive];
-    const Colour3f base = SurfaceColour(scene, triangle, hit.s, hit.t);
+  // `s`, `t`: weights of the second and third corner.
+  Rgb8 ColourOf(std::uint32_t triangle, float s, float t, float light) const {
+    const Colour3f base = SurfaceColour(scene, triangle, s, t);
     const bool is_unlit = scene.materials[scene.mesh.triangle_material[triangle]].is_unlit;
     const float share = is_unlit ? 1.0F : light;
     const auto byte = [share](float x) {
@@ -166,13 +131,11 @@ std::optional<RayHit> RayCaster::Cast(const Vector3d& p_world, const Vector3d& d
   IntersectOne(impl_->rays.get(), &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   RayHit hit;
-  hit.distance_m = Meeting(impl_->planes[ray.hit.geomID][ray.hit.primID],
-                           {ray.ray.org_x, ray.ray.org_y, ray.ray.org_z})
-                       .At(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z, ray.ray.tfar);
-  hit.p_world = p_world + direction / length * hit.distance_m;
   hit.triangle = impl_->triangles[ray.hit.geomID][ray.hit.primID];
+  hit.distance_m = impl_->DistanceTo(hit.triangle, ray.ray);
+  hit.p_world = p_world + direction / length * hit.distance_m;
   hit.instance = impl_->scene.mesh.triangle_instance[hit.triangle];
-  hit.colour = impl_->ColourOf({ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v},
+  hit.colour = impl_->ColourOf(hit.triangle, ray.hit.u, ray.hit.v,
                                Light({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, d));
   return hit;
 }

@@ -8,7 +8,7 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr std::size_t kClusterSize = 64;  // measured: 32 and 128 are slower
+constexpr std::size_t kClusterSize = 64;  // chosen: 32 and 128 take about as long
 
 using Box3f = Eigen::AlignedBox3f;
 
