@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// End voxels of one image row, vectorised (Highway, chosen at run time). In double; where a voxel
-// face is so near that the order of operations could decide, the pixel is named for the literal
-// formula (back_projection.h), so that every instruction set gives the same voxels. Internal.
+// End voxels of one image row, vectorised (Highway, chosen at run time). In float; where a voxel
+// face is so near that rounding could decide, again in double; where it could even there, the pixel
+// is named for the literal formula (back_projection.h), so that every instruction set gives the
+// same voxels. Internal.
 #pragma once
 
 #include <array>
@@ -21,12 +22,16 @@ struct RowRays {
 /// Where a pixel says nothing or ends nowhere, x is this.
 inline constexpr std::int32_t kNoEnd = std::numeric_limits<std::int32_t>::min();
 
+/// Room behind rows and lists of pixels: as many lanes as are used at most.
+inline constexpr int kRowEndsPad = 16;
+
 struct RowEnds {
   std::vector<std::int32_t> x, y, z;  ///< voxels; see kNoEnd
-  std::vector<std::int32_t> special;  ///< pixels to be computed literally, or beyond depth_max
+  std::vector<std::int32_t> special;  ///< pixels to be computed literally
   std::vector<std::int32_t> starts;   ///< first pixel of each run of equal voxels
   int special_count = 0, start_count = 0;
-  std::unique_ptr<RowEnds> rest;  ///< room for a row's last few pixels
+  int first_beyond = 0, last_beyond = -1;  ///< pixels that see farther than depth_max
+  std::unique_ptr<RowEnds> rest;           ///< room for a row's last few pixels
 
   void Resize(int width);
 };
@@ -36,16 +41,28 @@ struct RowSpan {
   int first = 0, end = 0;
 };
 
-/// Fills x, y, z, special and `reach_m` (see DepthView) of a row's pixels.
+/// Fills x, y, z, special, the pixels beyond and `reach_m` (see DepthView) of a row's pixels.
 void ComputeRow(const float* depth_m, RowSpan pixels, const RowRays& rays, RowEnds* ends,
                 float* reach_m);
 
 /// Fills `starts` from x, y, z.
 void FindRuns(int width, RowEnds* ends);
 
-/// Those pixels u of `row` whose voxel and that of u + shift in `next` share no face, or one of
-/// which is missing (maybe both are), into `out`, which has room for all. Returns how many.
-int FindApart(RowSpan pixels, const RowEnds& row, const RowEnds& next, int shift,
+/// Pixels of a row, 64 at most: `first` + i for every bit i.
+struct PixelWord {
+  int first = 0;
+  std::uint64_t bits = 0;
+};
+
+/// Those of `pixels` whose voxel in `row` and that `shift` pixels further in `next` share no face,
+/// or one of which is missing (maybe both are), into `out`, which has room for 64 and kRowEndsPad
+/// more. Returns how many.
+int FindApart(const PixelWord& pixels, const RowEnds& row, const RowEnds& next, int shift,
               std::int32_t* out);
+
+/// Those of `pixels` that reach no farther than `farthest_m`, or the one beside or below does not.
+/// Reads up to 64 and kRowEndsPad floats of both rows from `pixels.first` on.
+std::uint64_t FindNear(const PixelWord& pixels, const float* reach_m, const float* below_m,
+                       float farthest_m);
 
 }  // namespace crossnav::geometry

@@ -27,20 +27,24 @@ RowRays RaysOfRow(const DepthFrame& frame, const MapConfig& config, int v) {
   return rays;
 }
 
-/// Settles the pixels that ComputeRow left open: literally, and without an end beyond depth_max.
+/// Settles the pixels that ComputeRow left open, literally. Rays that go on beyond depth_max stay
+/// in `bounds` up to there: those of a row end on a line, its ends bound it.
 void SettleSpecial(const DepthFrame& frame, const MapConfig& config, int v, RowEnds* ends,
                    KeyBounds* bounds) {
+  const auto key_at = [&](int u, double depth_m) {
+    return KeyOfVoxelPoint(
+        BackProjectToVoxels(frame.camera, frame.T_world_camera, u, v, depth_m, config.voxel_m));
+  };
   for (int i = 0; i < ends->special_count; ++i) {
     const int u = ends->special[i];
-    const DepthReach reach =
-        ReachOf(frame.depth_m.At(u, v), config.depth_min_m, config.depth_max_m);
-    const VoxelKey key = KeyOfVoxelPoint(BackProjectToVoxels(frame.camera, frame.T_world_camera, u,
-                                                             v, reach.depth_m, config.voxel_m));
-    bounds->Add(key);
-    ends->x[u] = reach.is_hit ? key.x : kNoEnd;
+    const VoxelKey key = key_at(u, frame.depth_m.At(u, v));
+    ends->x[u] = key.x;
     ends->y[u] = key.y;
     ends->z[u] = key.z;
   }
+  if (ends->last_beyond < 0) return;
+  bounds->Add(key_at(ends->first_beyond, config.depth_max_m));
+  bounds->Add(key_at(ends->last_beyond, config.depth_max_m));
 }
 
 /// Marks each run of equal voxels once and lists it; where the map is clipped, adds to `bounds`

@@ -61,17 +61,10 @@ bool IsSettled(const HitCount& count, const MapConfig& config) {
   return count.hits == 0 && count.passes >= MaxCount(config);
 }
 
-void FrameMarker::Find(const VoxelKey& key) {
-  block_ = nullptr;
-  if (!IsKept(*map_, key)) return;
-  block_key_ = BlockKeyOf(key);
-  Known& known = KnownOf(block_key_);
-  if (known.block == nullptr || known.key != block_key_) {
-    GridEntry& entry = map_->grid.TouchEntry(block_key_);
-    ListInFrame(*map_, entry);
-    known = {block_key_, &entry.block};
-  }
-  block_ = known.block;
+void FrameMarker::Find(const VoxelKey& block_key, Known* known) {
+  GridEntry& entry = map_->grid.TouchEntry(block_key);
+  ListInFrame(*map_, entry);
+  *known = {block_key, &entry.block};
 }
 
 void ListInFrame(MapData& map, GridEntry& entry) {

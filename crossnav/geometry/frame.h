@@ -9,8 +9,15 @@
 
 namespace crossnav::geometry {
 
-/// Sets bits of the current frame; remembers the last block, neighbours mostly share one, and some
-/// before it, as noise goes to and fro between a few.
+/// True if the map keeps `key` (always, unless map.clip_to_extent).
+inline bool IsKept(const MapData& map, const VoxelKey& key) {
+  if (!map.config.clip_to_extent) return true;
+  const int xy = map.cells.extent_xy, z = map.cells.extent_z;
+  return key.x >= -xy && key.x < xy && key.y >= -xy && key.y < xy && key.z >= -z && key.z < z;
+}
+
+/// Sets bits of the current frame; remembers blocks, as neighbours share one and noise goes to and
+/// fro between a few.
 class FrameMarker {
  public:
   explicit FrameMarker(MapData& map) : map_(&map), is_clipped_(map.config.clip_to_extent) {}
@@ -27,35 +34,27 @@ class FrameMarker {
   }
 
  private:
-  VoxelBlock* BlockOf(const VoxelKey& key) {
-    if (block_ == nullptr || BlockKeyOf(key) != block_key_ || is_clipped_) Find(key);
-    return block_;
-  }
-  void Find(const VoxelKey& key);
-
   struct Known {
     VoxelKey key;
     VoxelBlock* block = nullptr;
   };
-  static constexpr std::size_t kKnown = 256;  // chosen: in the first cache
-  Known& KnownOf(const VoxelKey& key) {
-    const int slot = key.x + 7 * key.y + 31 * key.z;
-    return known_[static_cast<std::size_t>(slot) % kKnown];
-  }
 
+  // Axis by axis, and all compared at once: which axis differs cannot be foreseen.
+  VoxelBlock* BlockOf(const VoxelKey& key) {
+    if (is_clipped_ && !IsKept(*map_, key)) return nullptr;
+    const std::int32_t x = key.x >> kBlockBits, y = key.y >> kBlockBits, z = key.z >> kBlockBits;
+    Known& known = known_[static_cast<std::uint32_t>(x + 7 * y + 31 * z) % kKnown];
+    const bool is_other = ((known.key.x ^ x) | (known.key.y ^ y) | (known.key.z ^ z)) != 0;
+    if (is_other || known.block == nullptr) Find({x, y, z}, &known);
+    return known.block;
+  }
+  void Find(const VoxelKey& block_key, Known* known);
+
+  static constexpr std::size_t kKnown = 256;  // chosen: in the first cache
   MapData* map_;
-  VoxelBlock* block_ = nullptr;
-  VoxelKey block_key_;
   bool is_clipped_ = false;
   std::array<Known, kKnown> known_{};
 };
-
-/// True if the map keeps `key` (always, unless map.clip_to_extent).
-inline bool IsKept(const MapData& map, const VoxelKey& key) {
-  if (!map.config.clip_to_extent) return true;
-  const int xy = map.cells.extent_xy, z = map.cells.extent_z;
-  return key.x >= -xy && key.x < xy && key.y >= -xy && key.y < xy && key.z >= -z && key.z < z;
-}
 
 /// Adds the entry to the frame's list of touched blocks.
 void ListInFrame(MapData& map, GridEntry& entry);

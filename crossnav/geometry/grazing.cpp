@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <bitset>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 
 #include "crossnav/geometry/back_projection.h"
@@ -20,6 +22,7 @@ namespace {
 constexpr double kBend = 0.5;
 constexpr double kFarthest_m = 1000;   // chosen: what is farther is no surface of a house
 constexpr double kRounding_px = 0.01;  // chosen: far above that of a projection
+constexpr double kRounding = 1e-6;     // chosen: of a depth, far above that of its computation
 constexpr double kNear_m = 0.01;       // chosen: what is nearer may be seen anywhere
 
 /// Two neighbouring pixels whose end voxels do not share a face: (u, v) and the one to the right of
@@ -29,23 +32,29 @@ struct PixelGap {
   bool is_column = false;
 };
 
-/// Inverse depth of a pixel, NaN outside the image or where it says nothing.
-double InverseDepth(const DepthFrame& frame, int u, int v) {
-  if (!frame.depth_m.Contains(u, v)) return std::nan("");
-  const float z = frame.depth_m.At(u, v);
-  return z > 0 && z < kFarthest_m ? 1.0 / z : std::nan("");
+/// Inverse depth, NaN where a pixel says nothing.
+double InverseOf(float depth_m) {
+  return depth_m > 0 && depth_m < kFarthest_m ? 1.0 / depth_m : std::nan("");
 }
 
 /// Of a gap's line of pixels, from two before it to two after it: 0 and 1 are its own.
 class PixelLine {
  public:
   PixelLine(const DepthFrame& frame, const PixelGap& gap, double voxel_m)
-      : frame_(frame), gap_(gap), voxel_m_(voxel_m) {}
-
-  double InverseAt(int i) const {
-    return InverseDepth(frame_, gap_.u + (gap_.is_column ? 0 : i),
-                        gap_.v + (gap_.is_column ? i : 0));
+      : frame_(frame), gap_(gap), voxel_m_(voxel_m) {
+    const int width = frame.depth_m.width, at = gap.is_column ? gap.v : gap.u;
+    const int step = gap.is_column ? width : 1;
+    const int size = gap.is_column ? frame.depth_m.height : width;
+    const float* depth_m = &frame.depth_m.At(gap.u, gap.v);
+    for (int i = kFirst; i <= kLast; ++i)
+      inverse_[i - kFirst] = at + i >= 0 && at + i < size
+                                 ? InverseOf(depth_m[static_cast<std::ptrdiff_t>(i) * step])
+                                 : std::nan("");
   }
+
+  /// NaN outside the image or where the pixel says nothing.
+  double InverseAt(int i) const { return inverse_[i - kFirst]; }
+
   /// The point seen `t` pixels after the gap's first, at that inverse depth [voxels].
   Vector3d PointAt(double t, double inverse_depth) const {
     return BackProjectToVoxels(frame_.camera, frame_.T_world_camera,
@@ -54,9 +63,11 @@ class PixelLine {
   }
 
  private:
+  static constexpr int kFirst = -2, kLast = 3;
   const DepthFrame& frame_;
   const PixelGap& gap_;
   double voxel_m_;
+  std::array<double, kLast - kFirst + 1> inverse_{};
 };
 
 bool IsSameSlope(double step, double other) {
@@ -110,7 +121,8 @@ class Contested {
   bool Maybe(const VoxelKey& key) const { return bits_[HashOf(key)]; }
   /// Of the voxels between two that touch.
   bool MaybeBetween(const VoxelKey& first, const VoxelKey& step) const {
-    for (int corner = 1; corner < 7; ++corner) {
+    const int along = (step.x != 0 ? 1 : 0) | (step.y != 0 ? 2 : 0) | (step.z != 0 ? 4 : 0);
+    for (int corner = (along - 1) & along; corner != 0; corner = (corner - 1) & along) {
       if (Maybe(first + VoxelKey{(corner & 1) != 0 ? step.x : 0, (corner & 2) != 0 ? step.y : 0,
                                  (corner & 4) != 0 ? step.z : 0}))
         return true;
@@ -130,6 +142,13 @@ class Contested {
   std::bitset<kBits> bits_;
 };
 
+/// A voxel in the image: the first pixels of gaps that its picture touches, on it or one before it,
+/// and up to which depth it reaches [m].
+struct Sighting {
+  PixelRect rect;
+  float depth_m = 0;
+};
+
 /// Pixels by whose rays some contested voxel may be seen, and those beside them: a gap's segments
 /// lie between its rays, so that other gaps have nothing to spare.
 class GapPixels {
@@ -139,51 +158,66 @@ class GapPixels {
   GapPixels(const DepthFrame& frame, const std::vector<VoxelKey>& contested, double voxel_m)
       : width_(frame.depth_m.width),
         height_(frame.depth_m.height),
-        words_((width_ + kWordPixels - 1) / kWordPixels) {
-    bits_.resize(static_cast<std::size_t>(words_) * height_);
+        words_((width_ + kWordPixels - 1) / kWordPixels),
+        words_of_rows_(static_cast<std::size_t>(words_) * height_) {
     const Pose T_camera_world = frame.T_world_camera.inverse();
-    for (const VoxelKey& key : contested) Add(RectOf(frame.camera, T_camera_world, key, voxel_m));
+    for (const VoxelKey& key : contested) Add(See(frame.camera, T_camera_world, key, voxel_m));
   }
 
-  void Add(const PixelRect& rect) {
+  void Add(const Sighting& seen) {
+    const PixelRect& rect = seen.rect;
     if (rect.empty()) return;
     for (int v = rect.v0; v <= rect.v1; ++v)
-      for (int word = rect.u0 / kWordPixels; word <= rect.u1 / kWordPixels; ++word) {
-        const int from = std::max(rect.u0 - word * kWordPixels, 0);
-        const int to = std::min(rect.u1 - word * kWordPixels, kWordPixels - 1);
-        bits_[static_cast<std::size_t>(v) * words_ + word] |=
-            ~std::uint64_t{0} << from & ~std::uint64_t{0} >> (kWordPixels - 1 - to);
+      for (int i = rect.u0 / kWordPixels; i <= rect.u1 / kWordPixels; ++i) {
+        const int from = std::max(rect.u0 - i * kWordPixels, 0);
+        const int to = std::min(rect.u1 - i * kWordPixels, kWordPixels - 1);
+        Word& word = words_of_rows_[static_cast<std::size_t>(v) * words_ + i];
+        word.bits |= ~std::uint64_t{0} << from & ~std::uint64_t{0} >> (kWordPixels - 1 - to);
+        word.farthest_m = std::max(word.farthest_m, seen.depth_m);
       }
   }
 
   int words() const { return words_; }
-  PixelRect All() const { return {0, 0, width_ - 1, height_ - 1}; }
-  RowSpan PixelsOf(int word) const {
-    return {word * kWordPixels, std::min((word + 1) * kWordPixels, width_)};
+  Sighting Everything() const {
+    return {{0, 0, width_ - 1, height_ - 1}, std::numeric_limits<float>::infinity()};
   }
-  bool Any(int word, int v) const { return v >= 0 && WordOf(word, v) != 0; }
-  bool Test(int u, int v) const {
-    return (WordOf(u / kWordPixels, v) >> (u % kWordPixels) & 1) != 0;
+  /// Surfaces in a gap begin at the nearer of its pixels or farther: drops pixels whose gaps lie
+  /// behind all that may be seen there.
+  void DropFar(const DepthView& view) {
+    for (int v = 0; v < height_; ++v)
+      for (int i = 0; i < words_; ++i) {
+        Word& word = words_of_rows_[static_cast<std::size_t>(v) * words_ + i];
+        if (word.bits != 0)
+          word.bits = FindNear({i * kWordPixels, word.bits}, view.Row(v),
+                               view.Row(std::min(v + 1, height_ - 1)), word.farthest_m);
+      }
+  }
+
+  /// Row -1 has none.
+  PixelWord At(int word, int v) const {
+    if (v < 0) return {};
+    return {word * kWordPixels, words_of_rows_[static_cast<std::size_t>(v) * words_ + word].bits};
   }
 
  private:
-  std::uint64_t WordOf(int word, int v) const {
-    return bits_[static_cast<std::size_t>(v) * words_ + word];
-  }
+  struct Word {
+    std::uint64_t bits = 0;
+    float farthest_m = 0;
+  };
 
-  /// First pixels of gaps that the voxel's picture touches: on it, or one before it.
-  PixelRect RectOf(const CameraIntrinsics& K, const Pose& T_camera_world, const VoxelKey& key,
-                   double voxel_m) const {
-    double left = width_, top = height_, right = -1, bottom = -1;
+  Sighting See(const CameraIntrinsics& K, const Pose& T_camera_world, const VoxelKey& key,
+               double voxel_m) const {
+    double left = width_, top = height_, right = -1, bottom = -1, depth_m = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d p_camera =
           T_camera_world * (voxel_m * Vector3d(key.x + (corner & 1), key.y + (corner >> 1 & 1),
                                                key.z + (corner >> 2)));
-      if (p_camera.z() < kNear_m) return All();
+      if (p_camera.z() < kNear_m) return Everything();
       const double u = K.cx + K.fx * p_camera.x() / p_camera.z();
       const double v = K.cy + K.fy * p_camera.y() / p_camera.z();
       left = std::min(left, u), right = std::max(right, u);
       top = std::min(top, v), bottom = std::max(bottom, v);
+      depth_m = std::max(depth_m, p_camera.z());
     }
     const auto from = [](double px, int size) {
       return static_cast<int>(std::ceil(std::clamp<double>(px - 1 - kRounding_px, 0, size)));
@@ -191,18 +225,25 @@ class GapPixels {
     const auto to = [](double px, int size) {
       return static_cast<int>(std::floor(std::clamp<double>(px + kRounding_px, -1, size - 1)));
     };
-    return {from(left, width_), from(top, height_), to(right, width_), to(bottom, height_)};
+    return {{from(left, width_), from(top, height_), to(right, width_), to(bottom, height_)},
+            static_cast<float>(depth_m * (1 + kRounding))};
   }
 
   int width_, height_, words_;
-  std::vector<std::uint64_t> bits_;
+  std::vector<Word> words_of_rows_;
 };
+
+/// From the first to the last of these pixels, of which there are some.
+RowSpan SpanOf(const PixelWord& pixels) {
+  return {pixels.first + std::countr_zero(pixels.bits),
+          pixels.first + static_cast<int>(std::bit_width(pixels.bits))};
+}
 
 /// The gaps at such pixels.
 class GapFinder {
  public:
   GapFinder(const DepthFrame& frame, const MapConfig& config, const GapPixels& where)
-      : frame_(frame), config_(config), where_(where), reach_m_(frame.depth_m.width) {
+      : frame_(frame), config_(config), where_(where), unused_reach_m_(frame.depth_m.width) {
     row_.Resize(frame.depth_m.width);
     above_.Resize(frame.depth_m.width);
   }
@@ -213,34 +254,50 @@ class GapFinder {
     for (int v = 0; v < frame_.depth_m.height; ++v) {
       ComputeNeeded(v);
       for (int word = 0; word < where_.words(); ++word) {
-        RowSpan pixels = where_.PixelsOf(word);
-        if (where_.Any(word, v - 1)) VisitApart(above_, pixels, v - 1, true, visit);
-        pixels.end = std::min(pixels.end, frame_.depth_m.width - 1);
-        if (where_.Any(word, v)) VisitApart(row_, pixels, v, false, visit);
+        const PixelWord above = where_.At(word, v - 1);
+        if (above.bits != 0) VisitApart(above, above_, v - 1, true, visit);
+        PixelWord here = where_.At(word, v);
+        here.bits &= NotLast(word);
+        if (here.bits != 0) VisitApart(here, row_, v, false, visit);
       }
       std::swap(row_, above_);
     }
   }
 
  private:
-  bool IsNeeded(int word, int v) const { return where_.Any(word, v) || where_.Any(word, v - 1); }
+  /// All but the image's last column, to the right of which is none.
+  std::uint64_t NotLast(int word) const {
+    const int last = frame_.depth_m.width - 1 - word * GapPixels::kWordPixels;
+    return last < GapPixels::kWordPixels ? ~(std::uint64_t{1} << last) : ~std::uint64_t{0};
+  }
 
-  /// The row's end voxels at the words that are asked of, in it or above, and one pixel more.
+  /// The row's end voxels at the pixels that are asked of, in it or above, and one pixel more.
   void ComputeNeeded(int v) {
-    KeyBounds unused{};
+    RowSpan span;
     for (int word = 0; word < where_.words(); ++word) {
-      if (!IsNeeded(word, v)) continue;
-      RowSpan span = where_.PixelsOf(word);
-      while (word + 1 < where_.words() && IsNeeded(word + 1, v))
-        span.end = where_.PixelsOf(++word).end;
-      span.end = std::min(span.end + 1, frame_.depth_m.width);
-      ComputeEnds(frame_, config_, v, span, &row_, reach_m_.data(), &unused);
+      PixelWord pixels = where_.At(word, v);
+      pixels.bits |= where_.At(word, v - 1).bits;
+      if (pixels.bits == 0) continue;
+      const RowSpan more = SpanOf(pixels);
+      if (more.first > span.end) {
+        Compute(span, v);
+        span = more;
+      }
+      span.end = std::min(more.end + 1, frame_.depth_m.width);
     }
+    Compute(span, v);
+  }
+  void Compute(RowSpan span, int v) {
+    if (span.first >= span.end) return;
+    span.end += (span.first - span.end) & (kRowEndsPad - 1);  // whole vectors
+    span.end = std::min(span.end, frame_.depth_m.width);
+    KeyBounds unused{};
+    ComputeEnds(frame_, config_, v, span, &row_, unused_reach_m_.data(), &unused);
   }
 
   /// Between `from`, which is row v, and the pixels beside it or, in row_, below it.
   template <class F>
-  void VisitApart(const RowEnds& from, RowSpan pixels, int v, bool is_column, F& visit) {
+  void VisitApart(const PixelWord& pixels, const RowEnds& from, int v, bool is_column, F& visit) {
     const auto key = [](const RowEnds& ends, int u) {
       return VoxelKey{ends.x[u], ends.y[u], ends.z[u]};
     };
@@ -248,7 +305,7 @@ class GapFinder {
     const int count = FindApart(pixels, from, row_, shift, apart_.data());
     for (int i = 0; i < count; ++i) {
       const int u = apart_[i];
-      if (where_.Test(u, v)) visit(PixelGap{u, v, is_column}, key(from, u), key(row_, u + shift));
+      visit(PixelGap{u, v, is_column}, key(from, u), key(row_, u + shift));
     }
   }
 
@@ -256,8 +313,8 @@ class GapFinder {
   const MapConfig& config_;
   const GapPixels& where_;
   RowEnds row_, above_;
-  std::vector<float> reach_m_;
-  std::array<std::int32_t, GapPixels::kWordPixels> apart_{};
+  std::vector<float> unused_reach_m_;
+  std::array<std::int32_t, GapPixels::kWordPixels + kRowEndsPad> apart_{};
 };
 
 }  // namespace
@@ -266,6 +323,7 @@ void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame, GapSearch search
   const Contested contested(map);
   if (contested.keys().empty()) return;
   GridCursor<VoxelBlock> cursor(map.grid);
+  GapPixels where(frame, contested.keys(), map.config.voxel_m);
   const auto spare = [&](const Vector3d& a_vox, const Vector3d& b_vox) {
     WalkRay(a_vox, b_vox, [&](const VoxelKey& key) {
       if (!contested.Maybe(key)) return true;
@@ -275,8 +333,10 @@ void SpareSurfacesInGaps(MapData& map, const DepthFrame& frame, GapSearch search
       return true;
     });
   };
-  GapPixels where(frame, contested.keys(), map.config.voxel_m);
-  if (search == GapSearch::kEverywhere) where.Add(where.All());
+  if (search == GapSearch::kEverywhere)
+    where.Add(where.Everything());
+  else
+    where.DropFar(map.view);
   const auto look_into = [&](const PixelGap& gap, const VoxelKey& a, const VoxelKey& b) {
     const bool is_a = a.x != kNoEnd, is_b = b.x != kNoEnd;
     if (!is_a && !is_b) return;

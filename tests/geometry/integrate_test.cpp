@@ -3,8 +3,10 @@
 
 #include <limits>
 
+#include "crossnav/geometry/back_projection.h"
 #include "crossnav/geometry/frame.h"
 #include "crossnav/geometry/integrate.h"
+#include "crossnav/geometry/ray_walk.h"
 #include "tests/geometry/depth_files.h"
 #include "tests/geometry/evidence_sets.h"
 #include "tests/support/box_rooms.h"
@@ -274,6 +276,43 @@ TEST(IntegrateTest, EndVoxelsAreThoseOfEveryValidPixelInOrder) {
         ++next;
       }
     EXPECT_EQ(next, ends.size());
+  }
+}
+
+// Rows are computed in float first, which cannot tell the sides of a face, nor place voxels of 2 cm
+// at a hundred metres or far from the origin.
+TEST(IntegrateTest, EndVoxelsAreThoseOfTheFormulaWhereFloatsCannotTell) {
+  Rng rng(22);
+  for (const double voxel_m : {0.02, 0.1, 0.125}) {
+    for (const double farthest_m : {3.0, 10.0, 100.0}) {
+      for (const double origin_m : {0.0, 1.5, 123456.7}) {
+        MapConfig config;
+        config.voxel_m = voxel_m;
+        config.depth_max_m = farthest_m;
+        TestFrame frame;
+        frame.camera = IntrinsicsFromHfov(113, 5, DegToRad(90));
+        frame.T_world_camera = CameraPose({Vector3d::Constant(origin_m), 0, 0}, 0.1);
+        frame.depth_m = DepthImage(113, 5, static_cast<float>(0.8 * farthest_m));
+        for (int v = 1; v < 5; ++v)
+          for (int u = 0; u < 113; ++u)
+            frame.depth_m.At(u, v) = static_cast<float>(rng.Uniform(0.05, 1.1 * farthest_m));
+        VoxelMap map(config);
+        const EndVoxels& ends = map.Integrate(frame.depth_m, frame.camera, frame.T_world_camera);
+        std::size_t next = 0;
+        for (int pixel = 0; pixel < 5 * 113; ++pixel) {
+          const int u = pixel % 113, v = pixel / 113;
+          const float z = frame.depth_m.At(u, v);
+          if (!(z >= config.depth_min_m && z <= farthest_m)) continue;
+          const Vector3d p_vox =
+              BackProjectToVoxels(frame.camera, frame.T_world_camera, u, v, z, voxel_m);
+          ASSERT_LT(next, ends.size());
+          EXPECT_EQ(ends[next].pixel, pixel);
+          EXPECT_EQ(ends[next].key, KeyOfVoxelPoint(p_vox)) << voxel_m << " " << farthest_m;
+          ++next;
+        }
+        EXPECT_EQ(next, ends.size());
+      }
+    }
   }
 }
 
