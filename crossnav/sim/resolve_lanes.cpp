@@ -128,8 +128,11 @@ HWY_INLINE void Fill(const Canvas& canvas, const Row& row, std::size_t u, Packet
     const auto is_drawn = hn::Gt(hn::LoadU(d, row.inverse_depth + u + i), hn::Zero(d));
     const auto drawn = hn::BitCast(di, hn::LoadU(hn::RebindToUnsigned<Wide>(), row.drawn + u + i));
     const auto at = hn::ShiftLeft<5>(hn::IfThenElseZero(hn::RebindMask(di, is_drawn), drawn));
+    const std::int32_t first = hn::GetLane(at);
+    const bool is_one = hn::AllTrue(di, hn::Eq(at, hn::Set(di, first)));
     const auto word = [&](int k) {
-      return hn::GatherIndex(di, words, hn::Add(at, hn::Set(di, k)));
+      return is_one ? hn::Set(di, words[first + k])
+                    : hn::GatherIndex(di, words, hn::Add(at, hn::Set(di, k)));
     };
     const auto number = [&](int k) { return hn::BitCast(d, word(k)); };
     const auto fu = hn::Iota(d, static_cast<float>(u + i));

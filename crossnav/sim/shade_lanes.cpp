@@ -2,6 +2,7 @@
 #include "crossnav/sim/shade_lanes.h"
 
 #include <bit>
+#include <cstring>
 
 // This file is compiled once per instruction set by the include below.
 #undef HWY_TARGET_INCLUDE
@@ -33,14 +34,23 @@ HWY_INLINE Colours Unpack(I packed) {
           hn::ConvertTo(d, hn::And(hn::ShiftRight<16>(packed), low))};
 }
 
-// Words of the lanes' triangles.
+// Words of the lanes' triangles. Neighbours mostly show the same one.
 struct Lanes {
   const std::int32_t* words;
-  I at;  // of each lane's first word
+  I at;                     // of each lane's first word
+  const std::int32_t* one;  // words of the one triangle that all lanes show; or null
 
+  HWY_INLINE Lanes(const Skins& skins, I triangle)
+      : words(skins.triangles.front().words.data()), at(hn::ShiftLeft<4>(triangle)) {
+    static_assert(Skins::kWords == 1 << 4);
+    const std::int32_t first = hn::GetLane(triangle);
+    const bool is_one = hn::AllTrue(Index(), hn::Eq(triangle, hn::Set(Index(), first)));
+    one = is_one ? skins.triangles[static_cast<std::size_t>(first)].words.data() : nullptr;
+  }
   HWY_INLINE I Word(int k) const {
     const Index di;
-    return hn::GatherIndex(di, words, hn::Add(at, hn::Set(di, k)));
+    return one != nullptr ? hn::Set(di, one[k])
+                          : hn::GatherIndex(di, words, hn::Add(at, hn::Set(di, k)));
   }
   HWY_INLINE V Float(int k) const { return hn::BitCast(Wide(), Word(k)); }
 };
@@ -79,28 +89,59 @@ HWY_INLINE Between Locate(V coordinate, I size) {
   return {first, Wrap(hn::Add(first, hn::Set(di, 1)), size), hn::Sub(x, floor)};
 }
 
-HWY_INLINE I Fetch(const Skins& skins, I texture, I pixel) {
-  const Index di;
-  alignas(64) std::array<std::int32_t, kShadeLanes> number, place, colour{};
-  hn::Store(texture, di, number.data());
-  hn::Store(pixel, di, place.data());
-  for (std::size_t lane = 0; lane < hn::Lanes(di); ++lane) {
-    if (number[lane] < 0) continue;
-    const Rgb8& p = skins.textures[static_cast<std::size_t>(number[lane])][place[lane]];
-    colour[lane] = p.r | p.g << 8 | p.b << 16;
-  }
-  return hn::Load(di, colour.data());
-}
+// Pixels of the lanes' textures, packed.
+struct Texels {
+  const Skins& skins;
+  I texture;
+  const std::uint8_t* bytes = nullptr;  // of the one texture that all lanes show; or null
+  std::int32_t last = 0;                // where a word may begin that ends with that texture
 
-HWY_INLINE Colours Sample(const Skins& skins, const Lanes& lanes, I texture, const Weights& w) {
+  HWY_INLINE Texels(const Skins& all, const Lanes& lanes) : skins(all) {
+    texture = lanes.Word(Skins::kTexture);
+    if (lanes.one == nullptr || std::endian::native != std::endian::little) return;
+    last = 3 * lanes.one[Skins::kWidth] * lanes.one[Skins::kHeight] - 4;
+    if (last >= 0) bytes = &skins.textures[lanes.one[Skins::kTexture]]->r;
+  }
+
+  HWY_INLINE I At(I pixel) const { return bytes != nullptr ? AtOne(pixel) : AtAny(pixel); }
+
+ private:
+  // A word for each pixel, the last one's begins a byte before it.
+  HWY_INLINE I AtOne(I pixel) const {
+    const Index di;
+    const I byte = hn::Add(hn::Add(pixel, pixel), pixel);
+    const I from = hn::Min(byte, hn::Set(di, last));
+    alignas(64) std::array<std::int32_t, kShadeLanes> place, word;
+    hn::Store(from, di, place.data());
+    for (std::size_t lane = 0; lane < hn::Lanes(di); ++lane)
+      std::memcpy(&word[lane], bytes + place[lane], sizeof(std::int32_t));
+    const I words = hn::Load(di, word.data());
+    const I moved = hn::IfThenElse(hn::Eq(byte, from), words, hn::ShiftRight<8>(words));
+    return hn::And(moved, hn::Set(di, 0xffffff));
+  }
+
+  HWY_INLINE I AtAny(I pixel) const {
+    const Index di;
+    alignas(64) std::array<std::int32_t, kShadeLanes> number, place, colour{};
+    hn::Store(texture, di, number.data());
+    hn::Store(pixel, di, place.data());
+    for (std::size_t lane = 0; lane < hn::Lanes(di); ++lane) {
+      if (number[lane] < 0) continue;
+      const Rgb8& p = skins.textures[static_cast<std::size_t>(number[lane])][place[lane]];
+      colour[lane] = p.r | p.g << 8 | p.b << 16;
+    }
+    return hn::Load(di, colour.data());
+  }
+};
+
+HWY_INLINE Colours Sample(const Skins& skins, const Lanes& lanes, const Weights& w) {
+  const Texels texels(skins, lanes);
   const V one = hn::Set(Wide(), 1.0F);
   const I width = lanes.Word(Skins::kWidth);
   const Between x = Locate(w.Of(lanes, Skins::kU), width);
   const Between y = Locate(w.Of(lanes, Skins::kV), lanes.Word(Skins::kHeight));
   const I row0 = hn::Mul(y.first, width), row1 = hn::Mul(y.second, width);
-  const auto pixel = [&](I row, I column) {
-    return Unpack(Fetch(skins, texture, hn::Add(row, column)));
-  };
+  const auto pixel = [&](I row, I column) { return Unpack(texels.At(hn::Add(row, column))); };
   const Colours a = pixel(row0, x.first), b = pixel(row0, x.second), c = pixel(row1, x.first),
                 e = pixel(row1, x.second);
   const V left = hn::Sub(one, x.share), top = hn::Sub(one, y.share);
@@ -156,9 +197,7 @@ void Shade(const Skins& skins, const PacketHits& hits, std::uint32_t* colours) {
   const Wide d;
   const Index di;
   for (std::size_t i = 0; i < kShadeLanes; i += hn::Lanes(d)) {
-    const I triangle = hn::LoadU(di, hits.triangle + i);
-    const Lanes lanes{skins.triangles.front().words.data(), hn::ShiftLeft<4>(triangle)};
-    static_assert(Skins::kWords == 1 << 4);
+    const Lanes lanes(skins, hn::LoadU(di, hits.triangle + i));
     const V s = hn::LoadU(d, hits.s + i), t = hn::LoadU(d, hits.t + i);
     const Weights weights{hn::Sub(hn::Sub(hn::Set(d, 1.0F), s), t), s, t};
     Colours colour = Unpack(lanes.Word(Skins::kBase));
@@ -166,7 +205,7 @@ void Shade(const Skins& skins, const PacketHits& hits, std::uint32_t* colours) {
       const I texture = lanes.Word(Skins::kTexture);
       const M textured = hn::RebindMask(d, hn::Gt(texture, hn::Set(di, -1)));
       if (!hn::AllFalse(d, textured))
-        colour = Multiply(colour, Sample(skins, lanes, texture, weights), textured);
+        colour = Multiply(colour, Sample(skins, lanes, weights), textured);
     }
     if (skins.has_corners) {
       const Colours a = Unpack(lanes.Word(Skins::kCorner)),
