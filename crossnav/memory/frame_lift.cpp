@@ -11,12 +11,41 @@ GridAxis GridAxis::Make(int pixels, int cells) {
   axis.cells = cells;
   axis.first.resize(pixels);
   axis.fraction.resize(pixels);
+  axis.end.resize(static_cast<std::size_t>(cells));
   for (int p = 0; p < pixels; ++p) {
     const double x = std::clamp((p + 0.5) * cells / pixels - 0.5, 0.0, cells - 1.0);
     axis.first[p] = static_cast<std::int32_t>(std::floor(x));
     axis.fraction[p] = static_cast<float>(x - axis.first[p]);
+    axis.end[static_cast<std::size_t>(axis.first[p])] = p + 1;
   }
   return axis;
+}
+
+void RowSums::Reset(const float* quality, const GridAxis& u) {
+  quality_ = quality;
+  fraction_ = u.fraction.data();
+  before_.resize(u.first.size() + static_cast<std::size_t>(u.cells) + 1);
+  int pixel = 0;
+  for (std::size_t cell = 0; cell < u.end.size(); ++cell) {
+    Sums* before = &before_[static_cast<std::size_t>(pixel) + cell];
+    Sums sums;
+    *before = sums;
+    for (; pixel < u.end[cell]; ++pixel) {
+      const double q = quality[pixel];
+      sums.total += q;
+      sums.right += q * fraction_[pixel];
+      *++before = sums;
+    }
+  }
+}
+
+RowSums::Sums RowSums::Literally(int first, int last) const {
+  Sums sums;
+  for (int u = first; u <= last; ++u) {
+    sums.total += quality_[u];
+    sums.right += static_cast<double>(quality_[u]) * fraction_[u];
+  }
+  return sums;
 }
 
 void CellWeights::Reset(const GridAxis& u, const GridAxis& v) {

@@ -19,10 +19,39 @@ namespace crossnav::memory {
 struct GridAxis {
   std::vector<std::int32_t> first;  ///< lower cell of the interval, per pixel
   std::vector<float> fraction;      ///< [0, 1) towards the next cell
+  std::vector<std::int32_t> end;    ///< first pixel behind the interval, per lower cell
   int cells = 0;
 
   static GridAxis Make(int pixels, int cells);
   int Next(int cell) const { return cell + 1 < cells ? cell + 1 : cell; }
+};
+
+/// Sums over neighbouring pixels of an image row that lie in one interval of cells, each in two
+/// subtractions: what came before within the interval is kept for every pixel.
+class RowSums {
+ public:
+  /// `quality`: of the row, as many as `u` has pixels; kept.
+  void Reset(const float* quality, const GridAxis& u);
+
+  struct Sums {
+    double total = 0, right = 0;  ///< sum q, sum q * fraction
+  };
+  /// Pixels first..last of interval `cell`.
+  Sums Of(int first, int last, std::int32_t cell) const {
+    const Sums& from = before_[first + cell];
+    const Sums& to = before_[last + cell + 1];
+    const Sums sums{to.total - from.total, to.right - from.right};
+    return sums.total > kLost * to.total ? sums : Literally(first, last);
+  }
+
+ private:
+  // chosen: far above the rounding of a sum, so that what is faint beside what is bright counts.
+  static constexpr double kLost = 1e-8;
+  Sums Literally(int first, int last) const;
+
+  const float* quality_ = nullptr;
+  const float* fraction_ = nullptr;
+  std::vector<Sums> before_;  // by pixel + interval: one more place for each interval
 };
 
 /// Weights of the cells that each voxel touches. Slots are small numbers the caller hands out.

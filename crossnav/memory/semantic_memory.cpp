@@ -21,6 +21,19 @@ struct RowBlock {
 };
 using RowGrid = geometry::SparseGrid<RowBlock>;
 
+/// The run at `*i` with those that go on where it ends, in its row of `width` pixels; `*i` moves
+/// behind them.
+EndRun TakeRun(std::span<const EndRun> runs, int width, std::size_t* i) {
+  EndRun run = runs[(*i)++];
+  for (; *i < runs.size(); ++*i) {
+    const EndRun& next = runs[*i];
+    const bool goes_on = next.key == run.key && next.pixel == run.pixel + run.count;
+    if (!goes_on || next.pixel % width == 0) break;
+    run.count += next.count;
+  }
+  return run;
+}
+
 struct RowFacts {
   float weight = 0;
   float best_confidence = 0;
@@ -41,6 +54,7 @@ struct SemanticMemory::Impl {
   // Scratch of one frame, kept to avoid allocation.
   Image<float> quality;
   GridAxis u_axis, v_axis;
+  RowSums row_sums;
   CellWeights weights;
   std::vector<std::int32_t> slot_of_row;  // -1 outside Fuse
   std::vector<std::int32_t> row_of_slot;
@@ -88,39 +102,35 @@ struct SemanticMemory::Impl {
   }
 };
 
-// Cuts the runs where the cell interval changes, and joins again what lost pixels cut.
+// Cuts the runs where the cell interval changes, after joining those that were cut elsewhere.
 void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width) {
   geometry::GridCursor<RowBlock> cursor(index);
-  CellWeights::Run run;
-  VoxelKey run_key;
-  int run_row = -1;
-  const auto flush = [&] {
-    if (run.total <= 0) return;
-    std::int32_t& cell = cursor.Touch(run_key).row[geometry::CellIndexOf(run_key)];
-    weights.Add(SlotOf(cell, run_key), run);
-    run.total = run.right = 0;
-  };
-  for (const EndRun& ends : runs) {
-    const int v = ends.pixel / width;
-    const float* q = &quality.data[static_cast<std::size_t>(v) * width];
-    const int u_end = ends.pixel - v * width + ends.count;
-    for (int u = u_end - ends.count; u < u_end;) {
-      const std::int32_t u_cell = u_axis.first[u];
-      if (v != run_row || run_key != ends.key || run.u_cell != u_cell) {
-        flush();
-        run_row = v;
-        run_key = ends.key;
-        run.u_cell = u_cell;
-        run.v_cell = v_axis.first[v];
-        run.v_fraction = v_axis.fraction[v];
-      }
-      for (; u < u_end && u_axis.first[u] == u_cell; ++u) {
-        run.total += q[u];
-        run.right += static_cast<double>(q[u]) * u_axis.fraction[u];
-      }
+  CellWeights::Run piece;
+  std::int32_t row_begin = 0, row_end = 0;  // pixels of the row that `row_sums` is of
+  for (std::size_t i = 0; i < runs.size();) {
+    const EndRun run = TakeRun(runs, width, &i);
+    if (run.pixel >= row_end || run.pixel < row_begin) {
+      const int v = run.pixel / width;
+      row_begin = v * width;
+      row_end = row_begin + width;
+      piece.v_cell = v_axis.first[v];
+      piece.v_fraction = v_axis.fraction[v];
+      row_sums.Reset(&quality.data[static_cast<std::size_t>(row_begin)], u_axis);
+    }
+    const int end = run.pixel - row_begin + run.count;
+    std::int32_t slot = -1;
+    for (int u = end - run.count, next = 0; u < end; u = next) {
+      piece.u_cell = u_axis.first[u];
+      next = std::min(end, u_axis.end[piece.u_cell]);
+      const RowSums::Sums sums = row_sums.Of(u, next - 1, piece.u_cell);
+      if (sums.total <= 0) continue;
+      piece.total = sums.total;
+      piece.right = sums.right;
+      if (slot < 0)
+        slot = SlotOf(cursor.Touch(run.key).row[geometry::CellIndexOf(run.key)], run.key);
+      weights.Add(slot, piece);
     }
   }
-  flush();
 }
 
 // eq:intra_frame_fusion and eq:supp_feature_fusion in one pass over the row.

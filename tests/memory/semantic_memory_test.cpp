@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "crossnav/core/rng.h"
 #include "memory/golden_file.h"
@@ -144,6 +145,26 @@ TEST(SemanticMemoryTest, HowTheRunsAreCutChangesNothing) {
     EXPECT_EQ(by_pixel.Keys()[row], by_run.Keys()[row]);
     EXPECT_EQ(by_pixel.WeightAt(row), by_run.WeightAt(row));
     EXPECT_EQ(by_pixel.FeatureAt(row), by_run.FeatureAt(row));
+  }
+}
+
+// Sums over runs are differences of sums over a whole interval of cells.
+TEST(SemanticMemoryTest, WhatIsFarBesideWhatIsNearIsKeptWithItsWeight) {
+  const CameraIntrinsics camera = IntrinsicsFromHfov(64, 8, DegToRad(90));
+  DepthImage depth(64, 8, 1.0F);
+  for (int v = 0; v < 8; ++v)
+    for (int u = 20; u < 23; ++u) depth.At(u, v) = 40.0F;
+  const std::vector<float> data(2 * 2 * 4, 1.0F);
+  SemanticMemory memory(FloatRows());
+  const auto pixels = testing::EndVoxels(depth, camera, Pose::Identity(), 0.1);
+  memory.Fuse(pixels, depth, camera, Pose::Identity(), {2, 2, 4, data});
+  const Image<float> quality = ObservationQuality(depth, camera, FloatRows());
+  std::map<VoxelKey, double> weights;
+  for (const PixelVoxel& pixel : pixels) weights[pixel.key] += quality.data[pixel.pixel];
+  ASSERT_EQ(memory.Size(), static_cast<std::int64_t>(weights.size()));
+  for (const auto& [key, weight] : weights) {
+    ASSERT_TRUE(memory.RowOf(key).has_value());
+    EXPECT_NEAR(memory.WeightAt(*memory.RowOf(key)) / weight, 1, 1e-6);
   }
 }
 
