@@ -2,7 +2,7 @@
 // The camera against Embree's rays: streams of them, with nothing done about the hits. 640 x 640,
 // 90 degrees, one thread, CPU time; all in one run, on displaced surfaces of about 100,000 and a
 // million triangles around the camera, on the shared home if it is there, and on a scene of yours,
-// seen from places all over its floors.
+// as it is and with its triangles cut into a million, seen from places all over its floors.
 // Usage: camera_benchmark [SCENE_FOLDER] [options of Google Benchmark]
 #include <benchmark/benchmark.h>
 
@@ -12,8 +12,10 @@
 #include <filesystem>
 #include <limits>
 #include <list>
+#include <queue>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crossnav/core/camera.h"
@@ -27,9 +29,10 @@ namespace crossnav::sim {
 namespace {
 
 constexpr int kViews = 8;
+constexpr std::size_t kMillion = 1'000'000;
 
 /// Six displaced faces of a room of 10 x 10 x 3 m, and bumps in it: `n` x `n` quads a face.
-Scene DisplacedRoom(std::int64_t triangles) {
+Scene DisplacedRoom(std::size_t triangles) {
   const int n = static_cast<int>(std::sqrt(static_cast<double>(triangles) / 12));
   Scene scene;
   TriangleMesh& mesh = scene.mesh;
@@ -72,11 +75,55 @@ struct Subject {
   std::vector<Pose> views;  ///< T_world_camera
 };
 
-Subject Displaced(std::int64_t triangles) {
+Subject Displaced(std::size_t triangles) {
   Subject subject{std::to_string(triangles), DisplacedRoom(triangles), {}};
   for (int i = 0; i < kViews; ++i)
     subject.views.push_back(CameraPose({{}, 0.9 * i, 0.25 * (i % 3 - 1)}, 0.88));
   return subject;
+}
+
+/// Cuts triangles in two at the middle of their longest side, the largest first, until there are
+/// `count`: what is seen stays the same.
+void CutInto(std::size_t count, TriangleMesh* mesh) {
+  const auto area = [mesh](std::size_t t) {
+    const auto& [a, b, c] = mesh->triangles[t];
+    const auto& p = mesh->vertices;
+    return (p[b] - p[a]).cross(p[c] - p[a]).norm();
+  };
+  const auto middle = [mesh](std::uint32_t a, std::uint32_t b) {
+    mesh->vertices.push_back((mesh->vertices[a] + mesh->vertices[b]) / 2);
+    if (!mesh->uvs.empty())
+      mesh->uvs.push_back(
+          {(mesh->uvs[a][0] + mesh->uvs[b][0]) / 2, (mesh->uvs[a][1] + mesh->uvs[b][1]) / 2});
+    if (!mesh->vertex_colours.empty()) {
+      const Rgb8 one = mesh->vertex_colours[a], other = mesh->vertex_colours[b];
+      const auto mean = [](int x, int y) { return static_cast<std::uint8_t>((x + y) / 2); };
+      mesh->vertex_colours.push_back(
+          {mean(one.r, other.r), mean(one.g, other.g), mean(one.b, other.b)});
+    }
+    return static_cast<std::uint32_t>(mesh->vertices.size() - 1);
+  };
+  std::priority_queue<std::pair<float, std::size_t>> largest;
+  for (std::size_t t = 0; t < mesh->triangles.size(); ++t) largest.emplace(area(t), t);
+  while (mesh->triangles.size() < count) {
+    const std::size_t t = largest.top().second, added = mesh->triangles.size();
+    largest.pop();
+    const auto corners = mesh->triangles[t];
+    const auto side = [&](std::size_t k) {
+      return (mesh->vertices[corners[(k + 1) % 3]] - mesh->vertices[corners[k]]).norm();
+    };
+    std::size_t k = 0;
+    for (std::size_t other = 1; other < 3; ++other)
+      if (side(other) > side(k)) k = other;
+    const std::uint32_t a = corners[k], b = corners[(k + 1) % 3], c = corners[(k + 2) % 3];
+    const std::uint32_t m = middle(a, b);
+    mesh->triangles[t] = {a, m, c};
+    mesh->triangles.push_back({m, b, c});
+    mesh->triangle_material.push_back(mesh->triangle_material[t]);
+    mesh->triangle_instance.push_back(mesh->triangle_instance[t]);
+    largest.emplace(area(t), t);
+    largest.emplace(area(added), added);
+  }
 }
 
 Result<Subject> House(const std::filesystem::path& folder) {
@@ -227,9 +274,14 @@ int Main(int argc, char** argv) {
       return 1;
     }
     subjects.push_back(std::move(*house));
+    if (subjects.back().name == home.filename()) continue;
+    subjects.push_back(subjects.back());
+    subjects.back().name += "/cut";
+    CutInto(kMillion, &subjects.back().scene.mesh);
+    UpdateDerived(subjects.back().scene);
   }
   subjects.push_back(Displaced(100'000));
-  subjects.push_back(Displaced(1'000'000));
+  subjects.push_back(Displaced(kMillion));
   for (const Subject& subject : subjects) {
     Register("RawStreams", subject, RawStreams);
     Register("WithoutColour", subject, [](benchmark::State& state, const Subject& s) {

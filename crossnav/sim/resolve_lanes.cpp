@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include "crossnav/sim/lane_words-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace crossnav::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -128,12 +130,7 @@ HWY_INLINE void Fill(const Canvas& canvas, const Row& row, std::size_t u, Packet
     const auto is_drawn = hn::Gt(hn::LoadU(d, row.inverse_depth + u + i), hn::Zero(d));
     const auto drawn = hn::BitCast(di, hn::LoadU(hn::RebindToUnsigned<Wide>(), row.drawn + u + i));
     const auto at = hn::ShiftLeft<5>(hn::IfThenElseZero(hn::RebindMask(di, is_drawn), drawn));
-    const std::int32_t first = hn::GetLane(at);
-    const bool is_one = hn::AllTrue(di, hn::Eq(at, hn::Set(di, first)));
-    const auto word = [&](int k) {
-      return is_one ? hn::Set(di, words[first + k])
-                    : hn::GatherIndex(di, words, hn::Add(at, hn::Set(di, k)));
-    };
+    const LaneWords<hn::RebindToSigned<Wide>> word(words, at);
     const auto number = [&](int k) { return hn::BitCast(d, word(k)); };
     const auto fu = hn::Iota(d, static_cast<float>(u + i));
     const auto fv = hn::Set(d, static_cast<float>(row.v));

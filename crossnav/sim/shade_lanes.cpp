@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include "crossnav/sim/lane_words-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace crossnav::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -34,24 +36,15 @@ HWY_INLINE Colours Unpack(I packed) {
           hn::ConvertTo(d, hn::And(hn::ShiftRight<16>(packed), low))};
 }
 
-// Words of the lanes' triangles. Neighbours mostly show the same one.
+// Words of the lanes' triangles.
 struct Lanes {
-  const std::int32_t* words;
-  I at;                     // of each lane's first word
-  const std::int32_t* one;  // words of the one triangle that all lanes show; or null
+  LaneWords<Index> words;
 
   HWY_INLINE Lanes(const Skins& skins, I triangle)
-      : words(skins.triangles.front().words.data()), at(hn::ShiftLeft<4>(triangle)) {
+      : words(skins.triangles.front().words.data(), hn::ShiftLeft<4>(triangle)) {
     static_assert(Skins::kWords == 1 << 4);
-    const std::int32_t first = hn::GetLane(triangle);
-    const bool is_one = hn::AllTrue(Index(), hn::Eq(triangle, hn::Set(Index(), first)));
-    one = is_one ? skins.triangles[static_cast<std::size_t>(first)].words.data() : nullptr;
   }
-  HWY_INLINE I Word(int k) const {
-    const Index di;
-    return one != nullptr ? hn::Set(di, one[k])
-                          : hn::GatherIndex(di, words, hn::Add(at, hn::Set(di, k)));
-  }
+  HWY_INLINE I Word(int k) const { return words(k); }
   HWY_INLINE V Float(int k) const { return hn::BitCast(Wide(), Word(k)); }
 };
 
@@ -96,11 +89,13 @@ struct Texels {
   const std::uint8_t* bytes = nullptr;  // of the one texture that all lanes show; or null
   std::int32_t last = 0;                // where a word may begin that ends with that texture
 
-  HWY_INLINE Texels(const Skins& all, const Lanes& lanes) : skins(all) {
-    texture = lanes.Word(Skins::kTexture);
-    if (lanes.one == nullptr || std::endian::native != std::endian::little) return;
-    last = 3 * lanes.one[Skins::kWidth] * lanes.one[Skins::kHeight] - 4;
-    if (last >= 0) bytes = &skins.textures[lanes.one[Skins::kTexture]]->r;
+  HWY_INLINE Texels(const Skins& all, I textures, I width, I height)
+      : skins(all), texture(textures) {
+    const std::int32_t first = hn::GetLane(texture);
+    const bool is_one = hn::AllTrue(Index(), hn::Eq(texture, hn::Set(Index(), first)));
+    if (!is_one || std::endian::native != std::endian::little) return;
+    last = 3 * hn::GetLane(width) * hn::GetLane(height) - 4;
+    if (last >= 0) bytes = &skins.textures[static_cast<std::size_t>(first)]->r;
   }
 
   HWY_INLINE I At(I pixel) const { return bytes != nullptr ? AtOne(pixel) : AtAny(pixel); }
@@ -134,12 +129,12 @@ struct Texels {
   }
 };
 
-HWY_INLINE Colours Sample(const Skins& skins, const Lanes& lanes, const Weights& w) {
-  const Texels texels(skins, lanes);
+HWY_INLINE Colours Sample(const Skins& skins, const Lanes& lanes, I texture, const Weights& w) {
   const V one = hn::Set(Wide(), 1.0F);
-  const I width = lanes.Word(Skins::kWidth);
+  const I width = lanes.Word(Skins::kWidth), height = lanes.Word(Skins::kHeight);
+  const Texels texels(skins, texture, width, height);
   const Between x = Locate(w.Of(lanes, Skins::kU), width);
-  const Between y = Locate(w.Of(lanes, Skins::kV), lanes.Word(Skins::kHeight));
+  const Between y = Locate(w.Of(lanes, Skins::kV), height);
   const I row0 = hn::Mul(y.first, width), row1 = hn::Mul(y.second, width);
   const auto pixel = [&](I row, I column) { return Unpack(texels.At(hn::Add(row, column))); };
   const Colours a = pixel(row0, x.first), b = pixel(row0, x.second), c = pixel(row1, x.first),
@@ -205,7 +200,7 @@ void Shade(const Skins& skins, const PacketHits& hits, std::uint32_t* colours) {
       const I texture = lanes.Word(Skins::kTexture);
       const M textured = hn::RebindMask(d, hn::Gt(texture, hn::Set(di, -1)));
       if (!hn::AllFalse(d, textured))
-        colour = Multiply(colour, Sample(skins, lanes, weights), textured);
+        colour = Multiply(colour, Sample(skins, lanes, texture, weights), textured);
     }
     if (skins.has_corners) {
       const Colours a = Unpack(lanes.Word(Skins::kCorner)),
