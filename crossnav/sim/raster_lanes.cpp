@@ -338,15 +338,16 @@ HWY_INLINE bool IsHidden(const Cluster& cluster, float nearest_m, const RasterVi
   const int u0 = first(u_low), u1 = last(u_high, view.width);
   const int v0 = first(v_low), v1 = last(v_high, view.height);
   const V nearest = hn::Set(d, 1 / nearest_m * 1.00001F);
-  const V tail = hn::Set(d, static_cast<float>(u1));
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
+  const M tail = hn::FirstN(d, static_cast<std::size_t>(std::max(0, (u1 - u0) % kLanes + 1)));
   for (int v = v0; v <= v1; ++v) {
     const float* row = canvas.inverse_depth.data() +
                        static_cast<std::size_t>(v) * static_cast<std::size_t>(canvas.stride);
+    int u = u0;
     M seen = hn::MaskFromVec(hn::Zero(d));
-    for (int u = u0; u <= u1; u += static_cast<int>(hn::Lanes(d))) {
-      const M beyond = hn::Gt(hn::Iota(d, static_cast<float>(u)), tail);
-      seen = hn::Or(seen, hn::AndNot(beyond, hn::Lt(hn::LoadU(d, row + u), nearest)));
-    }
+    for (; u + kLanes <= u1; u += kLanes)
+      seen = hn::Or(seen, hn::Lt(hn::LoadU(d, row + u), nearest));
+    if (u <= u1) seen = hn::Or(seen, hn::And(tail, hn::Lt(hn::LoadU(d, row + u), nearest)));
     if (!hn::AllFalse(d, seen)) return false;
   }
   return true;

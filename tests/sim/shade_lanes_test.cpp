@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include <vector>
+
 #include "crossnav/core/rng.h"
 #include "crossnav/sim/shading.h"
 #include "micro_scene.h"
@@ -55,9 +57,13 @@ struct Hits {
   std::array<float, kShadeLanes> s, t;
   std::array<std::array<float, kShadeLanes>, 3> normal, ray;
 
-  Hits(Rng& rng, const Scene& scene) {
+  /// Of `kinds` triangles at most: one, a few and many are different ways.
+  Hits(Rng& rng, const Scene& scene, int kinds) {
+    std::vector<std::int32_t> some;
+    while (static_cast<int>(some.size()) < kinds)
+      some.push_back(Below(rng, static_cast<int>(scene.mesh.triangles.size())));
     for (std::size_t i = 0; i < kShadeLanes; ++i) {
-      triangle[i] = Below(rng, static_cast<int>(scene.mesh.triangles.size()));
+      triangle[i] = some[static_cast<std::size_t>(Below(rng, kinds))];
       s[i] = static_cast<float>(rng.Uniform(0, 1));
       t[i] = static_cast<float>(rng.Uniform(0, 1 - static_cast<double>(s[i])));
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -84,7 +90,9 @@ std::uint32_t OneByOne(const Scene& scene, const Hits& hits, std::size_t i) {
   const float light = is_unlit ? 1
                                : Light({hits.normal[0][i], hits.normal[1][i], hits.normal[2][i]},
                                        {hits.ray[0][i], hits.ray[1][i], hits.ray[2][i]});
-  const auto byte = [light](float x) { return static_cast<std::uint32_t>(x * light + 0.5F); };
+  const auto byte = [light](float x) {
+    return static_cast<std::uint32_t>(x * light + 0.5F);  // NOLINT: never negative
+  };
   return byte(colour.r) | byte(colour.g) << 8 | byte(colour.b) << 16;
 }
 
@@ -96,7 +104,7 @@ TEST(ShadeLanes, EveryByteIsThatOfShadingOneByOneOnEveryInstructionSet) {
     const Scene scene = AnyScene(rng, parts);
     const Skins skins(scene);
     for (int round = 0; round < 300; ++round) {
-      const Hits hits(rng, scene);
+      const Hits hits(rng, scene, 1 + round % 10);
       for (std::int64_t left = all; left != 0; left &= left - 1) {
         hwy::SetSupportedTargetsForTest(left & -left);
         hwy::GetChosenTarget().DeInit();
