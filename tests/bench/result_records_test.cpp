@@ -315,7 +315,7 @@ class MergeTest : public testing::Test {
  protected:
   std::filesystem::path Shard(const std::string& name, const RunHeader& header,
                               const std::vector<std::string>& ids) {
-    const auto path = folder_.path() / name;
+    auto path = folder_.path() / name;
     std::string text = ToJsonLine(header) + "\n";
     for (const auto& id : ids) text += ToJsonLine(MakeEpisode(id, 1, {{true, 1, 1}})) + "\n";
     WriteText(path, text);
