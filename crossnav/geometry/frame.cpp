@@ -61,12 +61,6 @@ bool IsSettled(const HitCount& count, const MapConfig& config) {
   return count.hits == 0 && count.passes >= MaxCount(config);
 }
 
-void FrameMarker::Find(const VoxelKey& block_key, Known* known) {
-  GridEntry& entry = map_->grid.TouchEntry(block_key);
-  ListInFrame(*map_, entry);
-  *known = {block_key, &entry.block};
-}
-
 void ListInFrame(MapData& map, GridEntry& entry) {
   if (entry.block.is_in_frame) return;
   entry.block.is_in_frame = true;

@@ -5,6 +5,7 @@
 // writes; a Cursor belongs to one thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -109,6 +110,31 @@ class SparseGrid {
 
   std::vector<Slot> slots_;  // open addressing, power of two
   std::deque<Entry> entries_;
+};
+
+/// Remembers where some hundred blocks are: the pixels of a noisy image go to and fro between a
+/// few.
+template <class Block>
+class KnownBlocks {
+ public:
+  /// The block that holds `key`: find(its key) where it is not known.
+  template <class F>
+  Block& Of(const VoxelKey& key, F&& find) {
+    // All axes compared at once: which one differs cannot be foreseen.
+    const std::int32_t x = key.x >> kBlockBits, y = key.y >> kBlockBits, z = key.z >> kBlockBits;
+    Known& known = known_[static_cast<std::uint32_t>(x + 7 * y + 31 * z) % kKnown];
+    const bool is_other = ((known.key.x ^ x) | (known.key.y ^ y) | (known.key.z ^ z)) != 0;
+    if (is_other || known.block == nullptr) known = {{x, y, z}, &find(VoxelKey{x, y, z})};
+    return *known.block;
+  }
+
+ private:
+  struct Known {
+    VoxelKey key;
+    Block* block = nullptr;
+  };
+  static constexpr std::size_t kKnown = 256;  // chosen: in the first cache
+  std::array<Known, kKnown> known_{};
 };
 
 /// Reads and writes with the last block remembered: neighbours mostly share one.

@@ -297,6 +297,10 @@ float FuseRow(float* row, int dim, float keep, const float* grid,
               std::span<const CellShare> shares) {
   return HWY_DYNAMIC_DISPATCH(FuseFloat)(row, dim, keep, grid, shares);
 }
+void PrefetchBytes(const std::byte* begin, std::size_t bytes) {
+  constexpr std::size_t kCacheLine = 64;
+  for (std::size_t i = 0; i < bytes; i += kCacheLine) hwy::Prefetch(begin + i);
+}
 void DotRows(const std::uint16_t* rows, int stride, std::size_t count, const float* text,
              float* out) {
   HWY_DYNAMIC_DISPATCH(DotHalf)(rows, stride, count, text, out);

@@ -31,6 +31,9 @@ float FuseRow(std::uint16_t* row, int dim, float keep, const float* grid,
 float FuseRow(float* row, int dim, float keep, const float* grid,
               std::span<const CellShare> shares);
 
+/// Has these bytes read from memory meanwhile.
+void PrefetchBytes(const std::byte* begin, std::size_t bytes);
+
 /// out[i] = rows[i] . text, `count` rows of `stride` elements; `text` is padded likewise.
 void DotRows(const std::uint16_t* rows, int stride, std::size_t count, const float* text,
              float* out);

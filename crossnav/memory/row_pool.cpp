@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "crossnav/core/check.h"
+#include "crossnav/memory/row_kernels.h"
 
 namespace crossnav::memory {
 
@@ -53,6 +54,10 @@ void RowPool::Truncate(std::int64_t size) {
   // One chunk is kept, so that a row that comes and goes costs no allocation.
   const auto needed = static_cast<std::size_t>((size + kChunkRows - 1) / kChunkRows);
   if (chunks_.size() > needed + 1) chunks_.resize(needed + 1);
+}
+
+void RowPool::Prefetch(std::int64_t row) const {
+  PrefetchBytes(At<std::byte>(row), RowBytes());
 }
 
 void RowPool::SetInverseNorm(std::int64_t row, double squared_norm) {

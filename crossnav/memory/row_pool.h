@@ -39,6 +39,7 @@ class RowPool {
   T* At(std::int64_t row) const {
     return reinterpret_cast<T*>(chunks_[row / kChunkRows].get() + (row % kChunkRows) * RowBytes());
   }
+  void Prefetch(std::int64_t row) const;  ///< has it read from memory meanwhile
   float InverseNorm(std::int64_t row) const { return inverse_norms_[row]; }
   void SetInverseNorm(std::int64_t row, double squared_norm);  ///< 0 for a row of zeros
 

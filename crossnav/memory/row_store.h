@@ -32,6 +32,11 @@ class RowStore {
   /// row = keep * row + sum of shares (see FuseRow).
   void Fuse(std::int64_t row, float keep, const float* grid, std::span<const CellShare> shares);
 
+  /// Has the row read from memory meanwhile, for a Fuse to come.
+  void Prefetch(std::int64_t row) const {
+    if (!IsCompact(row)) full_.Prefetch(FullAt(row));
+  }
+
   std::vector<float> Read(std::int64_t row) const;
   /// Half-precision bit patterns, `dim` of them; float rows are rounded.
   void ReadHalf(std::int64_t row, std::span<std::uint16_t> out) const;

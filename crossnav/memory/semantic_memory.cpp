@@ -104,7 +104,10 @@ struct SemanticMemory::Impl {
 
 // Cuts the runs where the cell interval changes, after joining those that were cut elsewhere.
 void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width) {
-  geometry::GridCursor<RowBlock> cursor(index);
+  geometry::KnownBlocks<RowBlock> blocks;
+  const auto find = [this](const VoxelKey& block_key) -> RowBlock& {
+    return index.Touch(block_key);
+  };
   CellWeights::Run piece;
   std::int32_t row_begin = 0, row_end = 0;  // pixels of the row that `row_sums` is of
   for (std::size_t i = 0; i < runs.size();) {
@@ -127,7 +130,7 @@ void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width
       piece.total = sums.total;
       piece.right = sums.right;
       if (slot < 0)
-        slot = SlotOf(cursor.Touch(run.key).row[geometry::CellIndexOf(run.key)], run.key);
+        slot = SlotOf(blocks.Of(run.key, find).row[geometry::CellIndexOf(run.key)], run.key);
       weights.Add(slot, piece);
     }
   }
@@ -227,8 +230,11 @@ void SemanticMemory::FuseRuns(std::span<const EndRun> runs, const DepthImage& de
   m.PrepareAxes(depth_m, features);
   m.GatherWeights(runs, depth_m.width);
   const Vector3f p_camera_world = T_world_camera.translation().cast<float>();
-  for (std::int32_t slot = 0; slot < m.weights.size(); ++slot)
+  constexpr std::int32_t kAhead = 2;  // chosen: 1 and 4 take as long
+  for (std::int32_t slot = 0; slot < m.weights.size(); ++slot) {
+    if (slot + kAhead < m.weights.size()) m.rows.Prefetch(m.row_of_slot[slot + kAhead]);
     m.FuseSlot(slot, features.data.data(), p_camera_world);
+  }
   for (std::int32_t row : m.row_of_slot) m.slot_of_row[row] = -1;
   m.EnforceLimit();
 }
