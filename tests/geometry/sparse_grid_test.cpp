@@ -51,6 +51,26 @@ TEST(SparseGridTest, ACursorSeesBlocksMadeAfterItLooked) {
   EXPECT_EQ(*grid.Find({0, 0, 0}), 7);
 }
 
+TEST(SparseGridTest, KnownBlocksAreThoseOfTheGridHoweverManyShareAPlace) {
+  SparseGrid<int> grid;
+  KnownBlocks<int> known;
+  Rng rng(4);
+  int asked = 0;
+  const auto find = [&](const VoxelKey& block_key) -> int& {
+    ++asked;
+    return grid.Touch(block_key);
+  };
+  const auto cell = [&rng] { return static_cast<int>(rng.Uniform(-40, 40)); };
+  for (int i = 0; i < 20000; ++i) {
+    const VoxelKey key{cell(), cell(), cell()};
+    EXPECT_EQ(&known.Of(key, find), &grid.Touch(BlockKeyOf(key)));
+    const int once = asked;
+    known.Of(key, find);
+    EXPECT_EQ(asked, once);
+  }
+  EXPECT_GT(grid.size(), 900U);
+}
+
 TEST(BlockMaskTest, VisitsItsCellsInOrder) {
   BlockMask mask;
   std::set<int> cells = {0, 1, 63, 64, 200, 511};
