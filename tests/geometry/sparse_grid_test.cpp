@@ -69,6 +69,9 @@ TEST(SparseGridTest, KnownBlocksAreThoseOfTheGridHoweverManyShareAPlace) {
     EXPECT_EQ(asked, once);
   }
   EXPECT_GT(grid.size(), 900U);
+  constexpr int kFar = 256 * kBlockSide;  // along one axis, at the same place
+  for (const VoxelKey& key : {VoxelKey{}, {kFar, 0, 0}, {}, {0, kFar, 0}, {}, {0, 0, kFar}})
+    EXPECT_EQ(&known.Of(key, find), &grid.Touch(BlockKeyOf(key)));
 }
 
 TEST(BlockMaskTest, VisitsItsCellsInOrder) {
