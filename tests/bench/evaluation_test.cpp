@@ -177,6 +177,7 @@ TEST_F(EvaluationTest, KilledRunGoesOnToTheSameRecordsAndLeavesNoOrphan) {
 TEST(Episodes, AreGroupedBySceneAndShardsKeepNeighboursTogether) {
   const auto grouped = GroupedByScene(Episodes(7));
   std::vector<std::string> ids;
+  ids.reserve(grouped.size());
   for (const Episode& episode : grouped) ids.push_back(episode.episode_id);
   EXPECT_EQ(ids,
             (std::vector<std::string>{"e100", "e103", "e106", "e101", "e104", "e102", "e105"}));
