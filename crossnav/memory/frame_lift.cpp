@@ -52,7 +52,7 @@ void CellWeights::Reset(const GridAxis& u, const GridAxis& v) {
   u_cells_ = u.cells;
   v_cells_ = v.cells;
   heads_.clear();
-  corners_.clear();
+  more_.clear();
   dense_.assign(static_cast<std::size_t>(u_cells_) * v_cells_, 0.0);
 }
 
@@ -61,40 +61,38 @@ std::int32_t CellWeights::AddSlot() {
   return size() - 1;
 }
 
-void CellWeights::Add(std::int32_t slot, const Run& run) {
-  Head& head = heads_[slot];
-  head.total += run.total;
-  const std::int32_t cell = run.v_cell * u_cells_ + run.u_cell;
-  std::int32_t index = head.first;
-  while (index >= 0 && corners_[index].cell != cell) index = corners_[index].next;
-  if (index < 0) {
-    index = static_cast<std::int32_t>(corners_.size());
-    corners_.push_back(Corner{cell, head.first, {}});
-    head.first = index;
+CellWeights::Corner& CellWeights::OtherCorner(Head& head, std::int32_t cell) {
+  if (head.corner.cell < 0) {
+    head.corner.cell = cell;
+    return head.corner;
   }
-  double* weight = corners_[index].weight;
-  const double left = run.total - run.right;
-  const double below = run.v_fraction, above = 1.0 - below;
-  weight[0] += above * left;
-  weight[1] += above * run.right;
-  weight[2] += below * left;
-  weight[3] += below * run.right;
+  std::int32_t index = head.corner.next;
+  while (index >= 0 && more_[index].cell != cell) index = more_[index].next;
+  if (index < 0) {
+    index = static_cast<std::int32_t>(more_.size());
+    more_.push_back({cell, head.corner.next, {}});
+    head.corner.next = index;
+  }
+  return more_[index];
+}
+
+void CellWeights::AddUp(const Corner& corner) {
+  const int step_u = corner.cell % u_cells_ + 1 < u_cells_ ? 1 : 0;
+  const int step_v = corner.cell / u_cells_ + 1 < v_cells_ ? u_cells_ : 0;
+  const std::int32_t cells[4] = {corner.cell, corner.cell + step_u, corner.cell + step_v,
+                                 corner.cell + step_u + step_v};
+  for (int k = 0; k < 4; ++k) {
+    if (corner.weight[k] <= 0) continue;
+    if (dense_[cells[k]] == 0) touched_.push_back(cells[k]);
+    dense_[cells[k]] += corner.weight[k];
+  }
 }
 
 std::span<const CellShare> CellWeights::Shares(std::int32_t slot, double divisor) {
   touched_.clear();
-  for (std::int32_t i = heads_[slot].first; i >= 0; i = corners_[i].next) {
-    const Corner& corner = corners_[i];
-    const int step_u = corner.cell % u_cells_ + 1 < u_cells_ ? 1 : 0;
-    const int step_v = corner.cell / u_cells_ + 1 < v_cells_ ? u_cells_ : 0;
-    const std::int32_t cells[4] = {corner.cell, corner.cell + step_u, corner.cell + step_v,
-                                   corner.cell + step_u + step_v};
-    for (int k = 0; k < 4; ++k) {
-      if (corner.weight[k] <= 0) continue;
-      if (dense_[cells[k]] == 0) touched_.push_back(cells[k]);
-      dense_[cells[k]] += corner.weight[k];
-    }
-  }
+  const Head& head = heads_[slot];
+  for (std::int32_t i = head.corner.next; i >= 0; i = more_[i].next) AddUp(more_[i]);
+  AddUp(head.corner);
   std::sort(touched_.begin(), touched_.end());
   shares_.clear();
   for (std::int32_t cell : touched_) {
@@ -105,7 +103,7 @@ std::span<const CellShare> CellWeights::Shares(std::int32_t slot, double divisor
 }
 
 std::size_t CellWeights::Bytes() const {
-  return heads_.capacity() * sizeof(Head) + corners_.capacity() * sizeof(Corner) +
+  return heads_.capacity() * sizeof(Head) + more_.capacity() * sizeof(Corner) +
          dense_.capacity() * sizeof(double) + touched_.capacity() * sizeof(std::int32_t) +
          shares_.capacity() * sizeof(CellShare);
 }

@@ -54,7 +54,7 @@ class RowSums {
   std::vector<Sums> before_;  // by pixel + interval: one more place for each interval
 };
 
-/// Weights of the cells that each voxel touches. Slots are small numbers the caller hands out.
+/// Weights of the cells that each voxel touches. Slots are small numbers, one for each voxel.
 class CellWeights {
  public:
   void Reset(const GridAxis& u, const GridAxis& v);
@@ -69,7 +69,18 @@ class CellWeights {
     float v_fraction = 0;
     double total = 0, right = 0;
   };
-  void Add(std::int32_t slot, const Run& run);
+  void Add(std::int32_t slot, const Run& run) {
+    Head& head = heads_[slot];
+    head.total += run.total;
+    const std::int32_t cell = run.v_cell * u_cells_ + run.u_cell;
+    Corner& corner = head.corner.cell == cell ? head.corner : OtherCorner(head, cell);
+    const double left = run.total - run.right;
+    const double below = run.v_fraction, above = 1.0 - below;
+    corner.weight[0] += above * left;
+    corner.weight[1] += above * run.right;
+    corner.weight[2] += below * left;
+    corner.weight[3] += below * run.right;
+  }
 
   double Total(std::int32_t slot) const { return heads_[slot].total; }  ///< sum of q
   /// Distinct cells, each with weight / `divisor`; valid until the next call.
@@ -78,19 +89,21 @@ class CellWeights {
   std::size_t Bytes() const;
 
  private:
-  struct Head {
-    std::int32_t first = -1;
-    double total = 0;
-  };
   struct Corner {  // the four cells around an interval: (v, u), (v, u+1), (v+1, u), (v+1, u+1)
-    std::int32_t cell = 0;
-    std::int32_t next = -1;
+    std::int32_t cell = -1;
+    std::int32_t next = -1;  // in more_
     double weight[4] = {};
   };
+  struct Head {
+    double total = 0;
+    Corner corner;
+  };
+  Corner& OtherCorner(Head& head, std::int32_t cell);  // made if absent
+  void AddUp(const Corner& corner);
 
   int u_cells_ = 0, v_cells_ = 0;
   std::vector<Head> heads_;
-  std::vector<Corner> corners_;
+  std::vector<Corner> more_;   // of voxels that lie in several intervals
   std::vector<double> dense_;  // per grid cell, zero between calls
   std::vector<std::int32_t> touched_;
   std::vector<CellShare> shares_;

@@ -24,6 +24,7 @@ using Wide = hn::CappedTag<float, 16>;
 using Single = hn::CappedTag<float, 1>;
 constexpr std::size_t kLanes = hn::MaxLanes(Wide());
 constexpr std::size_t kVectors = kRowPad / kLanes;  // of one block of kRowPad elements
+constexpr std::size_t kSums = 8;  // chosen: vectors of sums at a time, half of the fewest registers
 
 template <class D>
 HWY_INLINE hn::Vec<D> LoadElements(D d, const std::uint16_t* p) {
@@ -75,29 +76,39 @@ HWY_INLINE float SumBlock(hn::Vec<Wide>* v) {
   return SumTree(Wide(), v[0]);
 }
 
+// `kBlocks` blocks of kRowPad elements from `i` on: what a share costs is spread over them.
+template <std::size_t kBlocks, class T>
+HWY_INLINE void FuseBlocks(T* HWY_RESTRICT row, int i, int dim, float keep,
+                           const float* HWY_RESTRICT grid, std::span<const CellShare> shares,
+                           hn::Vec<Wide>* squares) {
+  const Wide d;
+  const auto vkeep = hn::Set(d, keep);
+  hn::Vec<Wide> sum[kBlocks * kVectors];
+  for (std::size_t k = 0; k < kBlocks * kVectors; ++k)
+    sum[k] = hn::Mul(vkeep, LoadElements(d, row + i + k * kLanes));
+  for (const CellShare& s : shares) {
+    const float* cell = grid + static_cast<std::ptrdiff_t>(s.cell) * dim + i;
+    const auto share = hn::Set(d, s.share);
+    for (std::size_t k = 0; k < kBlocks * kVectors; ++k)
+      sum[k] = hn::MulAdd(share, hn::LoadU(d, cell + k * kLanes), sum[k]);
+  }
+  for (std::size_t k = 0; k < kBlocks * kVectors; ++k) {
+    const auto stored = StoreElements(d, sum[k], row + i + k * kLanes);
+    squares[k % kVectors] = hn::MulAdd(stored, stored, squares[k % kVectors]);
+  }
+}
+
 template <class T>
 HWY_INLINE float FuseRowT(T* HWY_RESTRICT row, int dim, float keep, const float* HWY_RESTRICT grid,
                           std::span<const CellShare> shares) {
+  constexpr std::size_t kBlocks = kVectors < kSums ? kSums / kVectors : 1;
   const Wide d;
-  const auto vkeep = hn::Set(d, keep);
   hn::Vec<Wide> squares[kVectors];
   for (auto& s : squares) s = hn::Zero(d);
   int i = 0;
-  for (; i + kRowPad <= dim; i += kRowPad) {
-    hn::Vec<Wide> sum[kVectors];
-    for (std::size_t k = 0; k < kVectors; ++k)
-      sum[k] = hn::Mul(vkeep, LoadElements(d, row + i + k * kLanes));
-    for (const CellShare& s : shares) {
-      const float* cell = grid + static_cast<std::ptrdiff_t>(s.cell) * dim + i;
-      const auto share = hn::Set(d, s.share);
-      for (std::size_t k = 0; k < kVectors; ++k)
-        sum[k] = hn::MulAdd(share, hn::LoadU(d, cell + k * kLanes), sum[k]);
-    }
-    for (std::size_t k = 0; k < kVectors; ++k) {
-      const auto stored = StoreElements(d, sum[k], row + i + k * kLanes);
-      squares[k] = hn::MulAdd(stored, stored, squares[k]);
-    }
-  }
+  for (; i + static_cast<int>(kBlocks) * kRowPad <= dim; i += kBlocks * kRowPad)
+    FuseBlocks<kBlocks>(row, i, dim, keep, grid, shares, squares);
+  for (; i + kRowPad <= dim; i += kRowPad) FuseBlocks<1>(row, i, dim, keep, grid, shares, squares);
   float total = SumBlock(squares);
   const Single d1;
   for (; i < dim; ++i) {

@@ -31,7 +31,11 @@ float FuseRow(std::uint16_t* row, int dim, float keep, const float* grid,
 float FuseRow(float* row, int dim, float keep, const float* grid,
               std::span<const CellShare> shares);
 
-/// Has these bytes read from memory meanwhile.
+/// Has the line of the cache that holds `p` read from memory meanwhile.
+inline void PrefetchLine(const void* p) {
+  __builtin_prefetch(p);
+}
+/// Likewise these bytes.
 void PrefetchBytes(const std::byte* begin, std::size_t bytes);
 
 /// out[i] = rows[i] . text, `count` rows of `stride` elements; `text` is padded likewise.

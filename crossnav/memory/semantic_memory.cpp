@@ -56,6 +56,11 @@ struct SemanticMemory::Impl {
   GridAxis u_axis, v_axis;
   RowSums row_sums;
   CellWeights weights;
+  struct LineRun {
+    EndRun run;
+    std::int32_t* index_cell = nullptr;  // of its voxel
+  };
+  std::vector<LineRun> line;              // the runs of one row of the image
   std::vector<std::int32_t> slot_of_row;  // -1 outside Fuse
   std::vector<std::int32_t> row_of_slot;
 
@@ -89,6 +94,7 @@ struct SemanticMemory::Impl {
   }
 
   void GatherWeights(std::span<const EndRun> runs, int width);
+  void GatherLine(int v, int row_begin);
   void FuseSlot(std::int32_t slot, const float* grid, const Vector3f& p_camera_world);
   void EnforceLimit();
   void KeepMostConfident(std::int64_t count);
@@ -102,35 +108,45 @@ struct SemanticMemory::Impl {
   }
 };
 
-// Cuts the runs where the cell interval changes, after joining those that were cut elsewhere.
+// Row by row of the image. What a run needs next lies anywhere in memory, so that of a whole row is
+// asked for before it is used.
 void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width) {
   geometry::KnownBlocks<RowBlock> blocks;
   const auto find = [this](const VoxelKey& block_key) -> RowBlock& {
     return index.Touch(block_key);
   };
-  CellWeights::Run piece;
-  std::int32_t row_begin = 0, row_end = 0;  // pixels of the row that `row_sums` is of
   for (std::size_t i = 0; i < runs.size();) {
-    const EndRun run = TakeRun(runs, width, &i);
-    if (run.pixel >= row_end || run.pixel < row_begin) {
-      const int v = run.pixel / width;
-      row_begin = v * width;
-      row_end = row_begin + width;
-      piece.v_cell = v_axis.first[v];
-      piece.v_fraction = v_axis.fraction[v];
-      row_sums.Reset(&quality.data[static_cast<std::size_t>(row_begin)], u_axis);
+    const int v = runs[i].pixel / width, row_begin = v * width;
+    line.clear();
+    while (i < runs.size() && runs[i].pixel >= row_begin && runs[i].pixel < row_begin + width) {
+      const EndRun run = TakeRun(runs, width, &i);
+      std::int32_t* cell = &blocks.Of(run.key, find).row[geometry::CellIndexOf(run.key)];
+      PrefetchLine(cell);
+      line.push_back({run, cell});
     }
-    const int end = run.pixel - row_begin + run.count;
+    for (const LineRun& run : line)
+      if (*run.index_cell >= 0) PrefetchLine(&slot_of_row[*run.index_cell]);
+    row_sums.Reset(&quality.data[static_cast<std::size_t>(row_begin)], u_axis);
+    GatherLine(v, row_begin);
+  }
+}
+
+// Cuts the runs, which were joined where they had been cut elsewhere, where the interval changes.
+void SemanticMemory::Impl::GatherLine(int v, int row_begin) {
+  CellWeights::Run piece;
+  piece.v_cell = v_axis.first[v];
+  piece.v_fraction = v_axis.fraction[v];
+  for (const LineRun& run : line) {
+    const int begin = run.run.pixel - row_begin, end = begin + run.run.count;
     std::int32_t slot = -1;
-    for (int u = end - run.count, next = 0; u < end; u = next) {
+    for (int u = begin, next = 0; u < end; u = next) {
       piece.u_cell = u_axis.first[u];
       next = std::min(end, u_axis.end[piece.u_cell]);
       const RowSums::Sums sums = row_sums.Of(u, next - 1, piece.u_cell);
       if (sums.total <= 0) continue;
       piece.total = sums.total;
       piece.right = sums.right;
-      if (slot < 0)
-        slot = SlotOf(blocks.Of(run.key, find).row[geometry::CellIndexOf(run.key)], run.key);
+      if (slot < 0) slot = SlotOf(*run.index_cell, run.run.key);
       weights.Add(slot, piece);
     }
   }
@@ -232,7 +248,10 @@ void SemanticMemory::FuseRuns(std::span<const EndRun> runs, const DepthImage& de
   const Vector3f p_camera_world = T_world_camera.translation().cast<float>();
   constexpr std::int32_t kAhead = 2;  // chosen: 1 and 4 take as long
   for (std::int32_t slot = 0; slot < m.weights.size(); ++slot) {
-    if (slot + kAhead < m.weights.size()) m.rows.Prefetch(m.row_of_slot[slot + kAhead]);
+    if (slot + kAhead < m.weights.size()) {
+      m.rows.Prefetch(m.row_of_slot[slot + kAhead]);
+      PrefetchLine(&m.facts[m.row_of_slot[slot + kAhead]]);
+    }
     m.FuseSlot(slot, features.data.data(), p_camera_world);
   }
   for (std::int32_t row : m.row_of_slot) m.slot_of_row[row] = -1;
