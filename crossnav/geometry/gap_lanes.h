@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The inner loops of looking into gaps between pixels (grazing.h), vectorised with Highway, chosen
+// at run time: which segments of surface lie in a gap, and which voxels they pass. In double, in
+// the order of BackProjectToVoxels and WalkRay, so that every instruction set gives the same.
+// Internal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "crossnav/geometry/integrate.h"
+#include "crossnav/geometry/voxel_key.h"
+
+namespace crossnav::geometry {
+
+/// Some gaps between neighbouring pixels whose end voxels do not share a face: pixel (u, v) and the
+/// one to the right of it, or below it.
+struct Gaps {
+  static constexpr int kRoom = 256;  // chosen: with their segments in the first cache
+  std::array<std::int32_t, kRoom> u{}, v{};
+  std::array<std::int32_t, kRoom> is_column{};  ///< 1: the other pixel is the one below
+  std::array<std::int32_t, kRoom> is_wide{};    ///< 1: their voxels do not even touch
+  int count = 0;
+
+  void Add(int at_u, int at_v, bool column, bool wide) {
+    u[count] = at_u;
+    v[count] = at_v;
+    is_column[count] = column ? 1 : 0;
+    is_wide[count++] = wide ? 1 : 0;
+  }
+};
+
+/// From `a` to `b`, per axis [voxels].
+struct Segments {
+  static constexpr int kRoom = 2 * Gaps::kRoom + 16;  // two in a gap, and lanes beyond
+  std::array<std::array<double, kRoom>, 3> a{}, b{};
+  int count = 0;
+};
+
+/// The surface in the gaps. On a plane the inverse depth is linear over the image: where it is, the
+/// plane goes from end to end. Where it is not, the surfaces on both sides go on into the gap as
+/// planes, up to the next ray, if that ends in front of them, or to the depth limit.
+void FindSegments(const DepthFrame& frame, const MapConfig& config, const Gaps& gaps,
+                  Segments* segments);
+
+/// A set of voxels by hash, in which others are too.
+class VoxelHashes {
+ public:
+  void Insert(const VoxelKey& key) {
+    const std::uint32_t hash = HashOf(key);
+    words_[hash / 32] |= 1U << hash % 32;
+  }
+  bool Maybe(const VoxelKey& key) const {
+    const std::uint32_t hash = HashOf(key);
+    return (words_[hash / 32] >> hash % 32 & 1U) != 0;
+  }
+
+  static constexpr std::uint32_t kX = 73856093, kY = 19349663, kZ = 83492791;
+  static constexpr std::uint32_t kBits = 1 << 16;  // chosen: in the first cache, mostly empty
+  const std::uint32_t* words() const { return words_.data(); }
+
+ private:
+  static std::uint32_t HashOf(const VoxelKey& key) {
+    const std::uint32_t mixed = static_cast<std::uint32_t>(key.x) * kX ^
+                                static_cast<std::uint32_t>(key.y) * kY ^
+                                static_cast<std::uint32_t>(key.z) * kZ;
+    return (mixed ^ mixed >> 16) % kBits;
+  }
+  std::array<std::uint32_t, kBits / 32> words_{};
+};
+
+/// Adds to `met` those of the voxels that WalkRay visits along the segments which may be in
+/// `wanted`, some of them several times.
+void WalkSegments(const Segments& segments, const VoxelHashes& wanted, std::vector<VoxelKey>* met);
+
+}  // namespace crossnav::geometry
