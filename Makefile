@@ -78,6 +78,8 @@ lint: $(BUILD)/build.ninja  ## clang-format and clang-tidy, without changing any
 	@cmake --build --preset $(PRESET) -j $(JOBS)  # generated headers
 	@run-clang-tidy -quiet -p $(BUILD) -j $(JOBS) $(addprefix $(CURDIR)/,$(filter %.cpp,$(FILES)))
 
+# Or TBB opens libraries in a way that sanitizers end the process for.
+asan tsan: export TBB_ENABLE_SANITIZERS := 1
 asan: export LSAN_OPTIONS := suppressions=$(CURDIR)/scripts/lsan.supp
 asan:  ## every test under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) test PRESET=asan

@@ -103,6 +103,9 @@ std::string ErrorOfRun(Result<Network> network) {
 
 TEST_P(NetworkFile, WhatDoesNotFitIntoMemoryIsOneLineThatNamesTheFile) {
   const Signature any{kArithmetic.inputs, {{"sum", {-1, -1}}, {"log", {1, 3}}}};
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "operator new of AddressSanitizer ends the process where others throw";
+#endif
   for (const char* name : {"huge.onnx", "declared.onnx"}) {
     const std::string error = ErrorOfRun(Open(DataFile(name), any));
     EXPECT_EQ(error.rfind(DataFile(name).string() + ": ", 0), 0U) << error;
