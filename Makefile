@@ -15,6 +15,8 @@ TARGET ?=
 # One compiler per core, as far as 1.5 GB of free memory each goes.
 JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
   END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
+TIDY := $(or $(XDG_DATA_HOME),$(HOME)/.local/share)/crossnav/clang-tidy-$(shell \
+  sed -n 's/^clang-tidy==\([0-9.]*\).*/\1/p' scripts/clang-tidy.txt)/bin
 SOURCES := $(shell find crossnav apps tests benchmarks python -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
@@ -76,7 +78,7 @@ lint: $(BUILD)/build.ninja  ## clang-format and clang-tidy, without changing any
 	@scripts/setup.sh lint
 	@clang-format --dry-run -Werror $(FILES)
 	@cmake --build --preset $(PRESET) -j $(JOBS)  # generated headers
-	@run-clang-tidy -quiet -p $(BUILD) -j $(JOBS) $(addprefix $(CURDIR)/,$(filter %.cpp,$(FILES)))
+	@PATH="$(TIDY):$$PATH" run-clang-tidy.py -quiet -p $(BUILD) -j $(JOBS) $(addprefix $(CURDIR)/,$(filter %.cpp,$(FILES)))
 
 # Or TBB opens libraries in a way that sanitizers end the process for.
 asan tsan: export TBB_ENABLE_SANITIZERS := 1

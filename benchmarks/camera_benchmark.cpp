@@ -72,11 +72,12 @@ Scene DisplacedRoom(std::size_t triangles) {
 struct Subject {
   std::string name;
   Scene scene;
-  std::vector<Pose> views;  ///< T_world_camera
+  std::vector<Pose> views;       ///< T_world_camera
+  std::filesystem::path folder;  ///< empty: comes from no files
 };
 
 Subject Displaced(std::size_t triangles) {
-  Subject subject{std::to_string(triangles), DisplacedRoom(triangles), {}};
+  Subject subject{std::to_string(triangles), DisplacedRoom(triangles), {}, {}};
   for (int i = 0; i < kViews; ++i)
     subject.views.push_back(CameraPose({{}, 0.9 * i, 0.25 * (i % 3 - 1)}, 0.88));
   return subject;
@@ -131,7 +132,7 @@ Result<Subject> House(const std::filesystem::path& folder) {
   if (!scene) return tl::unexpected(scene.error());
   const auto navmesh = NavMesh::Build(*scene, {});
   if (!navmesh) return tl::unexpected(navmesh.error());
-  Subject subject{folder.filename(), std::move(*scene), {}};
+  Subject subject{folder.filename(), std::move(*scene), {}, folder};
   Rng rng(5);
   for (int i = 0; i < 3 * kViews; ++i) {
     const auto place = navmesh->RandomPoint(rng);
@@ -147,6 +148,16 @@ void Camera(benchmark::State& state, const Subject& subject, Channels channels) 
   benchmark::DoNotOptimize(caster.Render(K, subject.views.front(), channels));  // prepares
   for (auto _ : state) {
     for (const Pose& T : subject.views) benchmark::DoNotOptimize(caster.Render(K, T, channels));
+  }
+}
+
+/// What each process does before the first picture of a scene: reads its files, makes itself ready.
+void Preparation(benchmark::State& state, const Subject& subject) {
+  for (auto _ : state) {
+    const auto scene = LoadScene(subject.folder);
+    const RayCaster caster(*scene);
+    benchmark::DoNotOptimize(
+        caster.Render(SensorConfig{}.Intrinsics(), subject.views.front(), Channels::kAll));
   }
 }
 
@@ -277,12 +288,19 @@ int Main(int argc, char** argv) {
     if (subjects.back().name == home.filename()) continue;
     subjects.push_back(subjects.back());
     subjects.back().name += "/cut";
+    subjects.back().folder.clear();
     CutInto(kMillion, &subjects.back().scene.mesh);
     UpdateDerived(subjects.back().scene);
   }
   subjects.push_back(Displaced(100'000));
   subjects.push_back(Displaced(kMillion));
   for (const Subject& subject : subjects) {
+    if (!subject.folder.empty()) {
+      benchmark::RegisterBenchmark(
+          ("Preparation/" + subject.name).c_str(),
+          [&subject](benchmark::State& state) { Preparation(state, subject); })
+          ->Unit(benchmark::kMillisecond);
+    }
     Register("RawStreams", subject, RawStreams);
     Register("WithoutColour", subject, [](benchmark::State& state, const Subject& s) {
       Camera(state, s, Channels::kWithoutColour);

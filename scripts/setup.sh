@@ -6,7 +6,8 @@
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
 # it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
-# installed where the distribution has it (Debian 13).
+# installed where the distribution has it (Debian 13). The lint group comes with clang-tidy, pinned
+# in scripts/clang-tidy.txt, beside OpenVINO.
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -19,7 +20,7 @@ declare -A PACKAGES=(
     protobuf-compiler libmeshoptimizer-dev libpugixml-dev libgtest-dev"
   [homes]="libassimp-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
-  [lint]="clang clang-format clang-tidy"
+  [lint]="clang-format python3-venv"
   [fuzz]="clang libclang-rt-dev"
   [docs]="doxygen"
   [slurm]="slurm-wlm munge"
@@ -117,6 +118,25 @@ fetch_openvino() {
       ! -name 'libopenvino_onnx_frontend.so.*' ! -name 'libopenvino_*_cpu_plugin.so' -delete
 }
 
+# The linter in a Python environment of its own, where the Makefile looks.
+install_clang_tidy() {
+  local pin data home
+  pin="$(dirname "${BASH_SOURCE[0]}")/clang-tidy.txt"
+  data="${XDG_DATA_HOME:-$HOME/.local/share}/crossnav"
+  home="$data/clang-tidy-$(sed -n 's/^clang-tidy==\([0-9.]*\).*/\1/p' "$pin")"
+  [[ -e $home/complete ]] && return 0
+  say "fetching clang-tidy into $home"
+  rm -rf "$home"
+  mkdir -p "$data"
+  python3 -m venv "$home"
+  "$home/bin/python" -m pip --disable-pip-version-check install -q --no-input --no-deps \
+    --require-hashes --only-binary=:all: -r "$pin" || {
+    say "clang-tidy cannot be had; see above. Try again later, it is needed for make lint only"
+    exit 1
+  }
+  touch "$home/complete"
+}
+
 main() {
   [[ ${CROSSNAV_SKIP_SETUP:-} == 1 ]] && return 0
   local group
@@ -136,6 +156,7 @@ main() {
     install_optional libonnxruntime-dev
     install_openvino
   fi
+  [[ " $* " != *" lint "* ]] || install_clang_tidy
   return 0
 }
 

@@ -228,7 +228,7 @@ Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& 
     Entry entry = EntryOf(path);
     double ms = 0;
     // A card whose file the user has not fetched is nothing wrong, unless it was asked for.
-    const bool is_absent = !entry.is_there && entry.family.size() > 0 && options.cards.empty() &&
+    const bool is_absent = !entry.is_there && !entry.family.empty() && options.cards.empty() &&
                            entry.error.find("is not there") != std::string::npos;
     if (entry.is_there) {
       const auto time = TimeOf(path, entry, *config);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "crossnav/bench/config_file.h"
 #include "crossnav/bench/evaluation.h"
@@ -132,7 +133,7 @@ void AddEpisode(const bench::Episode& episode, const std::string& text, Sum& sum
   const std::size_t end = text.find('\n');
   if (end == std::string::npos) return;  // without a result: not successful
   double map_m = 0, stray_share = 0;
-  std::sscanf(text.c_str(), "%lf %lf", &map_m, &stray_share);
+  std::istringstream(text) >> map_m >> stray_share;
   const auto record = bench::EpisodeFromJsonLine(text.substr(end + 1), episode.episode_id);
   if (!record) return;
   ++sum.measured;

@@ -55,7 +55,7 @@ Result<std::vector<bench::Comparison>> CompareAll(const std::vector<bench::Repor
 
 /// report.html in `folder`.
 Result<std::string> WriteHtmlPage(const ReportOptions& options) {
-  const std::string page = (std::filesystem::path(options.out) / "report.html").string();
+  std::string page = (std::filesystem::path(options.out) / "report.html").string();
   std::vector<std::string> words = options.runs;
   words.insert(words.end(), {"--out", page});
   if (options.partial) words.emplace_back("--partial");

@@ -99,43 +99,54 @@ std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& 
   return std::nullopt;
 }
 
+namespace {
+
+/// Not exhausted, like enough to the goal, not tried too often, and not searched in vain of late.
+bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi, double least_score) {
+  const auto& policy = now.config.policy;
+  if (poi.is_exhausted || poi.score < least_score) return false;
+  // A search in vain visits the whole house, and a step does not open it.
+  if (poi.unreachable_step &&
+      now.world.step - *poi.unreachable_step < policy.explore.reconsider_steps)
+    return false;
+  if (poi.similarity < now.world.confirmed_similarity - policy.poi.similarity_slack &&
+      now.goal.last_resorts == 0)
+    return false;
+  // Asked again, the memory offers the same places: those that were visited are settled.
+  return !IsSpent(now.goal.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
+                  policy.poi.blacklist_xy_m, policy.explore.max_choices);
+}
+
+/// Where to look at the place from, from farther away if need be.
+std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
+                                   const HistoryPoi& poi) {
+  const double range_m = now.config.policy.approach.range_m;
+  for (const double within_m : {range_m - kSlack_m, 2 * range_m})
+    if (auto target = NearestView(now, start, {poi.voxels, within_m})) return target;
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
   double best_score = 0;
   for (const HistoryPoi& poi : now.goal.history)
     if (!poi.is_exhausted) best_score = std::max(best_score, poi.score);
-  const auto& approach = now.config.policy.approach;
   // Among places that answer about equally well the nearest; then the others in their order.
   for (const double share : {kBestShare, 0.0}) {
     std::optional<GroundTarget> nearest;
     for (std::size_t i = 0; i < now.goal.history.size(); ++i) {
       HistoryPoi& poi = now.goal.history[i];
-      if (poi.is_exhausted || poi.score < share * best_score) continue;
-      // A search in vain visits the whole house, and a step does not open it.
-      if (poi.unreachable_step &&
-          now.world.step - *poi.unreachable_step < now.config.policy.explore.reconsider_steps)
-        continue;
-      if (poi.similarity <
-              now.world.confirmed_similarity - now.config.policy.poi.similarity_slack &&
-          now.goal.last_resorts == 0)
-        continue;
-      // Asked again, the memory offers the same places: those that were visited are settled.
-      if (IsSpent(now.goal.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
-                  now.config.policy.poi.blacklist_xy_m, now.config.policy.explore.max_choices))
-        continue;
-      poi.unreachable_step = now.world.step;
-      for (const double range_m : {approach.range_m - kSlack_m, 2 * approach.range_m}) {
-        auto target = NearestView(now, start, {poi.voxels, range_m});
-        if (!target) continue;
-        poi.unreachable_step.reset();
-        if (nearest && nearest->cost_m <= target->cost_m) break;
-        target->candidate.kind = CandidateKind::kHistoryPoi;
-        target->candidate.id = static_cast<int>(i);
-        target->candidate.p_focus_world = poi.p_center_world;
-        target->candidate.size = static_cast<int>(poi.voxels.size());
-        target->candidate.score = poi.score;
-        nearest = std::move(target);
-        break;
-      }
+      if (!IsWorthGoingTo(now, poi, share * best_score)) continue;
+      auto target = ViewOf(now, start, poi);
+      poi.unreachable_step = target ? std::nullopt : std::optional(now.world.step);
+      if (!target || (nearest && nearest->cost_m <= target->cost_m)) continue;
+      target->candidate.kind = CandidateKind::kHistoryPoi;
+      target->candidate.id = static_cast<int>(i);
+      target->candidate.p_focus_world = poi.p_center_world;
+      target->candidate.size = static_cast<int>(poi.voxels.size());
+      target->candidate.score = poi.score;
+      nearest = std::move(target);
     }
     if (nearest) return nearest;
   }

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/config_visitor.h"
@@ -214,7 +215,7 @@ Result<void> ApplyConfigText(std::string_view text, const std::string& name, Run
   std::vector<std::string> problems;
   ApplyTable(table, "", FieldsOf(changed), problems);
   if (auto ok = ReportProblems(problems, name); !ok) return ok;
-  config = changed;
+  config = std::move(changed);
   return {};
 }
 
@@ -238,7 +239,7 @@ Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig
     AddProblem(SetKey(fields, key, ParseOverride(text.substr(equals + 1))), problems);
   }
   if (auto ok = ReportProblems(problems, "--set"); !ok) return ok;
-  config = changed;
+  config = std::move(changed);
   return {};
 }
 

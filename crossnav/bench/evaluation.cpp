@@ -62,7 +62,7 @@ Result<void> Evaluate(const Evaluation& evaluation, ResultWriter& writer) {
     if (!record) return tl::unexpected(record.error());
     return ToJsonLine(*record);
   };
-  task.deliver = [&](int item, ItemAnswer answer) -> Result<void> {
+  task.deliver = [&](int item, const ItemAnswer& answer) -> Result<void> {
     Result<EpisodeRecord> record =
         answer.end == ItemEnd::kDone
             ? EpisodeFromJsonLine(answer.text, at(item).episode_id)

@@ -152,8 +152,9 @@ FalseWorld Furniture(Rng& rng) {
   for (int i = 0; i < 6; ++i) {
     auto model = world::MakeFurniture(kLow[rng.Below(std::size(kLow))], rng);
     CROSSNAV_CHECK(model.has_value(), "no such furniture");
-    const Vector3d p(1.2 + 1.8 * (i % 3) + rng.Uniform(-0.1, 0.1),
-                     1.4 + 2.2 * (i / 3) + rng.Uniform(-0.1, 0.1), 0);
+    const int column = i % 3, row = i / 3;
+    const Vector3d p(1.2 + 1.8 * column + rng.Uniform(-0.1, 0.1),
+                     1.4 + 2.2 * row + rng.Uniform(-0.1, 0.1), 0);
     if (i == 0) made.p_seen_world = p + Vector3d(0, 0, model->Size().z() + 0.1);
     Place(made, std::move(*model), p, rng.Uniform(0, 2 * std::numbers::pi));
   }

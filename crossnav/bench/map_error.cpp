@@ -11,7 +11,7 @@ constexpr double kReach_m = 0.5;      // chosen: what is farther off is simply w
 constexpr std::size_t kMost = 4000;   // chosen: voxels; more do not change the mean
 constexpr double kStrayVoxels = 1.5;  // chosen: half a voxel, and one for the discretization
 
-double ToSurface_m(const Vector3d& p_world, const sim::RayCaster& caster) {
+double DistanceToSurface(const Vector3d& p_world, const sim::RayCaster& caster) {
   double nearest_m = kReach_m;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
@@ -35,7 +35,7 @@ MapError MeasureMapError(const geometry::VoxelMap& map, const sim::RayCaster& ca
   MapError error;
   const std::size_t stride = 1 + surfaces.size() / kMost;
   for (std::size_t i = 0; i < surfaces.size(); i += stride) {
-    const double off_m = ToSurface_m(geometry::CenterOf(surfaces[i], voxel_m), caster);
+    const double off_m = DistanceToSurface(geometry::CenterOf(surfaces[i], voxel_m), caster);
     error.mean_m += off_m;
     error.stray_share += off_m > kStrayVoxels * voxel_m ? 1 : 0;
     ++error.voxels;

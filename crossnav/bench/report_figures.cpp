@@ -10,28 +10,32 @@
 namespace crossnav::bench {
 namespace {
 
-/// The paper's value of a figure for this variant, as a share.
+/// The figure `metric` of a row of the paper's table, as a share.
+std::optional<double> ValueOf(const PaperRow& row, const std::string& metric) {
+  if (metric == "SR") return row.sr / 100;
+  if (metric == "SPL") return row.spl / 100;
+  if (metric == "PR") return row.pr / 100;
+  if (metric == "PPL") return row.ppl / 100;
+  double reached = 1;  // share of episodes, eq:conditional_global_relation
+  for (int k = 0; k < 3; ++k) {
+    const auto stage = static_cast<std::size_t>(k);
+    const double sr_global = reached * row.sr_cond[stage] / 100;
+    const double spl_global = reached * row.spl_cond[stage] / 100;
+    reached = sr_global;
+    if (metric == fmt::format("SR_cond_{}", k + 1)) return row.sr_cond[stage] / 100;
+    if (metric == fmt::format("SPL_cond_{}", k + 1)) return row.spl_cond[stage] / 100;
+    if (metric == fmt::format("SR_global_{}", k + 1)) return sr_global;
+    if (metric == fmt::format("SPL_global_{}", k + 1)) return spl_global;
+  }
+  return std::nullopt;
+}
+
+/// The paper's value of a figure for this variant.
 std::optional<double> PaperValue(const std::string& variant, const std::string& group,
                                  const std::string& metric) {
   if (group != "all" && group != "cfr") return std::nullopt;
-  for (const PaperRow& row : group == "all" ? kPaperAll : kPaperCrossFloor) {
-    if (row.variant != variant) continue;
-    if (metric == "SR") return row.sr / 100;
-    if (metric == "SPL") return row.spl / 100;
-    if (metric == "PR") return row.pr / 100;
-    if (metric == "PPL") return row.ppl / 100;
-    double reached = 1;  // share of episodes, eq:conditional_global_relation
-    for (int k = 0; k < 3; ++k) {
-      const auto stage = static_cast<std::size_t>(k);
-      const double sr_global = reached * row.sr_cond[stage] / 100;
-      const double spl_global = reached * row.spl_cond[stage] / 100;
-      reached = sr_global;
-      if (metric == fmt::format("SR_cond_{}", k + 1)) return row.sr_cond[stage] / 100;
-      if (metric == fmt::format("SPL_cond_{}", k + 1)) return row.spl_cond[stage] / 100;
-      if (metric == fmt::format("SR_global_{}", k + 1)) return sr_global;
-      if (metric == fmt::format("SPL_global_{}", k + 1)) return spl_global;
-    }
-  }
+  for (const PaperRow& row : group == "all" ? kPaperAll : kPaperCrossFloor)
+    if (row.variant == variant) return ValueOf(row, metric);
   return std::nullopt;
 }
 

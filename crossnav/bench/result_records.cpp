@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <charconv>
 #include <cstring>
 #include <set>
 
@@ -69,9 +69,12 @@ Result<void> CheckResumable(const ResultFile& file, const RunHeader& header,
 
 Result<Shard> ParseShard(const std::string& text, const std::string& where) {
   Shard shard;
-  char rest = 0;
-  const int parts = std::sscanf(text.c_str(), "%9d/%9d%c", &shard.index, &shard.count, &rest);
-  if (parts != 2 || shard.count < 1 || shard.index < 0 || shard.index >= shard.count) {
+  const char* const end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  const bool is_parted = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
+  const auto count = is_parted ? std::from_chars(index.ptr + 1, end, shard.count) : index;
+  if (!is_parted || count.ec != std::errc() || count.ptr != end || shard.count < 1 ||
+      shard.index < 0 || shard.index >= shard.count) {
     return Fail(ErrorCode::kInvalid, "\"" + text + "\" is not I/N with 0 <= I < N", where);
   }
   return shard;

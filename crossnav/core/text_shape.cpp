@@ -53,22 +53,39 @@ Result<void> CheckJsonShape(std::string_view json, const std::string& where) {
   return {};
 }
 
+namespace {
+
+/// How many bytes follow this one in a character of UTF-8; -1: none begins with it.
+int BytesBehind(unsigned char lead) {
+  if (lead < 0x80) return 0;
+  if (lead >> 5 == 6) return 1;
+  if (lead >> 4 == 14) return 2;
+  return lead >> 3 == 30 ? 3 : -1;
+}
+
+/// The length of the character of UTF-8 at the beginning of `text`, which is not empty; 0: is none.
+std::size_t CharacterLength(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const int rest = BytesBehind(byte(0));
+  const auto length = static_cast<std::size_t>(rest + 1);
+  if (rest < 0 || length > text.size()) return 0;
+  std::uint32_t code = rest == 0 ? byte(0) : byte(0) & (0x3FU >> rest);
+  for (std::size_t i = 1; i < length; ++i) {
+    if (byte(i) >> 6 != 2) return 0;
+    code = code << 6 | (byte(i) & 0x3FU);
+  }
+  constexpr std::uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};  // shorter forms are no UTF-8
+  const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return code < kLeast[rest] || code > 0x10FFFF || is_surrogate ? 0 : length;
+}
+
+}  // namespace
+
 bool IsUtf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    const int rest = lead < 0x80       ? 0
-                     : lead >> 5 == 6  ? 1
-                     : lead >> 4 == 14 ? 2
-                     : lead >> 3 == 30 ? 3
-                                       : -1;
-    if (rest < 0) return false;
-    std::uint32_t code = rest == 0 ? lead : lead & (0x3FU >> rest);
-    for (int k = 0; k < rest; ++k, ++i) {
-      if (i == text.size() || (static_cast<unsigned char>(text[i]) >> 6) != 2) return false;
-      code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3FU);
-    }
-    constexpr std::uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};  // shorter forms are no UTF-8
-    if (code < kLeast[rest] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return false;
+  while (!text.empty()) {
+    const std::size_t length = CharacterLength(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
   }
   return true;
 }
@@ -79,29 +96,35 @@ std::string PlainReason(std::string_view message) {
   return std::string(message);
 }
 
+namespace {
+
+/// The end of the part of a key, or of the value, that begins at `i`.
+std::size_t BehindPart(std::string_view toml, std::size_t i) {
+  if (toml[i] == '"' || toml[i] == '\'') return BehindString(toml, i);
+  while (i < toml.size() && IsKeyCharacter(toml[i])) ++i;
+  return i;
+}
+
+}  // namespace
+
 Result<void> CheckTomlShape(std::string_view toml, const std::string& where) {
   if (toml.size() > kMostToml) {
     return Fail(ErrorCode::kUnsupported, "is larger than 1 MiB, which no settings are", where);
   }
   int line = 1, depth = 0, parts = 0;
   bool is_joined = true;  // the next part belongs to the key before it
+  const auto place = [&] { return where + ": line " + std::to_string(line); };
   for (std::size_t i = 0; i < toml.size();) {
     const char c = toml[i];
     if (IsKeyCharacter(c) || c == '"' || c == '\'') {
+      const std::string_view part = toml.substr(i, BehindPart(toml, i) - i);
+      line += static_cast<int>(std::count(part.begin(), part.end(), '\n'));
+      i += part.size();
       parts = is_joined ? parts + 1 : 1;
       is_joined = false;
-      if (c == '"' || c == '\'') {
-        const std::size_t end = BehindString(toml, i);
-        line += static_cast<int>(std::count(toml.begin() + static_cast<std::ptrdiff_t>(i),
-                                            toml.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-        i = end;
-      } else {
-        while (i < toml.size() && IsKeyCharacter(toml[i])) ++i;
-      }
       if (parts > kMostKeyParts) {
         return Fail(ErrorCode::kUnsupported,
-                    "a key has more than " + std::to_string(kMostKeyParts) + " parts",
-                    where + ": line " + std::to_string(line));
+                    "a key has more than " + std::to_string(kMostKeyParts) + " parts", place());
       }
       continue;
     }
@@ -110,13 +133,10 @@ Result<void> CheckTomlShape(std::string_view toml, const std::string& where) {
     if (c == '\n') ++line;
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') depth = std::max(0, depth - 1);
-    if (depth > kMostNesting) return TooDeep(where + ": line " + std::to_string(line));
-    if (c == '.') {
-      is_joined = true;
-    } else if (c != ' ' && c != '\t') {
-      is_joined = false;
-      parts = 0;
-    }
+    if (depth > kMostNesting) return TooDeep(place());
+    if (c == ' ' || c == '\t') continue;
+    is_joined = c == '.';
+    if (!is_joined) parts = 0;
   }
   return {};
 }

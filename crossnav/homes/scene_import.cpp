@@ -74,7 +74,8 @@ Result<std::string> CheckedName(const std::string& name) {
 
 /// Writes into a folder beside the final one and renames it, so that none is ever half written.
 Result<fs::path> WriteWholeScene(const sim::Scene& scene, const fs::path& dir) {
-  const fs::path target = dir / scene.id, part = dir / ("." + scene.id + ".part");
+  fs::path target = dir / scene.id;
+  const fs::path part = dir / ("." + scene.id + ".part");
   const std::string stem = scene.id.substr(scene.id.find('-') + 1);
   std::error_code error;
   if (fs::exists(target) && !fs::exists(target / (stem + ".glb"))) {

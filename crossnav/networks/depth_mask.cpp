@@ -46,6 +46,19 @@ Range ClusterOf(std::vector<float> depths, std::size_t places) {
 
 }  // namespace
 
+namespace {
+
+/// Calls visit(u, v) for every `stride`th pixel of the middle of the box, each way.
+template <class F>
+void ForEachInMiddle(const perception::PixelBox& box, int stride, F&& visit) {
+  const int inset_u = static_cast<int>((box.u1 - box.u0) * (1 - kMiddle) / 2);
+  const int inset_v = static_cast<int>((box.v1 - box.v0) * (1 - kMiddle) / 2);
+  for (int v = box.v0 + inset_v; v < box.v1 - inset_v; v += stride)
+    for (int u = box.u0 + inset_u; u < box.u1 - inset_u; u += stride) visit(u, v);
+}
+
+}  // namespace
+
 perception::Detection DepthMask(const DepthImage& depth_m, perception::Detection detection) {
   const perception::PixelBox box{std::clamp(detection.box.u0, 0, depth_m.width),
                                  std::clamp(detection.box.v0, 0, depth_m.height),
@@ -53,15 +66,12 @@ perception::Detection DepthMask(const DepthImage& depth_m, perception::Detection
                                  std::clamp(detection.box.v1, 0, depth_m.height)};
   detection.mask = MaskImage(depth_m.width, depth_m.height);
   detection.mask_quality = 0;
-  const int inset_u = static_cast<int>((box.u1 - box.u0) * (1 - kMiddle) / 2);
-  const int inset_v = static_cast<int>((box.v1 - box.v0) * (1 - kMiddle) / 2);
   std::vector<float> depths;
   std::size_t places = 0;
-  for (int v = box.v0 + inset_v; v < box.v1 - inset_v; v += kStride)
-    for (int u = box.u0 + inset_u; u < box.u1 - inset_u; u += kStride) {
-      ++places;
-      if (IsMeasured(depth_m.At(u, v))) depths.push_back(depth_m.At(u, v));
-    }
+  ForEachInMiddle(box, kStride, [&](int u, int v) {
+    ++places;
+    if (IsMeasured(depth_m.At(u, v))) depths.push_back(depth_m.At(u, v));
+  });
   if (depths.empty()) return detection;
   const Range range = ClusterOf(std::move(depths), places);
 
@@ -71,11 +81,10 @@ perception::Detection DepthMask(const DepthImage& depth_m, perception::Detection
     detection.mask.At(u, v) = 1;
     open.emplace_back(u, v);
   };
-  for (int v = box.v0 + inset_v; v < box.v1 - inset_v; ++v)
-    for (int u = box.u0 + inset_u; u < box.u1 - inset_u; ++u) {
-      const float d = depth_m.At(u, v);
-      if (IsMeasured(d) && d >= range.near_m && d <= range.far_m) add(u, v);
-    }
+  ForEachInMiddle(box, 1, [&](int u, int v) {
+    const float d = depth_m.At(u, v);
+    if (IsMeasured(d) && d >= range.near_m && d <= range.far_m) add(u, v);
+  });
   const double slack = std::max(kMinGap_m, kGap * range.far_m);
   while (!open.empty()) {
     const auto [u, v] = open.back();

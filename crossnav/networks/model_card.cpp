@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/text_shape.h"
@@ -235,7 +236,7 @@ Result<void> ReadText(Section section, const std::filesystem::path& folder, Mode
   section.Whole("length", text.length, 2, kMostSide);
   section.Text("padding", text.padding, {"end", "zero"});
   section.Texts("templates", templates);
-  if (!templates.empty()) text.templates = templates;
+  if (!templates.empty()) text.templates = std::move(templates);
   if (!encoder.empty()) text.encoder = folder / encoder;
   if (!vocabulary.empty()) text.vocabulary = folder / vocabulary;
   if (!text.sha256.empty() && !IsHash(text.sha256))

@@ -95,9 +95,9 @@ std::u32string Mapped(const std::vector<Range>& row, char32_t c) {
 void Decompose(char32_t c, std::u32string& out) {
   if (c >= kSBase && c < kSBase + kSCount) {
     const char32_t s = c - kSBase;
-    out += kLBase + s / (kVCount * kTCount);
-    out += kVBase + s % (kVCount * kTCount) / kTCount;
-    if (s % kTCount != 0) out += kTBase + s % kTCount;
+    out.push_back(kLBase + s / (kVCount * kTCount));
+    out.push_back(kVBase + s % (kVCount * kTCount) / kTCount);
+    if (s % kTCount != 0) out.push_back(kTBase + s % kTCount);
     return;
   }
   static const std::vector<Range>& row = Row("decompose");

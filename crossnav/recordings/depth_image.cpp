@@ -2,7 +2,7 @@
 #include "crossnav/recordings/depth_image.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <sstream>
 
 #include "crossnav/core/png_image.h"
 
@@ -15,15 +15,16 @@ using Raw = Image<std::uint16_t>;
 
 Result<Raw> DecodePgm16(std::span<const std::uint8_t> bytes, const std::string& where) {
   const auto bad = [&](const char* what) { return Fail(ErrorCode::kMalformed, what, where); };
-  const std::string head(reinterpret_cast<const char*>(bytes.data()),
-                         std::min<std::size_t>(bytes.size(), 64));
-  int width = 0, height = 0, most = 0, begin = 0;
-  if (std::sscanf(head.c_str(), "P5 %d %d %d%n", &width, &height, &most, &begin) != 3)
+  std::istringstream head(std::string(reinterpret_cast<const char*>(bytes.data()),
+                                      std::min<std::size_t>(bytes.size(), 64)));
+  std::string magic;
+  int width = 0, height = 0, most = 0;
+  if (!(head >> magic >> width >> height >> most) || magic != "P5" || head.eof())
     return bad("is no PGM (P5) of width, height and maximum without comments");
   if (most <= 255 || most > 65535) return bad("must have 16 bits a pixel");
   if (width < 1 || height < 1 || width > kMostSide_px || height > kMostSide_px)
     return bad("has a side that is not from 1 to 8192 px");
-  const std::size_t first = static_cast<std::size_t>(begin) + 1;
+  const std::size_t first = static_cast<std::size_t>(head.tellg()) + 1;
   Raw image(width, height);
   if (bytes.size() != first + 2 * image.data.size()) return bad("has another size than it says");
   const std::uint8_t* p = bytes.data() + first;

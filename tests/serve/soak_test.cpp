@@ -246,8 +246,10 @@ TEST(LiveSoak, FramesAreLostAndDamagedAndClientsDieAndTheServerGoesOn) {
   EXPECT_EQ(stats.dropped(), soak.missing());
   EXPECT_GT(soak.dropped(), frames * kDropped / 2);
   EXPECT_GT(soak.malformed(), 0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which keep what was freed
   // What the agent has seen since may grow; nothing else does.
   EXPECT_LT(end_MB - warm_MB, soak.World_MB() - warm_world_MB + kGrowth_MB);
+#endif
   EXPECT_EQ(server.End(), 0);
   EXPECT_NE(server.Output().find("\"answered\": " + std::to_string(soak.answered())),
             std::string::npos)

@@ -21,8 +21,8 @@ void Simplify(ObjectModel& model, int budget) {
     }
     if (indices.empty()) continue;
     std::vector<unsigned int> fewer(indices.size());
-    const auto wanted =
-        static_cast<std::size_t>(ratio * static_cast<double>(indices.size() / 3)) * 3;
+    const std::size_t triangle_count = indices.size() / 3;
+    const auto wanted = static_cast<std::size_t>(ratio * static_cast<double>(triangle_count)) * 3;
     const std::size_t count = meshopt_simplify(
         fewer.data(), indices.data(), indices.size(), mesh.vertices[0].data(), mesh.vertices.size(),
         sizeof(Vector3f), std::min(indices.size(), std::max<std::size_t>(wanted, 24)), 0.05F, 0,
