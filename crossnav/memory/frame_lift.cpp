@@ -89,15 +89,24 @@ void CellWeights::AddUp(const Corner& corner) {
 }
 
 std::span<const CellShare> CellWeights::Shares(std::int32_t slot, double divisor) {
-  touched_.clear();
   const Head& head = heads_[slot];
+  shares_.clear();
+  const std::int32_t cell = head.corner.cell;
+  if (head.corner.next < 0 && cell % u_cells_ + 1 < u_cells_ && cell / u_cells_ + 1 < v_cells_) {
+    // One interval, as for most: the cells are different and in their order.
+    const std::int32_t cells[4] = {cell, cell + 1, cell + u_cells_, cell + u_cells_ + 1};
+    for (int k = 0; k < 4; ++k)
+      if (const double weight = head.corner.weight[k]; weight > 0)
+        shares_.push_back({cells[k], static_cast<float>(weight / divisor)});
+    return shares_;
+  }
+  touched_.clear();
   for (std::int32_t i = head.corner.next; i >= 0; i = more_[i].next) AddUp(more_[i]);
   AddUp(head.corner);
   std::sort(touched_.begin(), touched_.end());
-  shares_.clear();
-  for (std::int32_t cell : touched_) {
-    shares_.push_back({cell, static_cast<float>(dense_[cell] / divisor)});
-    dense_[cell] = 0;
+  for (const std::int32_t at : touched_) {
+    shares_.push_back({at, static_cast<float>(dense_[at] / divisor)});
+    dense_[at] = 0;
   }
   return shares_;
 }

@@ -64,10 +64,10 @@ PoseAt TransformTree::At(const std::string& a, const std::string& b, std::int64_
   for (std::size_t i = 0; i < above_b.size(); ++i) {
     const auto common = std::find(above_a.begin(), above_a.end(), above_b[i]);
     if (common == above_a.end()) continue;
-    const PoseAt T_common_b = Along(above_b, i, time_ns, limits);
+    PoseAt T_common_b = Along(above_b, i, time_ns, limits);
     if (T_common_b.state != PoseState::kKnown || common == above_a.begin()) return T_common_b;
     const auto to_a = static_cast<std::size_t>(common - above_a.begin());
-    const PoseAt T_common_a = Along(above_a, to_a, time_ns, limits);
+    PoseAt T_common_a = Along(above_a, to_a, time_ns, limits);
     if (T_common_a.state != PoseState::kKnown) return T_common_a;
     return {PoseState::kKnown, T_common_a.pose.inverse(Eigen::Isometry) * T_common_b.pose};
   }
