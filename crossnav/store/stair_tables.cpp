@@ -171,9 +171,7 @@ namespace {
 std::optional<Bytes> Unsealed(Statement& row, const char* table, std::int64_t id) {
   const ByteView data = row.Blob(2);
   if (row.Int(1) != HashBlock({table, id, {}, 0}, data)) return std::nullopt;
-  auto raw = Decompress(data, kMaxBytes);
-  if (!raw) return std::nullopt;
-  return std::move(*raw);
+  return Decompress(data, kMaxBytes);
 }
 
 /// Every row of `table`, in order; `take(id, bytes)` says whether they are a record. A table that

@@ -74,7 +74,7 @@ struct Content {
       is_good = false;
       return value;
     }
-    std::memcpy(&value, rest.data(), sizeof value);
+    rest.copy(reinterpret_cast<char*>(&value), sizeof value);
     rest.remove_prefix(sizeof value);
     return value;
   }

@@ -53,6 +53,25 @@ std::array<Side, 4> SidesOf(const Rect& r) {
           Side{{r.x1, r.y0}, {0, 1}, r.Depth(), kPi / 2}};
 }
 
+/// What is to stay free before a window or a door, from above.
+Rect ZoneOf(const Wall& wall, const Opening& o) {
+  const Vector2d d = (wall.b - wall.a).normalized(), n(-d.y(), d.x());
+  const bool is_window = o.kind == OpeningKind::kWindow;
+  const bool has_leaf = o.kind == OpeningKind::kDoorOpen || o.kind == OpeningKind::kDoorAjar;
+  const double half = 0.5 * o.width_m + (is_window ? 0.0 : 0.1);
+  const double reach = is_window ? 0.25 : (has_leaf ? o.width_m + 0.15 : 0.85);
+  const Vector2d c = wall.a + d * o.center_m;
+  Rect r{c.x(), c.y(), c.x(), c.y()};
+  for (double s : {-1.0, 1.0}) {
+    for (double t : {-1.0, 1.0}) {
+      const Vector2d p = c + s * half * d + t * reach * n;
+      r = {std::min(r.x0, p.x()), std::min(r.y0, p.y()), std::max(r.x1, p.x()),
+           std::max(r.y1, p.y())};
+    }
+  }
+  return r;
+}
+
 class RoomFiller {
  public:
   RoomFiller(HousePlan& plan, int room, const FurnitureSource& source, Rng& rng)
@@ -86,24 +105,11 @@ class RoomFiller {
   void AddOpenings() {
     for (const Wall& wall : plan_.walls) {
       if (wall.level != room_.level) continue;
-      const Vector2d d = (wall.b - wall.a).normalized(), n(-d.y(), d.x());
       const double z = plan_.levels[static_cast<std::size_t>(wall.level)].floor_m;
       for (const Opening& o : wall.openings) {
         const bool is_window = o.kind == OpeningKind::kWindow;
-        const bool has_leaf = o.kind == OpeningKind::kDoorOpen || o.kind == OpeningKind::kDoorAjar;
-        const double half = 0.5 * o.width_m + (is_window ? 0.0 : 0.1);
-        const double reach = is_window ? 0.25 : (has_leaf ? o.width_m + 0.15 : 0.85);
-        const Vector2d c = wall.a + d * o.center_m;
-        Rect r{c.x(), c.y(), c.x(), c.y()};
-        for (double s : {-1.0, 1.0}) {
-          for (double t : {-1.0, 1.0}) {
-            const Vector2d p = c + s * half * d + t * reach * n;
-            r = {std::min(r.x0, p.x()), std::min(r.y0, p.y()), std::max(r.x1, p.x()),
-                 std::max(r.y1, p.y())};
-          }
-        }
-        keep_out_.push_back(
-            Solid(r, is_window ? z + o.sill_m : z - 2, is_window ? z + o.head_m : z + kDoorHead_m));
+        keep_out_.push_back(Solid(ZoneOf(wall, o), is_window ? z + o.sill_m : z - 2,
+                                  is_window ? z + o.head_m : z + kDoorHead_m));
       }
     }
   }

@@ -27,28 +27,40 @@ Result<void> CheckCategories(const sim::Scene& scene) {
   return {};
 }
 
+/// Places of a room on a grid.
+struct Probe {
+  int walkable = 0, reached = 0;  ///< of which from `start`
+};
+
+/// `start` is the first walkable place if there is none yet.
+Probe ProbeRoom(const Room& room, double z_m, const sim::NavMesh& navmesh,
+                std::optional<Vector3d>* start) {
+  Probe probe;
+  for (const Rect& whole : room.rects) {
+    const Rect r = whole.Grown(-0.3);
+    for (double x = r.x0; x <= r.x1; x += kSample_m) {
+      for (double y = r.y0; y <= r.y1; y += kSample_m) {
+        const auto p = navmesh.Snap({x, y, z_m}, 0.05, 0.25);
+        if (!p) continue;
+        if (!*start) *start = p;
+        ++probe.walkable;
+        probe.reached += navmesh.Geodesic(**start, *p).has_value() ? 1 : 0;
+      }
+    }
+  }
+  return probe;
+}
+
 Result<void> CheckRooms(const HousePlan& plan, const sim::NavMesh& navmesh) {
-  std::optional<Vector3d> start;
+  std::optional<Vector3d> start;  // in the first room, the hall of the lowest level
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
     const Room& room = plan.rooms[i];
     if (room.type == RoomType::kVoid) continue;
-    const double z = plan.levels[static_cast<std::size_t>(room.level)].floor_m + room.offset_m;
-    int walkable = 0, reached = 0;
-    for (const Rect& whole : room.rects) {
-      const Rect r = whole.Grown(-0.3);
-      for (double x = r.x0; x <= r.x1; x += kSample_m) {
-        for (double y = r.y0; y <= r.y1; y += kSample_m) {
-          const auto p = navmesh.Snap({x, y, z}, 0.05, 0.25);
-          if (!p) continue;
-          if (!start) start = p;  // in the first room, the hall of the lowest level
-          ++walkable;
-          reached += navmesh.Geodesic(*start, *p).has_value() ? 1 : 0;
-        }
-      }
-    }
+    const double z_m = plan.levels[static_cast<std::size_t>(room.level)].floor_m + room.offset_m;
+    const Probe probe = ProbeRoom(room, z_m, navmesh, &start);
     const std::string where = fmt::format("{} {} on level {}", room.name, i, room.level);
-    if (walkable == 0) return Refuse("no walkable ground in a room", where);
-    if (reached < kReachableShare * walkable) return Refuse("a room is cut off", where);
+    if (probe.walkable == 0) return Refuse("no walkable ground in a room", where);
+    if (probe.reached < kReachableShare * probe.walkable) return Refuse("a room is cut off", where);
   }
   return {};
 }

@@ -50,6 +50,16 @@ RoomType ChildOf(RoomType parent, double area_m2, Rng& rng) {
   }
 }
 
+/// The type, or one that fits a room of this size better.
+RoomType Fitting(RoomType type, double area_m2) {
+  if (type == kGarage && area_m2 < 14) type = kStorage;
+  if (type == kWc && area_m2 > 6) type = kStorage;
+  if (type == kLiving && area_m2 < 11) type = kOffice;
+  if (type == kBedroom && area_m2 < 7) type = kStorage;
+  if (type == kStorage && area_m2 > 16) type = kOffice;
+  return type;
+}
+
 template <std::size_t N>
 Rgb8 OneOf(const Rgb8 (&colours)[N], Rng& rng) {
   return Shade(Pick(colours, rng), rng.Uniform(0.94, 1.05));
@@ -75,14 +85,8 @@ std::vector<RoomType> DrawRoomTypes(const LevelLayout& level, LevelRole role, Rn
   }
   const auto programme = Programme(role, rng);
   for (std::size_t k = 0; k < by_area.size(); ++k) {
-    RoomType type = programme[k % programme.size()];
-    const double area = level.cells[by_area[k]].rect.Area();
-    if (type == kGarage && area < 14) type = kStorage;
-    if (type == kWc && area > 6) type = kStorage;
-    if (type == kLiving && area < 11) type = kOffice;
-    if (type == kBedroom && area < 7) type = kStorage;
-    if (type == kStorage && area > 16) type = kOffice;
-    types[by_area[k]] = type;
+    types[by_area[k]] =
+        Fitting(programme[k % programme.size()], level.cells[by_area[k]].rect.Area());
   }
   for (std::size_t i = 0; i < level.cells.size(); ++i) {
     const Cell& c = level.cells[i];

@@ -67,6 +67,27 @@ bool IsEar(const std::vector<Vector2d>& flat, const std::vector<std::size_t>& re
   return true;
 }
 
+/// Which of the corners `rest` is an ear; their number if none is.
+std::size_t FindEar(const std::vector<Vector2d>& flat, const std::vector<std::size_t>& rest,
+                    double margin) {
+  std::size_t i = 0;
+  while (i < rest.size() && !IsEar(flat, rest, i, margin)) ++i;
+  return i;
+}
+
+/// Which of the corners `rest` has the least area: none, or the face crosses itself.
+std::size_t FlattestCorner(const std::vector<Vector2d>& flat,
+                           const std::vector<std::size_t>& rest) {
+  const std::size_t n = rest.size();
+  const auto turn_at = [&](std::size_t i) {
+    return std::abs(Turn(flat[rest[(i + n - 1) % n]], flat[rest[i]], flat[rest[(i + 1) % n]]));
+  };
+  std::size_t flattest = 0;
+  for (std::size_t i = 1; i < n; ++i)
+    if (turn_at(i) < turn_at(flattest)) flattest = i;
+  return flattest;
+}
+
 }  // namespace
 
 std::vector<std::array<std::size_t, 3>> FaceTriangles(std::span<const Vector3f> corners) {
@@ -82,25 +103,13 @@ std::vector<std::array<std::size_t, 3>> FaceTriangles(std::span<const Vector3f> 
   std::vector<std::size_t> rest(n);
   for (std::size_t i = 0; i < n; ++i) rest[i] = i;
   while (rest.size() >= 3) {
-    std::size_t ear = rest.size();
-    for (const double margin : {tolerance * 1e-3, -tolerance * 1e-3}) {
-      for (std::size_t i = 0; i < rest.size() && ear == rest.size(); ++i) {
-        if (IsEar(flat, rest, i, margin)) ear = i;
-      }
-    }
-    if (ear < rest.size()) {
-      const std::size_t m = rest.size();
+    const std::size_t m = rest.size();
+    std::size_t ear = FindEar(flat, rest, tolerance * 1e-3);
+    if (ear == m) ear = FindEar(flat, rest, -tolerance * 1e-3);
+    if (ear < m) {
       triangles.push_back({rest[(ear + m - 1) % m], rest[ear], rest[(ear + 1) % m]});
     } else {
-      ear = 0;  // a corner without area, or a face that crosses itself
-      for (std::size_t i = 1; i < rest.size(); ++i) {
-        const auto turn_at = [&](std::size_t k) {
-          const std::size_t m = rest.size();
-          return std::abs(
-              Turn(flat[rest[(k + m - 1) % m]], flat[rest[k]], flat[rest[(k + 1) % m]]));
-        };
-        if (turn_at(i) < turn_at(ear)) ear = i;
-      }
+      ear = FlattestCorner(flat, rest);
     }
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
   }
