@@ -213,8 +213,8 @@ TEST_F(Paths, NamesThatAreNotUtf8AreReadAndWritten) {
                               "map export --json m.map --out caf\xe9/m.ply",
                               "merge --json --partial run --out caf\xe9/merged.jsonl",
                               "report --json --partial caf\xe9/merged.jsonl --out caf\xe9/report",
-                              "episodes generate --json --scenes caf\xe9/scenes --count 1 --out "
-                              "caf\xe9/e.json.gz"}) {
+                              ("episodes generate --json --scenes caf\xe9/scenes --count 1 --out "
+                               "caf\xe9/e.json.gz")}) {
     const Outcome outcome = Run(command);
     EXPECT_EQ(outcome.exit_code, 0) << command << "\n" << outcome.err;
     EXPECT_TRUE(Json::accept(outcome.out)) << command << "\n" << outcome.out;

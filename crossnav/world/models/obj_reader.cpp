@@ -151,6 +151,14 @@ struct ObjParser {
     return nullptr;
   }
 
+  bool AddPoint(std::istringstream& in) {
+    Vector3f p = Vector3f::Zero();
+    in >> p.x() >> p.y() >> p.z();
+    if (!in || !p.allFinite()) return false;
+    points.push_back(p);
+    return true;
+  }
+
   void UseGroup(const std::string& name) {
     const auto [it, is_new] =
         group_of_name.try_emplace(name, static_cast<int>(names.group_names.size()));
@@ -166,10 +174,7 @@ struct ObjParser {
       std::string key;
       in >> key;
       if (key == "v") {
-        Vector3f p = Vector3f::Zero();
-        in >> p.x() >> p.y() >> p.z();
-        if (!in || !p.allFinite()) return Bad(number, "a vertex is not three numbers");
-        points.push_back(p);
+        if (!AddPoint(in)) return Bad(number, "a vertex is not three numbers");
       } else if (key == "vt") {
         std::array<float, 2> uv{};
         in >> uv[0] >> uv[1];

@@ -59,34 +59,39 @@ struct Deriver {
     plan.walls.push_back(std::move(wall));
   }
 
-  void Along(bool vertical) {
-    for (double fixed : vertical ? xs : ys) {
-      const auto& along = vertical ? ys : xs;
-      double start = 0;
-      int left = -1, right = -1;
-      bool is_open = false;
-      for (std::size_t i = 0; i <= along.size(); ++i) {
-        int l = -1, r = -1;
-        if (i + 1 < along.size()) {
-          const double mid = 0.5 * (along[i] + along[i + 1]);
-          l = vertical ? RoomAt(plan, level, {fixed - kProbe_m, mid})
-                       : RoomAt(plan, level, {mid, fixed + kProbe_m});
-          r = vertical ? RoomAt(plan, level, {fixed + kProbe_m, mid})
-                       : RoomAt(plan, level, {mid, fixed - kProbe_m});
-        }
-        const bool is_wall = i + 1 < along.size() && NeedsWall(plan, l, r);
-        if (is_open && (!is_wall || l != left || r != right)) {
-          Add(vertical, fixed, start, along[i], left, right);
-          is_open = false;
-        }
-        if (is_wall && !is_open) {
-          is_open = true;
-          start = along[i];
-          left = l;
-          right = r;
-        }
-      }
+  /// What is at a place on a line: a wall between two rooms, as seen from a to b, or nothing.
+  struct Sides {
+    bool is_wall = false;
+    int left = -1, right = -1;
+    bool operator==(const Sides&) const = default;
+  };
+  Sides SidesAt(bool vertical, double fixed, double along) const {
+    const double off = vertical ? -kProbe_m : kProbe_m;
+    const auto room_at = [&](double across) {
+      return RoomAt(plan, level, vertical ? Vector2d(across, along) : Vector2d(along, across));
+    };
+    const Sides sides{true, room_at(fixed + off), room_at(fixed - off)};
+    return NeedsWall(plan, sides.left, sides.right) ? sides : Sides();
+  }
+
+  /// The walls on one line: a wall goes on as long as both its rooms do.
+  void AlongLine(bool vertical, double fixed) {
+    const auto& along = vertical ? ys : xs;
+    double start = 0;
+    Sides open;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+      const bool is_end = i + 1 == along.size();
+      const Sides sides =
+          is_end ? Sides() : SidesAt(vertical, fixed, 0.5 * (along[i] + along[i + 1]));
+      if (sides == open) continue;
+      if (open.is_wall) Add(vertical, fixed, start, along[i], open.left, open.right);
+      open = sides;
+      start = along[i];
     }
+  }
+
+  void Along(bool vertical) {
+    for (const double fixed : vertical ? xs : ys) AlongLine(vertical, fixed);
   }
 };
 

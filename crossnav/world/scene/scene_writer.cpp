@@ -106,7 +106,7 @@ Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir,
     return Fail(ErrorCode::kInvalid, "a scene id reads <number>-<name>", scene.id);
   }
   if (scene.mesh.triangles.empty()) return Fail(ErrorCode::kInvalid, "no triangles", scene.id);
-  const fs::path folder = dir / scene.id;
+  fs::path folder = dir / scene.id;
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Fail(ErrorCode::kIo, error.message(), folder.string());

@@ -80,36 +80,40 @@ std::vector<double> Breaks(double lo, double hi, bool along_x, const LevelEdges&
   return at;
 }
 
+/// A side of a void.
+struct Side {
+  bool along_x;
+  double fixed;
+  Vector2d outward;
+
+  Vector2d At(double v) const { return along_x ? Vector2d(v, fixed) : Vector2d(fixed, v); }
+};
+
+void RailSide(const Rect& r, const Side& side, const LevelEdges& edges, double z_m, int style,
+              HousePlan& plan) {
+  constexpr double kSetback_m = 0.04;  // the posts stand on the floor, not over the void
+  const auto at = side.along_x ? Breaks(r.x0, r.x1, true, edges) : Breaks(r.y0, r.y1, false, edges);
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    if (at[i + 1] - at[i] < 0.05) continue;
+    if (!NeedsRail(side.At(0.5 * (at[i] + at[i + 1])), side.outward, edges)) continue;
+    const Vector2d a = side.At(at[i]) + kSetback_m * side.outward;
+    const Vector2d b = side.At(at[i + 1]) + kSetback_m * side.outward;
+    plan.railings.push_back({{a.x(), a.y(), z_m}, {b.x(), b.y(), z_m}, 0.95, style});
+  }
+}
+
 }  // namespace
 
 void RailVoids(HousePlan& plan, int style) {
-  constexpr double kSetback_m = 0.04;  // the posts stand on the floor, not over the void
   for (int level = 0; level < static_cast<int>(plan.levels.size()); ++level) {
     const LevelEdges edges = EdgesOf(plan, level);
-    const double z = plan.levels[static_cast<std::size_t>(level)].floor_m;
+    const double z_m = plan.levels[static_cast<std::size_t>(level)].floor_m;
     for (const Rect& r : edges.voids) {
-      const struct {
-        bool along_x;
-        double fixed;
-        Vector2d outward;
-      } sides[] = {{true, r.y0, {0, -1}},
-                   {true, r.y1, {0, 1}},
-                   {false, r.x0, {-1, 0}},
-                   {false, r.x1, {1, 0}}};
-      for (const auto& side : sides) {
-        const auto at =
-            side.along_x ? Breaks(r.x0, r.x1, true, edges) : Breaks(r.y0, r.y1, false, edges);
-        for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-          if (at[i + 1] - at[i] < 0.05) continue;
-          const auto point = [&](double v) -> Vector2d {
-            return side.along_x ? Vector2d(v, side.fixed) : Vector2d(side.fixed, v);
-          };
-          if (!NeedsRail(point(0.5 * (at[i] + at[i + 1])), side.outward, edges)) continue;
-          const Vector2d a = point(at[i]) + kSetback_m * side.outward;
-          const Vector2d b = point(at[i + 1]) + kSetback_m * side.outward;
-          plan.railings.push_back({{a.x(), a.y(), z}, {b.x(), b.y(), z}, 0.95, style});
-        }
-      }
+      const Side sides[] = {{true, r.y0, {0, -1}},
+                            {true, r.y1, {0, 1}},
+                            {false, r.x0, {-1, 0}},
+                            {false, r.x1, {1, 0}}};
+      for (const Side& side : sides) RailSide(r, side, edges, z_m, style, plan);
     }
   }
 }

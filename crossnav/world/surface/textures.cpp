@@ -81,10 +81,9 @@ double Carpet(double u, double v, std::uint64_t seed) {
 
 double PatternSize(Pattern pattern) {
   switch (pattern) {
-    case Pattern::kPlanks:
-      return 1.2;  // boards 15 cm wide, 60 cm long
-    case Pattern::kTiles:
-      return 1.2;  // 30 cm
+    case Pattern::kPlanks:  // boards 15 cm wide, 60 cm long
+    case Pattern::kTiles:   // 30 cm
+      return 1.2;
     case Pattern::kBrick:
       return 1.0;
     case Pattern::kCarpet:
