@@ -40,7 +40,9 @@ TEST(DepthImage, PgmOf16BitsHasTheHighByteFirst) {
   EXPECT_FLOAT_EQ(depth_m.At(0, 0), 0.258F);
   EXPECT_EQ(depth_m.At(1, 0), 0) << "65535 is what lost depth is called";
   EXPECT_FALSE(DecodeDepth16(BytesOf(pgm.substr(0, 16)), "d.pgm"));
-  EXPECT_FALSE(DecodeDepth16(BytesOf("P5 2 1 255\nab"), "d.pgm"));
+  for (const char* bad : {"P5 2 1 255\nab", "P5", "P5 2 1 65535", "P5 2 -1 65535\nabcd",
+                          "P5 99999999999 1 65535\nabcd", "P5 4294967298 1 65535\nabcd"})
+    EXPECT_FALSE(DecodeDepth16(BytesOf(bad), "d.pgm")) << bad;
   EXPECT_FALSE(DecodeDepth16(BytesOf("GIF89a"), "d.gif"));
 }
 
