@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// eq:supp_observation_quality over an image, three rows at a time.
+#include "crossnav/memory/observation_quality.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "crossnav/core/check.h"
-#include "crossnav/memory/row_kernels.h"
-#include "crossnav/memory/semantic_memory.h"
 
 namespace crossnav::memory {
 namespace {
@@ -33,28 +32,45 @@ QualityFactors FactorsOf(const CameraIntrinsics& camera, const FusionConfig& con
 
 }  // namespace
 
-void ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
-                        const FusionConfig& config, Image<float>& quality) {
+void QualityRows::Reset(const DepthImage& depth_m, const CameraIntrinsics& camera,
+                        const FusionConfig& config) {
   CROSSNAV_CHECK(camera.fx > 0 || config.gradient_scale > 0, "the camera has a focal length");
-  if (quality.width != depth_m.width || quality.height != depth_m.height)
-    quality = Image<float>(depth_m.width, depth_m.height);
-  if (depth_m.empty()) return;
-  const QualityFactors factors = FactorsOf(camera, config);
-  std::vector<float> above(depth_m.width + 2, 0.0f), row = above, below = above;
-  CopyRow(depth_m, 0, row);
-  for (int v = 0; v < depth_m.height; ++v) {
-    CopyRow(depth_m, v + 1, below);
-    QualityRow({above.data(), row.data(), below.data()}, depth_m.width, factors,
-               &quality.data[static_cast<std::size_t>(v) * depth_m.width]);
-    std::swap(above, row);
-    std::swap(row, below);
+  depth_m_ = &depth_m;
+  factors_ = FactorsOf(camera, config);
+  v_ = -2;
+  const auto width = static_cast<std::size_t>(depth_m.width);
+  for (auto* row : {&above_, &row_, &below_}) row->assign(width + 2, 0.0F);
+  quality_.resize(width);
+}
+
+const float* QualityRows::Row(int v) {
+  if (v == v_ + 1) {
+    std::swap(above_, row_);
+    std::swap(row_, below_);
+  } else {
+    CopyRow(*depth_m_, v - 1, above_);
+    CopyRow(*depth_m_, v, row_);
   }
+  CopyRow(*depth_m_, v + 1, below_);
+  v_ = v;
+  QualityRow({above_.data(), row_.data(), below_.data()}, depth_m_->width, factors_,
+             quality_.data());
+  return quality_.data();
+}
+
+std::size_t QualityRows::Bytes() const {
+  return (above_.capacity() + row_.capacity() + below_.capacity() + quality_.capacity()) *
+         sizeof(float);
 }
 
 Image<float> ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
                                 const FusionConfig& config) {
-  Image<float> quality;
-  ObservationQuality(depth_m, camera, config, quality);
+  Image<float> quality(depth_m.width, depth_m.height);
+  QualityRows rows;
+  rows.Reset(depth_m, camera, config);
+  for (int v = 0; v < depth_m.height; ++v)
+    std::copy_n(rows.Row(v), depth_m.width,
+                &quality.data[static_cast<std::size_t>(v) * depth_m.width]);
   return quality;
 }
 

@@ -8,6 +8,7 @@
 #include "crossnav/core/check.h"
 #include "crossnav/geometry/sparse_grid.h"
 #include "crossnav/memory/frame_lift.h"
+#include "crossnav/memory/observation_quality.h"
 #include "crossnav/memory/row_store.h"
 
 namespace crossnav::memory {
@@ -52,7 +53,7 @@ struct SemanticMemory::Impl {
   MemoryCounters counters;
 
   // Scratch of one frame, kept to avoid allocation.
-  Image<float> quality;
+  QualityRows quality;
   GridAxis u_axis, v_axis;
   RowSums row_sums;
   CellWeights weights;
@@ -126,7 +127,7 @@ void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width
     }
     for (const LineRun& run : line)
       if (*run.index_cell >= 0) PrefetchLine(&slot_of_row[*run.index_cell]);
-    row_sums.Reset(&quality.data[static_cast<std::size_t>(row_begin)], u_axis);
+    row_sums.Reset(quality.Row(v), u_axis);
     GatherLine(v, row_begin);
   }
 }
@@ -242,7 +243,7 @@ void SemanticMemory::FuseRuns(std::span<const EndRun> runs, const DepthImage& de
     ++m.counters.rejected_frames;
     return;
   }
-  ObservationQuality(depth_m, camera, m.config, m.quality);
+  m.quality.Reset(depth_m, camera, m.config);
   m.PrepareAxes(depth_m, features);
   m.GatherWeights(runs, depth_m.width);
   const Vector3f p_camera_world = T_world_camera.translation().cast<float>();
@@ -294,7 +295,7 @@ std::int64_t SemanticMemory::Bytes() const {
          static_cast<std::int64_t>(m.index.Bytes() + m.keys.capacity() * sizeof(VoxelKey) +
                                    m.facts.capacity() * sizeof(RowFacts) +
                                    m.slot_of_row.capacity() * sizeof(std::int32_t) +
-                                   m.weights.Bytes() + m.quality.data.capacity() * sizeof(float));
+                                   m.weights.Bytes() + m.quality.Bytes());
 }
 
 MemoryCounters SemanticMemory::Counters() const {

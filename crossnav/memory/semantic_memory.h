@@ -57,9 +57,6 @@ struct FeatureGridView {
 /// (eq:supp_observation_quality).
 Image<float> ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
                                 const FusionConfig& config);
-/// The same into an image that is reused.
-void ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
-                        const FusionConfig& config, Image<float>& quality);
 
 /// One row as it is saved.
 struct MemoryRow {

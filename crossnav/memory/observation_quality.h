@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// eq:supp_observation_quality, one row of the image after the other: what is asked for is used
+// while it is in the first cache.
+#pragma once
+
+#include <vector>
+
+#include "crossnav/core/camera.h"
+#include "crossnav/core/image.h"
+#include "crossnav/memory/row_kernels.h"
+#include "crossnav/memory/semantic_memory.h"
+
+namespace crossnav::memory {
+
+class QualityRows {
+ public:
+  /// `depth_m` is kept.
+  void Reset(const DepthImage& depth_m, const CameraIntrinsics& camera, const FusionConfig& config);
+
+  /// Quality of the pixels of row `v`, 0 where depth is invalid; valid until the next call. Rows
+  /// may be asked for in any order; from above to below is fastest.
+  const float* Row(int v);
+
+  std::size_t Bytes() const;
+
+ private:
+  const DepthImage* depth_m_ = nullptr;
+  QualityFactors factors_{};
+  int v_ = 0;  // the row that `row_` holds
+  std::vector<float> above_, row_, below_, quality_;
+};
+
+}  // namespace crossnav::memory
