@@ -43,5 +43,6 @@ function(crossnav_test room)
     CROSSNAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
     CROSSNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   crossnav_warnings(test_${room})
-  gtest_discover_tests(test_${room} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(test_${room} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -26,7 +26,8 @@ using Points = std::array<std::array<double, Segments::kRoom>, 3>;
 // chosen: steps of the inverse depth from pixel to pixel may differ by this share on a plane. At an
 // edge in depth the steps on both sides are near zero against that of the edge.
 constexpr double kBend = 0.5;
-constexpr double kFarthest_m = 1000;  // chosen: what is farther is no surface of a house
+constexpr double kFarthest_m = 1000;   // chosen: what is farther is no surface of a house
+constexpr double kMost_vox = 1 << 30;  // chosen: half of what a key can name
 
 HWY_INLINE V Set(double x) {
   return hn::Set(D(), x);
@@ -192,6 +193,13 @@ struct Walkers {
     }
   }
 
+  // False for what no key can name, which would never arrive.
+  HWY_INLINE M IsInReach() const {
+    V sum = hn::Zero(D());  // of distances, so that one that is no number makes it none
+    for (int a = 0; a < 3; ++a) sum = hn::Add(sum, hn::Add(hn::Abs(cell[a]), hn::Abs(last[a])));
+    return hn::Lt(sum, Set(kMost_vox));
+  }
+
   HWY_INLINE M IsOnItsWay() const {
     return hn::Or(hn::Or(hn::Ne(cell[0], last[0]), hn::Ne(cell[1], last[1])),
                   hn::Ne(cell[2], last[2]));
@@ -247,7 +255,8 @@ void WalkSegmentsLanes(const Segments& segments, const VoxelHashes& wanted,
   const D d;
   for (int i = 0; i < segments.count; i += static_cast<int>(hn::Lanes(d))) {
     Walkers walkers(segments, i);
-    const M used = hn::FirstN(d, static_cast<std::size_t>(segments.count - i));
+    const M used =
+        hn::And(walkers.IsInReach(), hn::FirstN(d, static_cast<std::size_t>(segments.count - i)));
     for (;;) {
       const M on_its_way = hn::And(used, walkers.IsOnItsWay());
       if (hn::AllFalse(d, on_its_way)) break;

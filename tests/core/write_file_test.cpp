@@ -25,7 +25,7 @@ TEST(WriteFile, ReplacesTheWholeContentAndLeavesNothingElse) {
   const test::TempFolder folder;
   const fs::path file = folder.path() / "a";
   ASSERT_TRUE(WriteFileAtomically(file, std::string("long before")));
-  ASSERT_TRUE(WriteFileAtomically(file, std::string("a\0b", 3)));
+  ASSERT_TRUE(WriteFileAtomically(file, std::string_view("a\0b", 3)));
   EXPECT_EQ(ReadText(file), std::string("a\0b", 3));
   EXPECT_EQ(FilesIn(folder.path()), 1U);
 }

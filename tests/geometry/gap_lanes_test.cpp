@@ -179,5 +179,22 @@ TEST(GapLanes, VoxelsMetAreThoseOfWalkRayOnEveryInstructionSet) {
   EXPECT_GT(met_count, 5000U);
 }
 
+TEST(GapLanes, WhatNoKeyCanNameIsNotWalked) {
+  Segments segments;
+  for (const double far : {kNone, 1e300, -1e12, std::numeric_limits<double>::infinity()}) {
+    segments.a[1][static_cast<std::size_t>(segments.count)] = far;
+    segments.b[2][static_cast<std::size_t>(segments.count++)] = 5;
+    segments.b[0][static_cast<std::size_t>(segments.count++)] = far;
+  }
+  segments.b[0][static_cast<std::size_t>(segments.count++)] = 3.5;  // but its neighbour is
+  VoxelHashes wanted;
+  wanted.Insert({2, 0, 0});
+  OnEveryInstructionSet([&] {
+    std::vector<VoxelKey> met;
+    WalkSegments(segments, wanted, &met);
+    EXPECT_EQ(met, std::vector<VoxelKey>(1, VoxelKey{2, 0, 0}));
+  });
+}
+
 }  // namespace
 }  // namespace crossnav::geometry
