@@ -152,7 +152,8 @@ TEST(TransferInstances, AgreesWithBruteForceOnRandomTriangles) {
   // to 2 cm along its normal, and sources are at least 0.5 m apart.
   TriangleMesh source, target;
   for (int i = 0; i < 50; ++i) {
-    const Vector3f at(static_cast<float>(i % 10), static_cast<float>(i / 10), 0.2F);
+    const int column = i % 10, row = i / 10;
+    const Vector3f at(static_cast<float>(column), static_cast<float>(row), 0.2F);
     for (TriangleMesh* mesh : {&source, &target}) {
       const auto base = static_cast<std::uint32_t>(mesh->vertices.size());
       const float off = mesh == &target ? 0.02F * static_cast<float>(i % 2) : 0.0F;

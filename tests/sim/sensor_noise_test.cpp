@@ -196,7 +196,7 @@ TEST(SensorNoise, ALoopClosureTakesBackItsShareOfTheErrorAtOnce) {
     one.Moved(Action::kMoveForward, pose);
     closures += (one.believed().p_world - pose.p_world).norm() < 1e-9 ? 1 : 0;
   }
-  EXPECT_NEAR(closures, kMoves / 50, 60);  // three sigma of a Poisson number
+  EXPECT_NEAR(closures, kMoves / 50.0, 60);  // three sigma of a Poisson number
 }
 
 TEST(SensorNoise, MovesTurnsAndSlipsHaveTheirSettings) {
