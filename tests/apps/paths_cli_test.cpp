@@ -185,7 +185,9 @@ TEST_F(Paths, AFullDiskLeavesNoHalfWrittenFileAndNoFalseSuccess) {
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_NE(outcome.err.find("crossnav: "), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(At("new_file")) && fs::file_size(At("new_file")) > 0);
-    if (option != "--replay") EXPECT_FALSE(fs::exists(At("new_file.part")));  // keeps what fitted
+    if (option != "--replay") {  // which keeps what fitted
+      EXPECT_FALSE(fs::exists(At("new_file.part")));
+    }
     for (const fs::path& path : Files())
       EXPECT_TRUE(path.filename() == "new_file.part" ||
                   path.string().find(".part") == path.string().npos)
