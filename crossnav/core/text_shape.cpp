@@ -67,8 +67,8 @@ int BytesBehind(unsigned char lead) {
 std::size_t CharacterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const int rest = BytesBehind(byte(0));
-  const auto length = static_cast<std::size_t>(rest + 1);
-  if (rest < 0 || length > text.size()) return 0;
+  if (rest < 0 || static_cast<std::size_t>(rest) >= text.size()) return 0;
+  const std::size_t length = static_cast<std::size_t>(rest) + 1;
   std::uint32_t code = rest == 0 ? byte(0) : byte(0) & (0x3FU >> rest);
   for (std::size_t i = 1; i < length; ++i) {
     if (byte(i) >> 6 != 2) return 0;
@@ -97,6 +97,12 @@ std::string PlainReason(std::string_view message) {
 }
 
 namespace {
+
+/// How deep brackets are nested behind `c`.
+int DepthBehind(char c, int depth) {
+  if (c == '[' || c == '{') return depth + 1;
+  return c == ']' || c == '}' ? std::max(0, depth - 1) : depth;
+}
 
 /// The end of the part of a key, or of the value, that begins at `i`.
 std::size_t BehindPart(std::string_view toml, std::size_t i) {
@@ -131,8 +137,7 @@ Result<void> CheckTomlShape(std::string_view toml, const std::string& where) {
     ++i;
     if (c == '#') i = std::min(toml.find('\n', i), toml.size());
     if (c == '\n') ++line;
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') depth = std::max(0, depth - 1);
+    depth = DepthBehind(c, depth);
     if (depth > kMostNesting) return TooDeep(place());
     if (c == ' ' || c == '\t') continue;
     is_joined = c == '.';

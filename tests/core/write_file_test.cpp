@@ -24,7 +24,7 @@ std::size_t FilesIn(const fs::path& folder) {
 TEST(WriteFile, ReplacesTheWholeContentAndLeavesNothingElse) {
   const test::TempFolder folder;
   const fs::path file = folder.path() / "a";
-  ASSERT_TRUE(WriteFileAtomically(file, std::string("long before")));
+  ASSERT_TRUE(WriteFileAtomically(file, "long before"));
   ASSERT_TRUE(WriteFileAtomically(file, std::string_view("a\0b", 3)));
   EXPECT_EQ(ReadText(file), std::string("a\0b", 3));
   EXPECT_EQ(FilesIn(folder.path()), 1U);
