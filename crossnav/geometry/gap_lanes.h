@@ -71,7 +71,7 @@ class VoxelHashes {
 };
 
 /// Adds to `met` those of the voxels that WalkRay visits along the segments which may be in
-/// `wanted`, some of them several times.
+/// `wanted`, some of them several times. Segments with ends that no key can name are left out.
 void WalkSegments(const Segments& segments, const VoxelHashes& wanted, std::vector<VoxelKey>* met);
 
 }  // namespace crossnav::geometry

@@ -37,7 +37,7 @@ void QualityRows::Reset(const DepthImage& depth_m, const CameraIntrinsics& camer
   CROSSNAV_CHECK(camera.fx > 0 || config.gradient_scale > 0, "the camera has a focal length");
   depth_m_ = &depth_m;
   factors_ = FactorsOf(camera, config);
-  v_ = -2;
+  v_ = kNone;
   const auto width = static_cast<std::size_t>(depth_m.width);
   for (auto* row : {&above_, &row_, &below_}) row->assign(width + 2, 0.0F);
   quality_.resize(width);

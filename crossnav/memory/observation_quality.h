@@ -26,7 +26,8 @@ class QualityRows {
  private:
   const DepthImage* depth_m_ = nullptr;
   QualityFactors factors_{};
-  int v_ = 0;  // the row that `row_` holds
+  static constexpr int kNone = -2;  // nor the row above the first
+  int v_ = kNone;                   // the row that `row_` holds
   std::vector<float> above_, row_, below_, quality_;
 };
 

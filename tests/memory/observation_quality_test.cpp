@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "crossnav/core/rng.h"
+#include "crossnav/memory/observation_quality.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "memory/golden_file.h"
 #include "memory/literal_memory.h"
@@ -42,6 +43,23 @@ TEST(ObservationQualityTest, IsZeroExactlyWhereDepthIsInvalid) {
       const bool is_valid = testing::IsValidDepth(depth.At(u, v));
       EXPECT_EQ(q.At(u, v) > 0, is_valid) << u << "," << v;
     }
+}
+
+TEST(ObservationQualityTest, RowsInAnyOrderAreThoseOfTheWholeImage) {
+  Rng rng(4);
+  const CameraIntrinsics camera = IntrinsicsFromHfov(37, 11, 1.5);
+  QualityRows rows;
+  for (int frame = 0; frame < 3; ++frame) {
+    DepthImage depth(37, 11);
+    for (float& d : depth.data)
+      d = rng.Chance(0.2) ? 0.0F : static_cast<float>(rng.Uniform(0.2, 9.0));
+    const Image<float> q = ObservationQuality(depth, camera, {});
+    rows.Reset(depth, camera, {});
+    for (const int v : {0, 1, 4, 5, 6, 10, 9, 9, 0, 10}) {
+      const float* row = rows.Row(v);
+      for (int u = 0; u < depth.width; ++u) ASSERT_EQ(row[u], q.At(u, v)) << u << "," << v;
+    }
+  }
 }
 
 TEST(ObservationQualityTest, KeepsRelativePrecisionWhereTheWeightIsTiny) {
