@@ -21,6 +21,10 @@ struct GridAxis {
   std::vector<float> fraction;      ///< [0, 1) towards the next cell
   std::vector<std::int32_t> end;    ///< first pixel behind the interval, per lower cell
   int cells = 0;
+  struct Factors {
+    double one = 1, fraction = 0;
+  };
+  std::vector<Factors> factors;  ///< side by side, to be multiplied at once
 
   static GridAxis Make(int pixels, int cells);
   int Next(int cell) const { return cell + 1 < cells ? cell + 1 : cell; }
@@ -50,7 +54,7 @@ class RowSums {
   Sums Literally(int first, int last) const;
 
   const float* quality_ = nullptr;
-  const float* fraction_ = nullptr;
+  const GridAxis::Factors* factors_ = nullptr;
   std::vector<Sums> before_;  // by pixel + interval: one more place for each interval
 };
 
@@ -72,14 +76,15 @@ class CellWeights {
   void Add(std::int32_t slot, const Run& run) {
     Head& head = heads_[slot];
     head.total += run.total;
-    const std::int32_t cell = run.v_cell * u_cells_ + run.u_cell;
-    Corner& corner = head.corner.cell == cell ? head.corner : OtherCorner(head, cell);
+    Patch& patch = head.patch.Holds(run) ? head.patch : OtherPatch(head, run);
+    double* upper = patch.weight[run.v_cell - patch.v_cell] + (run.u_cell - patch.u_cell);
+    double* lower = upper + kPatchCols;
     const double left = run.total - run.right;
     const double below = run.v_fraction, above = 1.0 - below;
-    corner.weight[0] += above * left;
-    corner.weight[1] += above * run.right;
-    corner.weight[2] += below * left;
-    corner.weight[3] += below * run.right;
+    upper[0] += above * left;
+    upper[1] += above * run.right;
+    lower[0] += below * left;
+    lower[1] += below * run.right;
   }
 
   double Total(std::int32_t slot) const { return heads_[slot].total; }  ///< sum of q
@@ -89,21 +94,30 @@ class CellWeights {
   std::size_t Bytes() const;
 
  private:
-  struct Corner {  // the four cells around an interval: (v, u), (v, u+1), (v+1, u), (v+1, u+1)
-    std::int32_t cell = -1;
+  // A few neighbouring cells, as many as the intervals of most voxels touch. Those outside the grid
+  // have weight zero: at the grid's edge fractions are zero.
+  static constexpr int kPatchRows = 3, kPatchCols = 4;
+  struct Patch {
+    std::int32_t v_cell = kNowhere, u_cell = kNowhere;  // of weight[0][0]
+    double weight[kPatchRows][kPatchCols] = {};
     std::int32_t next = -1;  // in more_
-    double weight[4] = {};
+
+    bool Holds(const Run& run) const {
+      return static_cast<std::uint32_t>(run.v_cell - v_cell) < kPatchRows - 1 &&
+             static_cast<std::uint32_t>(run.u_cell - u_cell) < kPatchCols - 1;
+    }
   };
+  static constexpr std::int32_t kNowhere = -1000000;
   struct Head {
     double total = 0;
-    Corner corner;
+    Patch patch;
   };
-  Corner& OtherCorner(Head& head, std::int32_t cell);  // made if absent
-  void AddUp(const Corner& corner);
+  Patch& OtherPatch(Head& head, const Run& run);  // made if absent
+  void AddUp(const Patch& patch);
 
   int u_cells_ = 0, v_cells_ = 0;
   std::vector<Head> heads_;
-  std::vector<Corner> more_;   // of voxels that lie in several intervals
+  std::vector<Patch> more_;    // of voxels so near that one is too small
   std::vector<double> dense_;  // per grid cell, zero between calls
   std::vector<std::int32_t> touched_;
   std::vector<CellShare> shares_;

@@ -2,7 +2,8 @@
 #include "crossnav/memory/observation_quality.h"
 
 #include <algorithm>
-#include <limits>
+#include <numbers>
+#include <span>
 #include <utility>
 
 #include "crossnav/core/check.h"
@@ -16,18 +17,25 @@ void CopyRow(const DepthImage& depth_m, int v, std::vector<float>& row) {
     std::fill(row.begin(), row.end(), 0.0f);
     return;
   }
-  const float* in = &depth_m.data[static_cast<std::size_t>(v) * depth_m.width];
-  for (int u = 0; u < depth_m.width; ++u)
-    row[u + 1] = in[u] > 0 && in[u] <= std::numeric_limits<float>::max() ? in[u] : 0.0f;
+  CopyValidDepth(&depth_m.data[static_cast<std::size_t>(v) * depth_m.width], depth_m.width,
+                 &row[1]);
+}
+
+void PrefetchRow(const DepthImage& depth_m, int v) {
+  if (v >= depth_m.height) return;
+  const auto row = std::as_bytes(std::span(depth_m.data)
+                                     .subspan(static_cast<std::size_t>(v) * depth_m.width)
+                                     .first(static_cast<std::size_t>(depth_m.width)));
+  PrefetchBytes(row.data(), row.size());
 }
 
 QualityFactors FactorsOf(const CameraIntrinsics& camera, const FusionConfig& config) {
   const double scale =
       config.gradient_scale > 0 ? config.gradient_scale : camera.width_px / camera.fx;
   const double sigma = config.depth_scale_m;
-  return {static_cast<float>(2 * config.gamma * scale),
+  return {static_cast<float>(2 * config.gamma * scale * std::numbers::log2e),
           static_cast<float>(config.preferred_depth_m),
-          static_cast<float>(1 / (3 * sigma * sigma))};
+          static_cast<float>(std::numbers::log2e / (3 * sigma * sigma))};
 }
 
 }  // namespace
@@ -52,6 +60,7 @@ const float* QualityRows::Row(int v) {
     CopyRow(*depth_m_, v, row_);
   }
   CopyRow(*depth_m_, v + 1, below_);
+  PrefetchRow(*depth_m_, v + 2);
   v_ = v;
   QualityRow({above_.data(), row_.data(), below_.data()}, depth_m_->width, factors_,
              quality_.data());

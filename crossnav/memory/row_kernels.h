@@ -63,10 +63,13 @@ bool AllFinite(std::span<const float> values);
 
 /// Constants of eq:supp_observation_quality, as the kernel wants them.
 struct QualityFactors {
-  float gradient = 0;        ///< 2 gamma gradient_scale
+  float gradient = 0;        ///< 2 gamma gradient_scale log2(e)
   float preferred_m = 0;     ///< d0
-  float inverse_spread = 0;  ///< 1 / (3 sigma_d^2)
+  float inverse_spread = 0;  ///< log2(e) / (3 sigma_d^2)
 };
+
+/// out[i] = in[i] if it is a depth, > 0 and finite, else 0.
+void CopyValidDepth(const float* in, int width, float* out);
 
 /// Quality of one image row of `width` pixels. The three depth rows carry one zero before and
 /// after, and zero where depth is invalid; `row[1]` is pixel 0.

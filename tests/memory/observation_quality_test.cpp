@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "crossnav/core/rng.h"
@@ -75,6 +77,38 @@ TEST(ObservationQualityTest, KeepsRelativePrecisionWhereTheWeightIsTiny) {
     const double expected = testing::LiteralQuality(depth, u, 1, factors);
     EXPECT_NEAR(q.At(u, 1) / expected, 1.0, 1e-5) << u;
   }
+}
+
+TEST(ObservationQualityTest, IsWithinAFewRoundingsOfTheFormula) {
+  Rng rng(7);
+  const float invalid[] = {0, -1, std::numeric_limits<float>::infinity(),
+                           std::numeric_limits<float>::quiet_NaN()};
+  FusionConfig config;
+  config.gradient_scale = 2;
+  testing::LiteralFactors factors;
+  factors.gradient_scale = 2;
+  double largest = 0;
+  for (const double slope : {0.0, 0.001, 0.1, 1.0, 5.0}) {
+    DepthImage depth(67, 5);
+    for (int i = 0; i < 300; ++i) {
+      const double base_m = rng.Uniform(0.2, 6.0);
+      for (float& d : depth.data)
+        d = rng.Chance(0.1) ? invalid[rng.Int(0, 3)]
+                            : static_cast<float>(base_m + slope * rng.Uniform(0, 1));
+      const Image<float> q = ObservationQuality(depth, {}, config);
+      for (int v = 0; v < depth.height; ++v)
+        for (int u = 0; u < depth.width; ++u) {
+          const double expected = testing::LiteralQuality(depth, u, v, factors);
+          if (expected == 0) {
+            ASSERT_EQ(q.At(u, v), 0) << u << "," << v;
+          } else {  // what is rounded is the exponent
+            const double roundings = 1 - std::log2(expected);
+            largest = std::max(largest, std::abs(q.At(u, v) / expected - 1) / roundings);
+          }
+        }
+    }
+  }
+  EXPECT_LT(largest, 4e-7);
 }
 
 TEST(ObservationQualityTest, DefaultGradientScaleIsImageWidthOverFocalLength) {
