@@ -13,67 +13,22 @@
 
 #include <hwy/highway.h>
 
+#include "crossnav/sim/canvas_tiles-inl.h"
+#include "crossnav/sim/lane_points-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace crossnav::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Wide = hn::CappedTag<float, 8>;
 using Index = hn::RebindToSigned<Wide>;
-using V = hn::Vec<Wide>;
 using M = hn::Mask<Wide>;
 
 constexpr float kNear_m = 0.05F;     // chosen: what is nearer is looked for in the whole picture
 constexpr float kMargin_px = 0.05F;  // chosen: above the rounding of a pixel coordinate
-constexpr int kTile = 8;             // px
 constexpr float kFlat = 1e-25F;      // chosen: what is seen edge-on to the last bit, or no triangle
 // chosen: of surfaces nearer to each other than this share of their depth the first is shown, not
 // now one and now the other.
 constexpr float kNearer = 1.00001F;
-constexpr float kHighest = 1e6F;  // [1/m], of what reaches behind the camera
-
-struct Point {
-  V x, y, z;
-};
-
-HWY_INLINE Point Minus(const Point& a, const Point& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Point Plus(const Point& a, const Point& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Point Cross(const Point& a, const Point& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-HWY_INLINE V Dot(const Point& a, const Point& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE V Least(V a, V b, V c) {
-  return hn::Min(hn::Min(a, b), c);
-}
-HWY_INLINE V Greatest(V a, V b, V c) {
-  return hn::Max(hn::Max(a, b), c);
-}
-
-HWY_INLINE Point ToPixels(const RasterView& view, const Point& p_world) {
-  const Wide d;
-  const Point p = Minus(p_world, {hn::Set(d, view.origin.x()), hn::Set(d, view.origin.y()),
-                                  hn::Set(d, view.origin.z())});
-  const auto row = [&](int i) {
-    return Dot({hn::Set(d, view.to_pixels(i, 0)), hn::Set(d, view.to_pixels(i, 1)),
-                hn::Set(d, view.to_pixels(i, 2))},
-               p);
-  };
-  return {row(0), row(1), row(2)};
-}
-
-// The line through two corners as a linear function of the pixel: twice q x p, exacter than that
-// product where the corners are near each other; of the same corners in the other order exactly the
-// negative, so that no pixel falls between two neighbours.
-HWY_INLINE Point Line(const Point& p, const Point& q) {
-  return Cross(Minus(q, p), Plus(p, q));
-}
 
 // What eight triangles are on the picture.
 struct alignas(64) Footprints {
@@ -218,9 +173,10 @@ struct Stroke {
   Canvas& canvas;
   bool is_drawn = false;
 
-  // The pixels of row `v` from `u0` to at least `u1`.
-  HWY_INLINE void Row(int u0, int u1, int v) {
+  // The pixels of row `v` from `u0` to at least `u1`; the least inverse depths that they have then.
+  HWY_INLINE V Row(int u0, int u1, int v) {
     const Wide d;
+    V least = hn::Set(d, kHighest);
     const hn::RebindToUnsigned<Wide> du;
     const auto mark = hn::Set(du, static_cast<std::uint32_t>(canvas.triangles.size()));
     const auto fv = static_cast<float>(v);
@@ -240,31 +196,97 @@ struct Stroke {
       const V before = hn::LoadU(d, nearest + u);
       M takes = hn::And(hn::Ge(outside, hn::Zero(d)),
                         hn::Gt(depth, hn::Mul(before, hn::Set(d, kNearer))));
-      if (hn::AllFalse(d, takes)) continue;
+      if (hn::AllFalse(d, takes)) {
+        least = hn::Min(least, before);
+        continue;
+      }
       takes = Solid<kHoles>(takes, weight, triangle, is_hole);  // padding may be drawn on, too
-      hn::StoreU(hn::IfThenElse(takes, depth, before), d, nearest + u);
+      const V after = hn::IfThenElse(takes, depth, before);
+      least = hn::Min(least, after);
+      hn::StoreU(after, d, nearest + u);
       const auto old = hn::LoadU(du, marks + u);
       hn::StoreU(hn::IfThenElse(hn::RebindMask(du, takes), mark, old), du, marks + u);
       is_drawn = true;
     }
+    return least;
   }
 
-  // Those of the tiles of a row of tiles, from `u0` on, that some pixel inside may be in.
-  HWY_INLINE std::uint32_t Tiles(int u0, int v0) const {
+  // One tile; of its rows only `first` to `last` are drawn on.
+  HWY_INLINE void Tile(int u0, int v0, int first, int last) {
+    V least = hn::Set(Wide(), kHighest);
+    for (int v = v0; v < std::min(v0 + kTile, canvas.height); ++v)
+      least = hn::Min(least, v < first || v > last ? LeastOfTileRow(canvas, u0, v)
+                                                   : Row(u0, u0 + kTile - 1, v));
+    NoteTile(canvas, canvas.tiles.Of(u0, v0), least);
+  }
+
+  // Whether the pixels from `u0` to `u1` of the row of tiles at `v` are all nearer than this.
+  bool IsBehind(int u0, int u1, int v, float greatest) const {
+    for (std::size_t tile = canvas.tiles.Of(u0, v); tile <= canvas.tiles.Of(u1, v); ++tile)
+      if (greatest > canvas.tiles.least[tile] * kNearer) return false;
+    return true;
+  }
+
+  // The pixels of a narrow box.
+  HWY_INLINE void Rows(const PixelBox& box, float greatest) {
+    for (int v = box.v0, next = 0; v <= box.v1; v = next) {
+      next = std::min(v / kTile * kTile + kTile, box.v1 + 1);
+      if (IsBehind(box.u0, box.u1, v, greatest)) continue;
+      for (int y = v; y < next; ++y) Row(box.u0, box.u1, y);
+      for (std::size_t tile = canvas.tiles.Of(box.u0, v); tile <= canvas.tiles.Of(box.u1, v);
+           ++tile)
+        canvas.is_stale[tile] = 1;
+    }
+  }
+
+  // Those of the squares beside each other from (`u0`, `v0`) on that some pixel inside may be in
+  // and not behind all that the square shows. What may be is found in the order of operations of
+  // Row, whose roundings keep what is more.
+  template <int kSide>
+  HWY_INLINE std::uint32_t Reached(const Squares<kSide>& squares, int u0, int v0) const {
     const Wide d;
     const V left = hn::Add(hn::Set(d, static_cast<float>(u0)),
-                           hn::Mul(hn::Iota(d, 0), hn::Set(d, static_cast<float>(kTile))));
-    M may = hn::Ge(left, left);
-    for (int k = 0; k < 3; ++k) {
-      const V side = hn::IfThenElseZero(hn::Gt(brush.wx[k], hn::Zero(d)), hn::Set(d, kTile - 1));
-      const auto fv = static_cast<float>(v0 + (brush.wy[k] > 0 ? kTile - 1 : 0));
-      const V most = hn::Add(hn::Mul(brush.wx[k], hn::Add(left, side)),
-                             hn::Set(d, brush.wy[k] * fv + brush.wc[k]));
-      may = hn::And(may, hn::Ge(most, hn::Zero(d)));
-    }
+                           hn::Mul(hn::Iota(d, 0), hn::Set(d, static_cast<float>(kSide))));
+    const V side = hn::Set(d, kSide - 1);
+    const auto most = [&](V across, float down, float constant) {
+      const V u = hn::Add(left, hn::IfThenElseZero(hn::Gt(across, hn::Zero(d)), side));
+      const auto v = static_cast<float>(v0 + (down > 0 ? kSide - 1 : 0));
+      return hn::Add(hn::Mul(across, u), hn::Set(d, down * v + constant));
+    };
+    const V depth =
+        hn::Min(hn::Max(most(brush.dx, brush.dy, brush.dc), brush.least), brush.greatest);
+    const V shown = hn::LoadU(d, &squares.least[squares.Of(u0, v0)]);
+    M may = hn::Gt(depth, hn::Mul(shown, hn::Set(d, kNearer)));
+    for (int k = 0; k < 3; ++k)
+      may = hn::And(may, hn::Ge(most(brush.wx[k], brush.wy[k], brush.wc[k]), hn::Zero(d)));
     std::array<std::uint8_t, 8> bits{};
     hn::StoreMaskBits(d, may, bits.data());
     return bits[0];
+  }
+
+  // What lies in the box, in squares that are reached: draw(u, v) of each.
+  template <int kSide, class F>
+  HWY_INLINE void EachReached(const Squares<kSide>& squares, const PixelBox& box, F&& draw) {
+    constexpr int kStep = kSide * static_cast<int>(hn::MaxLanes(Wide()));
+    for (int v = box.v0 / kSide * kSide; v <= box.v1; v += kSide)
+      for (int u = box.u0 / kSide * kSide; u <= box.u1; u += kStep)
+        for (std::uint32_t of = Reached(squares, u, v); of != 0; of &= of - 1) {
+          const int left = u + kSide * std::countr_zero(of);
+          if (left > box.u1) break;
+          draw(left, v);
+        }
+  }
+
+  // The pixels of one block that are in the box.
+  HWY_INLINE void Block(int u0, int v0, const PixelBox& box) {
+    const PixelBox part{std::max(u0, box.u0), std::min(u0 + kBlock - 1, box.u1),
+                        std::max(v0, box.v0), std::min(v0 + kBlock - 1, box.v1)};
+    bool is_reached = false;
+    EachReached(canvas.tiles, part, [&](int u, int v) {
+      Tile(u, v, box.v0, box.v1);
+      is_reached = true;
+    });
+    if (is_reached) NoteBlock(canvas, u0, v0);
   }
 };
 
@@ -272,23 +294,13 @@ template <bool kHoles>
 HWY_INLINE void DrawTriangle(const Octet& octet, const Footprints& prints, std::size_t lane,
                              const RasterView& view, const HoleTest& is_hole, Canvas& canvas) {
   const Brush brush(prints, lane);
-  const int u0 = prints.box[0][lane], u1 = prints.box[1][lane];
-  const int v0 = prints.box[2][lane], v1 = prints.box[3][lane];
+  const PixelBox box{prints.box[0][lane], prints.box[1][lane], prints.box[2][lane],
+                     prints.box[3][lane]};
   Stroke<kHoles> stroke{brush, octet.triangle[lane], is_hole, canvas};
-  if (u1 - u0 < 2 * kTile) {
-    for (int v = v0; v <= v1; ++v) stroke.Row(u0, u1, v);
+  if (box.u1 - box.u0 < 2 * kTile) {
+    stroke.Rows(box, prints.greatest[lane]);
   } else {
-    const int step = kTile * static_cast<int>(hn::Lanes(Wide()));
-    for (int v = v0; v <= v1; v += kTile) {
-      const int end = std::min(v + kTile - 1, v1);
-      for (int u = u0 / kTile * kTile; u <= u1; u += step) {
-        for (std::uint32_t tiles = stroke.Tiles(u, v); tiles != 0; tiles &= tiles - 1) {
-          const int left = u + kTile * std::countr_zero(tiles);
-          if (left > u1) break;
-          for (int y = v; y <= end; ++y) stroke.Row(left, left + kTile - 1, y);
-        }
-      }
-    }
+    stroke.EachReached(canvas.blocks, box, [&](int u, int v) { stroke.Block(u, v, box); });
   }
   if (stroke.is_drawn) Remember(octet, prints, lane, view, canvas);
 }
@@ -308,7 +320,7 @@ HWY_INLINE void DrawCluster(const TriangleClusters& all, const Cluster& cluster,
 
 // Whether all that the box covers on the picture is nearer than it.
 HWY_INLINE bool IsHidden(const Cluster& cluster, float nearest_m, const RasterView& view,
-                         const Canvas& canvas) {
+                         Canvas& canvas) {
   if (nearest_m < kNear_m) return false;
   const Wide d;
   V u_low = hn::Set(d, 1e9F), u_high = hn::Set(d, -1e9F), v_low = u_low, v_high = u_high;
@@ -335,21 +347,14 @@ HWY_INLINE bool IsHidden(const Cluster& cluster, float nearest_m, const RasterVi
     return static_cast<int>(std::min(std::ceil(hn::GetLane(hn::MaxOfLanes(d, high)) + kMargin_px),
                                      static_cast<float>(count - 1)));
   };
-  const int u0 = first(u_low), u1 = last(u_high, view.width);
-  const int v0 = first(v_low), v1 = last(v_high, view.height);
-  const V nearest = hn::Set(d, 1 / nearest_m * 1.00001F);
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
-  const M tail = hn::FirstN(d, static_cast<std::size_t>(std::max(0, (u1 - u0) % kLanes + 1)));
-  for (int v = v0; v <= v1; ++v) {
-    const float* row = canvas.inverse_depth.data() +
-                       static_cast<std::size_t>(v) * static_cast<std::size_t>(canvas.stride);
-    int u = u0;
-    M seen = hn::MaskFromVec(hn::Zero(d));
-    for (; u + kLanes <= u1; u += kLanes)
-      seen = hn::Or(seen, hn::Lt(hn::LoadU(d, row + u), nearest));
-    if (u <= u1) seen = hn::Or(seen, hn::And(tail, hn::Lt(hn::LoadU(d, row + u), nearest)));
-    if (!hn::AllFalse(d, seen)) return false;
-  }
+  const PixelBox box{first(u_low), last(u_high, view.width), first(v_low),
+                     last(v_high, view.height)};
+  const float nearest = 1 / nearest_m * 1.00001F;
+  for (int v = box.v0 / kTile * kTile; v <= box.v1; v += kTile)
+    for (int u = box.u0 / kTile * kTile; u <= box.u1; u += kTile)
+      if (canvas.tiles.least[canvas.tiles.Of(u, v)] < nearest &&
+          !IsTileNearer(canvas, u, v, box, nearest))
+        return false;
   return true;
 }
 
@@ -371,16 +376,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace crossnav::sim {
-
-void Canvas::Clear(int width_px, int height_px) {
-  width = width_px;
-  height = height_px;
-  stride = (width + 15) / 8 * 8;
-  const std::size_t pixels = static_cast<std::size_t>(stride) * static_cast<std::size_t>(height);
-  inverse_depth.assign(pixels, 0.0F);
-  drawn.resize(pixels);
-  triangles.clear();
-}
 
 HWY_EXPORT(Draw);
 

@@ -58,6 +58,30 @@ TEST(Rasterizer, EveryPixelIsThatOfBruteForceOverAllTriangles) {
   EXPECT_GT(all.compared, 9 * all.ambiguous);
 }
 
+// Pictures of several blocks of tiles, in which near triangles hide parts of tiles and whole
+// blocks.
+TEST(Rasterizer, WhatTilesAndBlocksHideIsHiddenByBruteForce) {
+  Comparison all;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Rng rng(seed);
+    MicroScene m;
+    for (int i = 0; i < 260; ++i) {  // several clusters; some as wide as the picture, most narrow
+      m.Begin("thing");
+      const double distance_m = rng.Uniform(1, 6), reach = rng.Chance(0.15) ? 4 : 0.4;
+      const Vector3d centre(distance_m, distance_m * rng.Uniform(-0.9, 0.9),
+                            distance_m * rng.Uniform(-0.6, 0.6));
+      const auto point = [&] {
+        return Vector3d(centre + reach * Vector3d(0.1 * rng.Normal(), rng.Normal(), rng.Normal()));
+      };
+      const Vector3d a = point(), b = point(), c = point();
+      m.Triangle(a, b, c);
+    }
+    CompareWithBruteForce(m.Finish(), IntrinsicsFromHfov(203, 139, DegToRad(90)),
+                          CameraPose({{0, 0, 0}, 0, 0}, 0), all);
+  }
+  EXPECT_GT(all.compared, 9 * all.ambiguous);
+}
+
 // Triangles that reach behind the camera have no box on the picture.
 TEST(Rasterizer, TrianglesAroundTheCameraAreThoseOfBruteForce) {
   Comparison all;
