@@ -21,7 +21,8 @@ if ! "${PYTHON:-python3}" -m venv "$venv"; then
 fi
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
 
-if ! pip install -q --no-input -r "$root/python/requirements.txt" >"$log" 2>&1; then
+# Modules are compiled as they are imported: few of all are.
+if ! pip install -q --no-input --no-compile -r "$root/python/requirements.txt" >"$log" 2>&1; then
   tail -n 5 "$log" >&2
   if grep -qE "$unreachable" "$log"; then
     echo "build_wheel: skipped, as pip reaches no package registry"
