@@ -338,7 +338,10 @@ float FuseRow(float* row, int dim, float keep, const float* grid,
 }
 void PrefetchBytes(const std::byte* begin, std::size_t bytes) {
   constexpr std::size_t kCacheLine = 64;
-  for (std::size_t i = 0; i < bytes; i += kCacheLine) hwy::Prefetch(begin + i);
+  // Into the second cache, which waits for more lines at a time than the first.
+  constexpr int kToRead = 0, kSecondCache = 2;
+  for (std::size_t i = 0; i < bytes; i += kCacheLine)
+    __builtin_prefetch(begin + i, kToRead, kSecondCache);
 }
 void DotRows(const std::uint16_t* rows, int stride, std::size_t count, const float* text,
              float* out) {
