@@ -69,7 +69,8 @@ class Killed : public test::Cli {
     check();
     for (const auto& [name, bytes] : FilesBelow(outputs)) {
       const auto found = expected.find(name);
-      if (found != expected.end()) EXPECT_EQ(bytes, found->second) << name;
+      if (found == expected.end()) continue;
+      EXPECT_EQ(bytes, found->second) << name;
     }
   }
 
@@ -89,8 +90,9 @@ class Killed : public test::Cli {
   void ExpectWholeScenes(const std::string& dir) {
     if (!fs::exists(At(dir))) return;
     for (const auto& entry : fs::directory_iterator(At(dir))) {
-      if (entry.path().extension() == ".json")
+      if (entry.path().extension() == ".json") {
         EXPECT_FALSE(Json::parse(ReadText(entry.path()), nullptr, false).is_discarded());
+      }
       const std::string id = entry.path().filename().string();
       const auto dash = id.find('-');
       if (dash == id.npos || !fs::exists(entry.path() / (id.substr(dash + 1) + ".glb"))) continue;
