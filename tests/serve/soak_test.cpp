@@ -220,7 +220,8 @@ TEST(LiveSoak, FramesAreLostAndDamagedAndClientsDieAndTheServerGoesOn) {
   ServeProgram server(folder.path());
   Soak soak(server);
   const int report = frames / 10, warm = std::min(1000, frames / 2);
-  double warm_MB = 0, warm_world_MB = 0;
+  double warm_MB = 0;
+  [[maybe_unused]] double warm_world_MB = 0;
   for (int i = 1; i <= frames; ++i) {
     ASSERT_NO_FATAL_FAILURE(soak.Frame(i)) << i;
     const bool is_kill = i % (frames / (kKills + 1)) == 0 && i < frames;
