@@ -10,14 +10,12 @@ GridAxis GridAxis::Make(int pixels, int cells) {
   GridAxis axis;
   axis.cells = cells;
   axis.first.resize(pixels);
-  axis.fraction.resize(pixels);
   axis.factors.resize(pixels);
   axis.end.resize(static_cast<std::size_t>(cells));
   for (int p = 0; p < pixels; ++p) {
     const double x = std::clamp((p + 0.5) * cells / pixels - 0.5, 0.0, cells - 1.0);
     axis.first[p] = static_cast<std::int32_t>(std::floor(x));
-    axis.fraction[p] = static_cast<float>(x - axis.first[p]);
-    axis.factors[p].fraction = axis.fraction[p];
+    axis.factors[p].fraction = static_cast<float>(x - axis.first[p]);
     axis.end[static_cast<std::size_t>(axis.first[p])] = p + 1;
   }
   return axis;

@@ -17,14 +17,14 @@ namespace crossnav::memory {
 
 /// Where image columns (or rows) fall in the grid: half-pixel centres, edges clamped.
 struct GridAxis {
+  struct Factors {  // side by side, to be multiplied at once
+    double one = 1;
+    double fraction = 0;  ///< [0, 1) towards the next cell, rounded to float
+  };
   std::vector<std::int32_t> first;  ///< lower cell of the interval, per pixel
-  std::vector<float> fraction;      ///< [0, 1) towards the next cell
+  std::vector<Factors> factors;     ///< per pixel
   std::vector<std::int32_t> end;    ///< first pixel behind the interval, per lower cell
   int cells = 0;
-  struct Factors {
-    double one = 1, fraction = 0;
-  };
-  std::vector<Factors> factors;  ///< side by side, to be multiplied at once
 
   static GridAxis Make(int pixels, int cells);
   int Next(int cell) const { return cell + 1 < cells ? cell + 1 : cell; }
@@ -70,7 +70,7 @@ class CellWeights {
   /// Adds a run of pixels of one image row: `total` = sum q, `right` = sum q * fraction.
   struct Run {
     int u_cell = 0, v_cell = 0;
-    float v_fraction = 0;
+    double v_fraction = 0;
     double total = 0, right = 0;
   };
   void Add(std::int32_t slot, const Run& run) {

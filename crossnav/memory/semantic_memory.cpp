@@ -136,7 +136,7 @@ void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width
 void SemanticMemory::Impl::GatherLine(int v, int row_begin) {
   CellWeights::Run piece;
   piece.v_cell = v_axis.first[v];
-  piece.v_fraction = v_axis.fraction[v];
+  piece.v_fraction = v_axis.factors[v].fraction;
   for (const LineRun& run : line) {
     const int begin = run.run.pixel - row_begin, end = begin + run.run.count;
     std::int32_t slot = -1;
