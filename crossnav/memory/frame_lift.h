@@ -27,7 +27,6 @@ struct GridAxis {
   int cells = 0;
 
   static GridAxis Make(int pixels, int cells);
-  int Next(int cell) const { return cell + 1 < cells ? cell + 1 : cell; }
 };
 
 /// Sums over neighbouring pixels of an image row that lie in one interval of cells, each in two
