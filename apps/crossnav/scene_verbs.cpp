@@ -77,7 +77,10 @@ void AddScene(CLI::App& app, Options& o) {
                              "crossnav scene render scenes/00001-House --top-down --out floor.png",
                              [&o](Console& c) { return SceneRender(o.scene, o.common, c); });
   render->add_option("SCENE", o.scene.scene, "Scene folder")->required();
-  render->add_option("--at", o.scene.at, "Foot point [m], yaw and pitch [deg], world frame")
+  render
+      ->add_option(
+          "--at", o.scene.at,
+          "Foot point [m], yaw and pitch [deg], world frame; default: a place that shows much")
       ->type_name("X,Y,Z,YAW,PITCH");
   render->add_option("--view", o.scene.view, "colour, depth or semantic")
       ->check(CLI::IsMember({"colour", "depth", "semantic"}));

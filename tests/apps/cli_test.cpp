@@ -2,11 +2,14 @@
 // Runs the program: exit codes, one clear message, nothing half written, one JSON document.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 #include <thread>
 
 #include "apps/cli_fixture.h"
+#include "crossnav/core/png_image.h"
 #include "support/zip_archive.h"
 
 namespace crossnav {
@@ -306,6 +309,27 @@ TEST_F(Cli, ContactSheetAndFloorPlanAreDrawn) {
   fs::remove(At("houses/00005-House5/House5.house.json"));
   ASSERT_EQ(Run(render + "plain.png").exit_code, 0);  // other scenes know no rooms
   EXPECT_NE(ReadText(At("named.png")), ReadText(At("plain.png")));
+}
+
+// At a random place it was often a wall and nothing else.
+TEST_F(Cli, APictureWithoutAPlaceShowsMoreThanAWall) {
+  for (const int seed : {1, 2, 3, 4, 5, 6}) {
+    const Outcome outcome =
+        Run("scene render scenes/00001-CrossnavHouse --view semantic --out p.png "
+            "--set eval.seed=" +
+            std::to_string(seed));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string bytes = ReadText(At("p.png"));
+    const auto picture =
+        DecodePng({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "p.png");
+    ASSERT_TRUE(picture);
+    std::map<Rgba8, std::size_t> pixels;
+    for (const Rgba8& colour : picture->data) ++pixels[colour];
+    const auto seen = std::count_if(pixels.begin(), pixels.end(), [&](const auto& colour) {
+      return 100 * colour.second > picture->data.size();
+    });
+    EXPECT_GE(seen, 7) << seed;
+  }
 }
 
 // Assimp's Draco has another tinygltf inside, which took the place of ours and crashed the program.
