@@ -1,24 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/agent/activity.h"
 
+#include <iterator>
+#include <type_traits>
+
 namespace crossnav::agent {
 
-std::string_view NameOf(ActivityKind kind) {
-  switch (kind) {
-    case ActivityKind::kNone:
-      return "none";
-    case ActivityKind::kLookAround:
-      return "look_around";
-    case ActivityKind::kGoTo:
-      return "go_to";
-    case ActivityKind::kClimb:
-      return "climb";
-    case ActivityKind::kVisit:
-      return "visit";
-    case ActivityKind::kApproach:
-      return "approach";
-  }
-  return "unknown";
+namespace {
+
+template <class V>
+auto PursuedOf(V& pursuit) {
+  using Result = std::conditional_t<std::is_const_v<V>, const Pursued*, Pursued*>;
+  return std::visit(
+      [](auto& p) -> Result {
+        if constexpr (std::is_base_of_v<Pursued, std::remove_cvref_t<decltype(p)>>)
+          return &p;
+        else
+          return nullptr;
+      },
+      pursuit);
+}
+
+}  // namespace
+
+Pursuit& PursuitOf(Activity& activity) {
+  if (Scan* scan = std::get_if<Scan>(&activity)) return scan->suspended;
+  return std::get<Pursuit>(activity);
+}
+const Pursuit& PursuitOf(const Activity& activity) {
+  if (const Scan* scan = std::get_if<Scan>(&activity)) return scan->suspended;
+  return std::get<Pursuit>(activity);
+}
+
+Pursued* PursuedIn(Pursuit& pursuit) {
+  return PursuedOf(pursuit);
+}
+const Pursued* PursuedIn(const Pursuit& pursuit) {
+  return PursuedOf(pursuit);
+}
+
+bool IsScanning(const Activity& activity) {
+  return std::holds_alternative<Scan>(activity);
+}
+bool IsExploring(const Pursuit& pursuit) {
+  return std::holds_alternative<GoTo>(pursuit) || std::holds_alternative<Climb>(pursuit);
+}
+
+std::string_view NameOf(const Activity& activity) {
+  return IsScanning(activity) ? "look_around" : NameOf(PursuitOf(activity));
+}
+
+std::string_view NameOf(const Pursuit& pursuit) {
+  constexpr std::string_view kNames[] = {"none", "go_to", "climb", "visit", "approach"};
+  static_assert(std::size(kNames) == std::variant_size_v<Pursuit>);
+  return kNames[pursuit.index()];
 }
 
 std::string_view NameOf(Ending ending) {

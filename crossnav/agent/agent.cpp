@@ -133,8 +133,8 @@ Result<void> Agent::SetGoal(const std::string& name) {
   fresh.events.push_back("goal activated: " + name);
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
-  impl_->goal.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
-  impl_->world.bumps.Clear();
+  impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
+  impl_->world.paper.bumps.Clear();
   // The memory answers for what was seen from near; without it every goal looks for itself.
   if (!impl_->config.policy.poi.use_history) impl_->world.coverage.Clear();
   return {};
@@ -175,13 +175,13 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(
       policy::LiftDetections(detections, obs, config.map, object,
                              std::min(object.secondary_confidence, hint.detector_confidence));
   sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
-  goal.hints.Update(sightings, hint, config.map.voxel_m, world.step);
+  goal.full.hints.Update(sightings, hint, config.map.voxel_m, world.step);
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;
   });
   goal.live.Update(sightings, object, config.map.voxel_m, world.step);
   if (DoubtsClaims(config))
-    NoteViews(goal.live.all(), sightings, p_camera_world, object, config.verify, &goal.claims);
+    NoteViews(goal.live.all(), sightings, p_camera_world, object, config.verify, &goal.full.claims);
   return sightings;
 }
 
@@ -218,7 +218,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   }
   auto sightings = NoteSightings(percept->detections, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
-  world.coverage.Add(end_voxels, p_camera_world, goal.inspect_range_m, config.map.voxel_m);
+  world.coverage.Add(end_voxels, p_camera_world, goal.full.inspect_range_m, config.map.voxel_m);
   clock.Stop("evidence");
   return Seen{std::move(sightings), std::move(*percept)};
 }
@@ -244,7 +244,7 @@ Result<StepResult> Agent::Step(const Observation& given) {
   if (!seen) return tl::unexpected(seen.error());
 
   // Candidates, mode and target, plan, action.
-  Situation now{self.config, self.world, self.goal, agent, eye, obs, seen->sightings, self.hooks};
+  StepState now{self.config, self.world, self.goal, agent, eye, obs, seen->sightings, self.hooks};
   const bool is_literal = self.config.policy.profile == "paper";
   const Decision decision = is_literal ? paper::Decide(now) : Navigate(now);
   clock.Stop("decide");

@@ -24,7 +24,7 @@ std::string TwoDigits(double value) {
 /// The names that the goal is held against: all that do not mean it.
 std::vector<policy::NamedText> OthersThan(const std::string& goal, const World& world) {
   std::vector<policy::NamedText> others;
-  for (const policy::NamedText& text : world.names)
+  for (const policy::NamedText& text : world.full.names)
     if (CanonicalName(text.name) != CanonicalName(goal)) others.push_back(text);
   return others;
 }
@@ -51,9 +51,10 @@ bool DoubtsClaims(const Config& config) {
 }
 
 void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* world) {
-  if (!DoubtsClaims(config) || !world->names.empty()) return;
+  if (!DoubtsClaims(config) || !world->full.names.empty()) return;
   for (const char* name : policy::RivalNames())
-    if (auto vector = encoder.EncodeText(name)) world->names.push_back({name, std::move(*vector)});
+    if (auto vector = encoder.EncodeText(name))
+      world->full.names.push_back({name, std::move(*vector)});
 }
 
 std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sightings,
@@ -62,7 +63,7 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
   if (!DoubtsClaims(config)) return sightings;
   std::vector<int> revived;
   sightings = policy::WithoutRejected(std::move(sightings), p_camera_world, config.policy.object,
-                                      config.verify, &goal->claims, &revived);
+                                      config.verify, &goal->full.claims, &revived);
   for (const int id : revived) {
     goal->live.Forgive(id);
     goal->events.push_back("new evidence for a rejected object");
@@ -70,19 +71,19 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
   return sightings;
 }
 
-ClaimVerdict CheckClaim(Situation& now, const policy::LivePoi& poi,
+ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
                         const policy::Verification& verification) {
   if (!DoubtsClaims(now.config)) return ClaimVerdict::kAgreed;
   GoalState& goal = now.goal;
   const policy::VerifyConfig& config = now.config.verify;
-  const policy::ClaimViews* seen = goal.claims.ViewsOf(poi.id);
+  const policy::ClaimViews* seen = goal.full.claims.ViewsOf(poi.id);
   const int views = seen ? static_cast<int>(seen->p_cameras_world.size()) : 0;
   const auto opinion =
       OpinionOf(now.world.memory, poi.voxels, goal.text, OthersThan(goal.goal, now.world));
   ClaimVerdict verdict = Judge(opinion, verification.confidence, views, config);
-  const bool was_asked = goal.claims.second_view_of == poi.id;
+  const bool was_asked = goal.full.claims.second_view_of == poi.id;
   if (verdict == ClaimVerdict::kWeak) {
-    goal.claims.second_view_of = poi.id;
+    goal.full.claims.second_view_of = poi.id;
     if (!HasSecondView(now, poi)) {
       // There is none: the memory decides, and a view that failed counts against the claim.
       const bool is_likely = (!opinion || opinion->Margin() >= 0) &&
@@ -98,26 +99,27 @@ ClaimVerdict CheckClaim(Situation& now, const policy::LivePoi& poi,
   return verdict;
 }
 
-void Reject(Situation& now, const policy::LivePoi& poi) {
+void Reject(StepState& now, const policy::LivePoi& poi) {
   GoalState& goal = now.goal;
   if (DoubtsClaims(now.config)) {
-    const policy::ClaimViews* seen = goal.claims.ViewsOf(poi.id);
+    const policy::ClaimViews* seen = goal.full.claims.ViewsOf(poi.id);
     const auto views = seen ? seen->p_cameras_world : std::vector<Vector3d>{};
     const auto is_same = [&](const std::vector<geometry::VoxelKey>& voxels, const Vector3d& p) {
       return policy::IsSameObject(poi.voxels, poi.p_center_world, voxels, p,
                                   now.config.policy.object.merge_distance_m);
     };
-    for (const policy::LivePoi& hint : goal.hints.all())
-      if (is_same(hint.voxels, hint.p_center_world)) goal.hints.Discard(hint.id);
+    for (const policy::LivePoi& hint : goal.full.hints.all())
+      if (is_same(hint.voxels, hint.p_center_world)) goal.full.hints.Discard(hint.id);
     for (HistoryPoi& place : goal.history)
       place.is_exhausted = place.is_exhausted || is_same(place.voxels, place.p_center_world);
-    goal.claims.rejected.push_back({poi.id, poi.voxels, poi.p_center_world, poi.confidence, views});
+    goal.full.claims.rejected.push_back(
+        {poi.id, poi.voxels, poi.p_center_world, poi.confidence, views});
   }
   goal.live.Discard(poi.id);
 }
 
 std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& poi) {
-  const policy::ClaimBook& claims = now.goal.claims;
+  const policy::ClaimTracker& claims = now.goal.full.claims;
   if (claims.second_view_of != poi.id) return {};
   const policy::ClaimViews* seen = claims.ViewsOf(poi.id);
   return seen ? seen->p_cameras_world : std::vector<Vector3d>{};

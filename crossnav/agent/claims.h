@@ -23,12 +23,12 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
                                               GoalState* goal);
 
 /// The last word on a POI that this frame proves: kWeak has asked for a view from another side.
-policy::ClaimVerdict CheckClaim(Situation& now, const policy::LivePoi& poi,
+policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
                                 const policy::Verification& verification);
 
 /// Gives up a POI: it, hints of it and remembered places on it are not tried again for this goal
 /// until there is new evidence.
-void Reject(Situation& now, const policy::LivePoi& poi);
+void Reject(StepState& now, const policy::LivePoi& poi);
 
 /// Camera places that another view of this POI must differ from; empty where any view will do.
 std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& poi);

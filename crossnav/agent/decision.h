@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a policy decides in one step, for the agent to execute and for the trace to show.
+// Inputs and result of one decision: the situation that a policy reads, the step state that it
+// updates, and the decision that the agent executes and the trace shows.
 #pragma once
 
 #include <optional>
@@ -14,21 +15,37 @@ namespace crossnav::agent {
 
 class Hooks;
 
-/// What a policy looks at.
+/// Read-only view of one step. World frame, metres.
 struct Situation {
+  const Config& config;
+  const World& world;
+  const GoalState& goal;
+  AgentPose agent;  ///< the robot's foot and heading
+  AgentPose eye;    ///< foot point below the camera and its direction; differs by the mounting
+  const Observation& obs;
+  const std::vector<policy::Sighting>& sightings;  ///< of this frame
+  Hooks* hooks = nullptr;                          ///< the user's decisions; may be null
+};
+
+/// The same with state that may change. Only the functions that take it update the agent.
+struct StepState {
   const Config& config;
   World& world;
   GoalState& goal;
-  AgentPose agent;  ///< the robot's foot and where it faces
-  AgentPose eye;    ///< below the camera and where that looks; differs where it is mounted so
+  AgentPose agent;
+  AgentPose eye;
   const Observation& obs;
-  const std::vector<policy::Sighting>& sightings;  ///< of this frame
-  Hooks* hooks = nullptr;                          ///< what the user decides; may be null
+  const std::vector<policy::Sighting>& sightings;
+  Hooks* hooks = nullptr;
+
+  operator Situation() const {  // NOLINT(google-explicit-constructor): a view of the same step
+    return {config, world, goal, agent, eye, obs, sightings, hooks};
+  }
 };
 
 struct Decision {
   policy::ModeDecision mode{policy::Mode::kBasicExplore, policy::ModeReason::kExploring};
-  std::optional<Action> action;  ///< nullopt = nothing is left to do
+  std::optional<Action> action;  ///< nullopt = no candidate is left
   std::vector<policy::Candidate> shown;
   std::optional<policy::Candidate> target;
   std::vector<geometry::VoxelKey> path;

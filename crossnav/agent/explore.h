@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where to look next when no place is known that may hold the goal: one sweep over the ground in
-// order of cost, on all floors, in which each class of candidates must be nearer than a frontier of
-// this level by what the class costs. The paper's order is the limit of large class costs.
+// Exploration: the place to go to when no POI is known. One search over the ground of all floors in
+// order of path cost; the candidates at each place (exploration_candidates.h) and their prices
+// (exploration_prices.h) give the cheapest target. The paper's strict order is the limit of large
+// prices.
 #pragma once
 
 #include <optional>
@@ -11,18 +12,23 @@
 
 namespace crossnav::agent {
 
-/// The best target; `shown` gets the candidates that were met before it was certain.
-std::optional<GroundTarget> ChooseExploration(Situation& now, const geometry::VoxelKey& start,
-                                              std::vector<policy::Candidate>* shown);
+struct ExplorationChoice {
+  std::optional<GroundTarget> target;    ///< the best; empty if there is none
+  std::vector<policy::Candidate> shown;  ///< candidates met before the best was certain
+  /// The level is known to have a flight down, and was not before.
+  bool has_found_descent = false;
+  std::optional<policy::Relevancy> relevancy;  ///< refreshed, scoring = semantic
+};
+ExplorationChoice ChooseExploration(const Situation& now, const geometry::VoxelKey& start);
 
-/// Whether what made `candidate` a target still holds.
+/// Whether the reason for `candidate` still holds: a frontier is open, ground is uninspected.
 bool IsStillOpen(const Situation& now, const policy::Candidate& candidate);
 
-/// Whether the way there is one over stairs, for all the agent knows: to a place where stairs were
-/// seen, or a storey away. What merely rises may be a seat or a slope.
+/// Whether a path to the place leads over stairs, as far as the map tells: stairs were seen there,
+/// or the place is a storey away. A mere rise may be a seat or a slope.
 bool IsOverStairs(const Situation& now, const Vector3d& p_world);
 
-/// Whether a place at this height belongs to the level that is being explored.
+/// Whether a place at this height belongs to the exploration level.
 bool IsOnLevel(const Situation& now, const Vector3d& p_world);
 
 }  // namespace crossnav::agent

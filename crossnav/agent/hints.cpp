@@ -14,20 +14,21 @@ namespace {
 constexpr double kUnderFoot_m = 0.5;  // chosen: what lies lower is on another storey
 
 bool WasApproached(const Situation& now, const policy::LivePoi& poi) {
-  return std::any_of(now.goal.attempts.begin(), now.goal.attempts.end(), [&](const Attempt& tried) {
-    return tried.kind == CandidateKind::kLivePoi &&
-           (tried.p_focus_world - poi.p_center_world).norm() <
-               now.config.policy.explore.same_place_m;
-  });
+  return std::any_of(now.goal.full.attempts.begin(), now.goal.full.attempts.end(),
+                     [&](const Attempt& tried) {
+                       return tried.kind == CandidateKind::kLivePoi &&
+                              (tried.p_focus_world - poi.p_center_world).norm() <
+                                  now.config.policy.explore.same_place_m;
+                     });
 }
 
 }  // namespace
 
 Hints::Hints(const Situation& now) : now_(now) {
   const policy::PolicyConfig& config = now.config.policy;
-  for (const policy::LivePoi& poi : now.goal.hints.all())
+  for (const policy::LivePoi& poi : now.goal.full.hints.all())
     if (!poi.is_discarded &&
-        !IsSpent(now.goal.attempts, CandidateKind::kSighting, poi.p_center_world,
+        !IsSpent(now.goal.full.attempts, CandidateKind::kSighting, poi.p_center_world,
                  config.explore.same_place_m, config.explore.max_choices))
       hints_.push_back({poi,
                         {now.world.map, poi.voxels, config.approach.range_m, config.approach,
@@ -42,7 +43,7 @@ std::vector<policy::Candidate> Hints::SeenFrom(const VoxelKey& key) {
     hint.is_seen = true;
     policy::Candidate candidate;
     candidate.kind = CandidateKind::kSighting;
-    candidate.id = hint.poi.id;
+    candidate.poi_id = hint.poi.id;
     candidate.p_focus_world = hint.poi.p_center_world;
     candidate.standing = {key};
     candidate.size = static_cast<int>(hint.poi.voxels.size());

@@ -9,6 +9,6 @@
 namespace crossnav::agent {
 
 /// One decision of the full profile: what to do now, and with it the next action.
-Decision Navigate(Situation& now);
+Decision Navigate(StepState& now);
 
 }  // namespace crossnav::agent

@@ -69,9 +69,9 @@ void RejectEntrance(Situation& now, const Vector3d& p_focus_world) {
   const auto keys =
       now.world.stairs.Reject(p_focus_world, poi.blacklist_xy_m, now.config.map.voxel_m);
   now.world.map.MarkStair(keys, geometry::StairMark::kFake);
-  now.goal.set_aside.push_back({p_focus_world, poi.blacklist_xy_m, poi.blacklist_z_m});
-  now.goal.commitment.reset();
-  now.goal.entrance.reset();
+  now.goal.paper.set_aside.push_back({p_focus_world, poi.blacklist_xy_m, poi.blacklist_z_m});
+  now.goal.paper.commitment.reset();
+  now.goal.paper.entrance.reset();
   now.goal.events.push_back("entrance rejected");
 }
 
@@ -81,36 +81,36 @@ void StartSession(Situation& now, const policy::Flight& flight) {
     const Vector3d d = CenterOf(key, now.config.map.voxel_m) - flight.p_entrance_world;
     if (d.norm() <= now.config.policy.stair.admission_radius_m) first.push_back(key);
   }
-  now.goal.session =
+  now.goal.paper.session =
       policy::BeginSession(flight.direction, now.world.level_m, now.agent.p_world, first);
-  policy::PromoteStairs(*now.goal.session, now.world.stairs, now.world.map,
+  policy::PromoteStairs(*now.goal.paper.session, now.world.stairs, now.world.map,
                         now.config.policy.stair);
-  now.world.way_off_level_world.assign(1, now.agent.p_world);
-  now.goal.steps_without_stair_target = 0;
-  now.goal.scanned_landing_m = -1e9;
-  now.goal.commitment.reset();
-  now.goal.entrance.reset();
-  now.goal.script.clear();
+  now.world.path_off_level_world.assign(1, now.agent.p_world);
+  now.goal.paper.steps_without_stair_target = 0;
+  now.goal.paper.scanned_landing_m = -1e9;
+  now.goal.paper.commitment.reset();
+  now.goal.paper.entrance.reset();
+  now.goal.paper.script.clear();
   now.goal.events.push_back(flight.direction > 0 ? "stairs up verified" : "stairs down verified");
 }
 
 /// A new exploration level, or back to where the session began.
 void EndSession(Situation& now, bool is_success) {
-  const policy::StairSession session = *now.goal.session;
-  now.goal.session.reset();
-  now.goal.script.clear();
+  const policy::StairSession session = *now.goal.paper.session;
+  now.goal.paper.session.reset();
+  now.goal.paper.script.clear();
   if (is_success) {
-    now.world.way_off_level_world.push_back(now.agent.p_world);
-    policy::NoteWalk(now.world.way_off_level_world, now.world.stairs, now.config.map.voxel_m,
+    now.world.path_off_level_world.push_back(now.agent.p_world);
+    policy::NoteWalk(now.world.path_off_level_world, now.world.stairs, now.config.map.voxel_m,
                      &now.world.flights);
     now.world.level_m = now.agent.p_world.z();
     now.world.levels_m.push_back(now.world.level_m);
-    now.world.last_direction = session.direction;
+    now.world.paper.last_direction = session.direction;
     now.goal.events.push_back(session.direction > 0 ? "new level above" : "new level below");
     return;
   }
   const auto& poi = now.config.policy.poi;
-  now.goal.set_aside.push_back(
+  now.goal.paper.set_aside.push_back(
       {session.p_entrance_world, 2 * poi.blacklist_xy_m, poi.blacklist_z_m});
   policy::NoteTry(session.p_entrance_world,
                   {now.agent.p_world, session.direction > 0, geometry::TryEnding::kGivenUp},
@@ -124,9 +124,10 @@ void QueueLookAround(GoalState& goal, const AgentPose& agent, const ActionConfig
   // One pitch step down: the ground at the feet and everything up to above the horizon is in view.
   const double down_rad = -DegToRad(action.pitch_deg);
   if (const auto pitch = policy::PitchTowards(agent, down_rad, action))
-    goal.script.push_back(*pitch);
+    goal.paper.script.push_back(*pitch);
   const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
-  goal.script.insert(goal.script.end(), static_cast<std::size_t>(turns), Action::kTurnLeft);
+  goal.paper.script.insert(goal.paper.script.end(), static_cast<std::size_t>(turns),
+                           Action::kTurnLeft);
 }
 
 double DistanceToGoal(const Situation& now, const Target& target) {
@@ -145,8 +146,8 @@ std::optional<Action> FollowPath(const Situation& now, const Target& target,
 }
 
 EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look) {
-  if (!now.goal.entrance) return EntranceVerdict::kNone;
-  EntranceCheck& check = *now.goal.entrance;
+  if (!now.goal.paper.entrance) return EntranceVerdict::kNone;
+  EntranceCheck& check = *now.goal.paper.entrance;
   if (auto turn = FaceAction(now, check.p_focus_world)) {
     if (++check.frames < 12) {
       *look = turn;
@@ -177,20 +178,20 @@ EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look) {
 }
 
 SessionVerdict CheckSession(Situation& now) {
-  if (!now.goal.session) return SessionVerdict::kNone;
+  if (!now.goal.paper.session) return SessionVerdict::kNone;
   GoalState& goal = now.goal;
-  policy::StairSession& session = *goal.session;
-  auto& way = now.world.way_off_level_world;
+  policy::StairSession& session = *goal.paper.session;
+  auto& way = now.world.path_off_level_world;
   if ((way.back() - now.agent.p_world).norm() > 0.5 * now.config.map.voxel_m)
     way.push_back(now.agent.p_world);
   policy::PromoteStairs(session, now.world.stairs, now.world.map, now.config.policy.stair);
   const auto status =
       policy::AdvanceSession(session, now.world.map, now.agent.p_world, now.config.policy.stair);
-  if (!goal.script.empty()) return SessionVerdict::kClimbing;  // still looking around
+  if (!goal.paper.script.empty()) return SessionVerdict::kClimbing;  // still looking around
   if (status == policy::SessionStatus::kOnLanding) {
-    const bool is_scanned = std::abs(goal.scanned_landing_m - now.agent.p_world.z()) < 0.3;
+    const bool is_scanned = std::abs(goal.paper.scanned_landing_m - now.agent.p_world.z()) < 0.3;
     if (!is_scanned) {
-      goal.scanned_landing_m = now.agent.p_world.z();
+      goal.paper.scanned_landing_m = now.agent.p_world.z();
       goal.events.push_back("looking around on the landing");
       QueueLookAround(goal, now.agent, now.config.action);
       return SessionVerdict::kClimbing;
@@ -201,7 +202,8 @@ SessionVerdict CheckSession(Situation& now) {
     EndSession(now, true);
     return SessionVerdict::kLandingReached;
   }
-  const bool is_lost = goal.steps_without_stair_target > 14;  // chosen: one look around and a bit
+  const bool is_lost =
+      goal.paper.steps_without_stair_target > 14;  // chosen: one look around and a bit
   if (status != policy::SessionStatus::kStalled && !is_lost) return SessionVerdict::kClimbing;
   EndSession(now, false);
   return SessionVerdict::kFailed;
@@ -214,12 +216,12 @@ std::optional<Action> Explore(Situation& now, const Target& target) {
   const double arrival_m =
       is_frontier ? now.config.policy.frontier.arrival_m : now.config.policy.stair.arrival_m;
   if (DistanceToGoal(now, target) > arrival_m) {
-    goal.commitment->arrived_looks = 0;
+    goal.paper.commitment->arrived_looks = 0;
     return FollowPath(now, target);
   }
   const Vector3d p_focus = LocalFocus(now, target.candidate);
   if (!is_frontier) {
-    goal.entrance = EntranceCheck{kind, p_focus, 0, 0};
+    goal.paper.entrance = EntranceCheck{kind, p_focus, 0, 0};
     goal.events.push_back("at a stair entrance");
     std::optional<Action> look;
     CheckEntrance(now, &look);
@@ -227,37 +229,38 @@ std::optional<Action> Explore(Situation& now, const Target& target) {
   }
   if (auto look =
           CenteringAction(now.eye, p_focus, now.config.sensor.camera_height_m, now.config.action);
-      look && goal.commitment->arrived_looks < 8)
-    return ++goal.commitment->arrived_looks, look;
-  if (goal.commitment->arrived_looks < 8 + kLooksAtFrontier) {
-    goal.commitment->arrived_looks += 8;
+      look && goal.paper.commitment->arrived_looks < 8)
+    return ++goal.paper.commitment->arrived_looks, look;
+  if (goal.paper.commitment->arrived_looks < 8 + kLooksAtFrontier) {
+    goal.paper.commitment->arrived_looks += 8;
     if (auto step = FollowPath(now, target)) return step;
   }
-  goal.frontier_blacklist.push_back(
+  goal.paper.frontier_blacklist.push_back(
       {p_focus, kFrontierBlacklist_m, now.config.policy.poi.blacklist_z_m});
-  goal.commitment.reset();
+  goal.paper.commitment.reset();
   return Action::kTurnLeft;
 }
 
 std::optional<Action> Climb(Situation& now, const std::optional<Target>& target) {
   GoalState& goal = now.goal;
-  if (!goal.script.empty()) {
-    const Action next = goal.script.front();
-    goal.script.pop_front();
+  if (!goal.paper.script.empty()) {
+    const Action next = goal.paper.script.front();
+    goal.paper.script.pop_front();
     return next;
   }
   const double wanted_pitch =
-      goal.session->direction > 0 ? 0 : -DegToRad(now.config.action.pitch_deg);
+      goal.paper.session->direction > 0 ? 0 : -DegToRad(now.config.action.pitch_deg);
   if (target) {
-    goal.steps_without_stair_target = 0;
+    goal.paper.steps_without_stair_target = 0;
     if (auto action = FollowPath(now, *target, wanted_pitch)) return action;
   }
-  if (goal.steps_without_stair_target++ == 0) QueueLookAround(goal, now.agent, now.config.action);
+  if (goal.paper.steps_without_stair_target++ == 0)
+    QueueLookAround(goal, now.agent, now.config.action);
   return Action::kTurnLeft;
 }
 
 std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target) {
-  HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(target.candidate.id)];
+  HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(now.goal.paper.active_history)];
   if (DistanceToGoal(now, target) > kArrived_m && poi.looked == 0) {
     if (auto action = FollowPath(now, target)) return action;
   }
@@ -274,7 +277,8 @@ std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target) {
   if (poi.looked < 8 + kLooksAtHistoryPoi) return kWobble[poi.looked++ - 8];
   poi.is_exhausted = true;
   const auto& config = now.config.policy.poi;
-  now.goal.blacklist.push_back({poi.p_center_world, config.blacklist_xy_m, config.blacklist_z_m});
+  now.goal.paper.blacklist.push_back(
+      {poi.p_center_world, config.blacklist_xy_m, config.blacklist_z_m});
   now.goal.events.push_back("history POI without success");
   return Action::kTurnLeft;
 }
@@ -293,7 +297,8 @@ std::optional<Action> Approach(Situation& now, const Target& target, const polic
   goal.tried_viewpoints.push_back(now.agent.p_world);
   if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
     const auto& config = now.config.policy.poi;
-    goal.blacklist.push_back({poi.p_center_world, config.blacklist_xy_m, config.blacklist_z_m});
+    goal.paper.blacklist.push_back(
+        {poi.p_center_world, config.blacklist_xy_m, config.blacklist_z_m});
     goal.live.Discard(poi.id);
     goal.events.push_back("verification failed: " + verification.failed_check);
   }
@@ -305,7 +310,7 @@ bool LookAroundOnce(Situation& now) {
   if ((goal.p_looked_around_world - now.agent.p_world).norm() < 0.3)
     return false;  // chosen: the same place
   goal.p_looked_around_world = now.agent.p_world;
-  goal.script.clear();
+  goal.paper.script.clear();
   QueueLookAround(goal, now.agent, now.config.action);
   goal.events.push_back("looking around");
   return true;
@@ -313,11 +318,11 @@ bool LookAroundOnce(Situation& now) {
 
 bool Relax(Situation& now) {
   GoalState& goal = now.goal;
-  if (goal.is_relaxed) return false;
-  goal.is_relaxed = true;
-  goal.set_aside.clear();
-  goal.frontier_blacklist.clear();
-  goal.blacklist.clear();
+  if (goal.paper.is_relaxed) return false;
+  goal.paper.is_relaxed = true;
+  goal.paper.set_aside.clear();
+  goal.paper.frontier_blacklist.clear();
+  goal.paper.blacklist.clear();
   goal.live.ForgiveDiscarded();
   goal.tried_viewpoints.clear();
   goal.failed_views = 0;
@@ -325,7 +330,7 @@ bool Relax(Situation& now) {
   relaxed.query.min_similarity *= 0.8;  // chosen: looser, still a response
   relaxed.query.min_z_score *= 0.6;
   goal.history = RememberedPlaces(now.world, goal, relaxed);
-  goal.active_history = -1;
+  goal.paper.active_history = -1;
   goal.events.push_back("nothing left: trying once more with relaxed limits");
   return true;
 }

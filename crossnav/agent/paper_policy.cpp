@@ -30,14 +30,15 @@ struct Options {
 /// eq:supp_candidate_set. Only classes that could be chosen now are planned for.
 Options CollectCandidates(Situation& now) {
   Options options;
-  if (now.goal.session) {
-    if (now.goal.script.empty()) options.stair = ChooseStairFrontier(now);
+  if (now.goal.paper.session) {
+    if (now.goal.paper.script.empty()) options.stair = ChooseStairFrontier(now);
     if (options.stair) options.shown.push_back(options.stair->candidate);
     return options;
   }
   options.live = ChooseLivePoi(now, &options.live_id);
   options.history = ChooseHistoryPoi(now, &options.history_index);
-  if (!options.live && !options.history && !now.goal.entrance && now.goal.script.empty())
+  if (!options.live && !options.history && !now.goal.paper.entrance &&
+      now.goal.paper.script.empty())
     options.exploration = ChooseExploration(now, &options.shown);
   if (options.history) options.shown.insert(options.shown.begin(), options.history->candidate);
   if (options.live) options.shown.insert(options.shown.begin(), options.live->candidate);
@@ -47,14 +48,14 @@ Options CollectCandidates(Situation& now) {
 ModeInputs InputsFor(const Situation& now, const Options& options, SessionVerdict session,
                      EntranceVerdict entrance) {
   ModeInputs in;
-  in.mode = now.goal.mode;
-  in.is_new_goal = now.goal.is_new;
+  in.mode = now.goal.paper.mode;
+  in.is_new_goal = now.goal.paper.is_new;
   in.entrance_verified = entrance == EntranceVerdict::kVerified;
   in.session_on_landing = session == SessionVerdict::kLandingReached;
   in.session_failed = session == SessionVerdict::kFailed;
   in.has_live_poi = options.live.has_value();
   in.has_history_poi = options.history.has_value();
-  in.is_following_history = now.goal.active_history >= 0;
+  in.is_following_history = now.goal.paper.active_history >= 0;
   if (options.live && options.history) {
     const Vector3d d =
         options.live->candidate.p_focus_world - options.history->candidate.p_focus_world;
@@ -76,30 +77,30 @@ void UpdateLevel(Situation& now) {
     QueueLookAround(goal, now.agent, now.config.action);
     return;
   }
-  if (goal.session || std::abs(now.agent.p_world.z() - world.level_m) < kOtherLevel_m) return;
+  if (goal.paper.session || std::abs(now.agent.p_world.z() - world.level_m) < kOtherLevel_m) return;
   if (!policy::IsFlatAround(world.map, now.agent.p_world)) return;
   world.level_m = now.agent.p_world.z();
-  goal.commitment.reset();
+  goal.paper.commitment.reset();
   goal.events.push_back("on another level");
 }
 
 void NoticeBump(Situation& now) {
-  auto& bumps = now.world.bumps;
+  auto& bumps = now.world.paper.bumps;
   if (!bumps.Update(now.agent, now.world.step, now.config.map)) return;
   now.goal.events.push_back("bump");
   if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
   const auto escape =
       policy::EscapeActions(now.world.map, now.agent, bumps.bumped_yaws(), now.config.action);
-  now.goal.script.assign(escape.begin(), escape.end());
+  now.goal.paper.script.assign(escape.begin(), escape.end());
   now.goal.events.push_back("stuck: stepping aside");
 }
 
 void ApplyMode(GoalState& goal, const ModeDecision& next, const Options& options) {
   const bool is_poi = next.mode == Mode::kPoiNavigation || next.mode == Mode::kTargetApproach;
   if (is_poi) {
-    goal.script.clear();
-    goal.entrance.reset();
-    goal.commitment.reset();
+    goal.paper.script.clear();
+    goal.paper.entrance.reset();
+    goal.paper.commitment.reset();
   }
   const int live = is_poi && next.uses_live_poi ? options.live_id : -1;
   if (live != goal.active_live) {
@@ -107,10 +108,11 @@ void ApplyMode(GoalState& goal, const ModeDecision& next, const Options& options
     goal.failed_views = 0;
   }
   goal.active_live = live;
-  goal.active_history = is_poi && !next.uses_live_poi ? options.history_index : -1;
-  if (next.mode != goal.mode) goal.events.push_back("mode: " + std::string(NameOf(next.mode)));
-  goal.mode = next.mode;
-  goal.is_new = false;
+  goal.paper.active_history = is_poi && !next.uses_live_poi ? options.history_index : -1;
+  if (next.mode != goal.paper.mode)
+    goal.events.push_back("mode: " + std::string(NameOf(next.mode)));
+  goal.paper.mode = next.mode;
+  goal.paper.is_new = false;
 }
 
 const std::optional<Target>& SelectTarget(const ModeDecision& next, const Options& options) {
@@ -132,9 +134,9 @@ std::optional<Action> Act(Situation& now, const ModeDecision& next,
                           const policy::Verification& verification) {
   GoalState& goal = now.goal;
   if (next.mode == Mode::kStairExplore) return Climb(now, target);
-  if (!goal.script.empty()) {
-    const Action scripted = goal.script.front();
-    goal.script.pop_front();
+  if (!goal.paper.script.empty()) {
+    const Action scripted = goal.paper.script.front();
+    goal.paper.script.pop_front();
     return scripted;
   }
   if (!target) return std::nullopt;
@@ -145,8 +147,8 @@ std::optional<Action> Act(Situation& now, const ModeDecision& next,
 
 /// Nothing to go to: what may have been overlooked, from cheap to dear. False when all is done.
 bool Reconsider(Situation& now) {
-  if (!now.world.bumps.obstacles().empty()) {
-    now.world.bumps.Clear();
+  if (!now.world.paper.bumps.obstacles().empty()) {
+    now.world.paper.bumps.Clear();
     now.goal.events.push_back("temporary obstacles forgotten");
     return true;
   }
@@ -155,11 +157,16 @@ bool Reconsider(Situation& now) {
 
 }  // namespace
 
-Decision Decide(agent::Situation& given) {
+Decision Decide(StepState& given) {
   World& world = given.world;
   GoalState& goal = given.goal;
-  Situation now{
-      given.config, world, goal, given.agent, given.eye, std::nullopt, &world.bumps.obstacles()};
+  Situation now{given.config,
+                world,
+                goal,
+                given.agent,
+                given.eye,
+                std::nullopt,
+                &world.paper.bumps.obstacles()};
   NoticeBump(now);
   UpdateLevel(now);
   now.start = planner::StartVoxel(world.map, given.agent.p_world);
@@ -191,7 +198,7 @@ Decision Decide(agent::Situation& given) {
     decision.path_cost = target->plan.cost;
   }
   decision.shown = std::move(options.shown);
-  world.bumps.Commit(decision.action.value_or(Action::kTurnLeft), given.agent);
+  world.paper.bumps.Commit(decision.action.value_or(Action::kTurnLeft), given.agent);
   return decision;
 }
 

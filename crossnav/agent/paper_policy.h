@@ -8,6 +8,6 @@
 namespace crossnav::agent::paper {
 
 /// One decision of the paper's policy.
-Decision Decide(agent::Situation& now);
+Decision Decide(StepState& now);
 
 }  // namespace crossnav::agent::paper

@@ -98,7 +98,8 @@ bool LevelHasWork(const Situation& now, double level_m) {
   const auto frontiers =
       policy::TraversableFrontiers(now.world.map, LevelOf(now, level_m), now.config.policy.frontier,
                                    now.config.policy.frontier.min_cluster);
-  if (!Without(frontiers, now.goal.frontier_blacklist, now.config.map.voxel_m).empty()) return true;
+  if (!Without(frontiers, now.goal.paper.frontier_blacklist, now.config.map.voxel_m).empty())
+    return true;
   return !OpenEntrances(now, level_m, false).empty();
 }
 
@@ -142,15 +143,15 @@ GraphRules WholeMapRules(const Situation& now) {
 std::optional<Target> ChooseFrontier(Situation& now, std::vector<Candidate> candidates) {
   if (!now.start || candidates.empty()) return std::nullopt;
   const GraphRules rules = LevelRules(now);
-  if (now.goal.commitment) {
-    const int kept = FindCommitted(candidates, *now.goal.commitment);
+  if (now.goal.paper.commitment) {
+    const int kept = FindCommitted(candidates, *now.goal.paper.commitment);
     if (kept >= 0) {
       if (auto target = PlanTo(now, candidates[kept], rules)) {
-        now.goal.commitment->standing = candidates[kept].standing;
+        now.goal.paper.commitment->standing = candidates[kept].standing;
         return target;
       }
     }
-    now.goal.commitment.reset();
+    now.goal.paper.commitment.reset();
   }
   std::vector<VoxelKey> goals;
   std::vector<std::size_t> owner;
@@ -162,7 +163,7 @@ std::optional<Target> ChooseFrontier(Situation& now, std::vector<Candidate> cand
   Plan plan = FindPath(now.world.map, *now.start, goals, rules, now.config.planner);
   if (!plan.found()) return std::nullopt;
   const Candidate& chosen = candidates[owner[plan.goal_index]];
-  now.goal.commitment =
+  now.goal.paper.commitment =
       Commitment{chosen.kind, chosen.p_focus_world, chosen.standing, now.world.step, 0};
   return MakeTarget(chosen, std::move(plan), rules);
 }
@@ -173,7 +174,7 @@ std::vector<Candidate> OpenFrontiers(const Situation& now) {
       now.world.step < 12 ? config.min_cluster_init_descent : config.min_cluster;
   return Without(policy::TraversableFrontiers(now.world.map, LevelOf(now, now.world.level_m),
                                               config, min_cluster),
-                 now.goal.frontier_blacklist, now.config.map.voxel_m);
+                 now.goal.paper.frontier_blacklist, now.config.map.voxel_m);
 }
 
 std::vector<Candidate> OpenEntrances(const Situation& now, double level_m, bool include_walked) {
@@ -184,10 +185,10 @@ std::vector<Candidate> OpenEntrances(const Situation& now, double level_m, bool 
   auto up = policy::AscentFrontiers(policy::FlightsFrom(world.stairs, world.map, level_m, +1),
                                     world.map, band, now.config.policy.stair);
   // Descend before ascent, unless the last transition led up.
-  auto& first = world.last_direction > 0 ? up : down;
-  auto& second = world.last_direction > 0 ? down : up;
+  auto& first = world.paper.last_direction > 0 ? up : down;
+  auto& second = world.paper.last_direction > 0 ? down : up;
   first.insert(first.end(), second.begin(), second.end());
-  auto open = Without(std::move(first), now.goal.set_aside, now.config.map.voxel_m);
+  auto open = Without(std::move(first), now.goal.paper.set_aside, now.config.map.voxel_m);
   if (!include_walked)
     std::erase_if(open, [&](const Candidate& c) { return IsWalkedEntrance(world, c); });
   return open;
@@ -217,10 +218,10 @@ std::optional<Target> ChooseLivePoi(const Situation& now, int* id) {
   const double camera_m = now.config.sensor.camera_height_m;
   const auto& approach = now.config.policy.approach;
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
-    if (IsBlacklisted(now.goal.blacklist, poi->p_center_world)) continue;
+    if (IsBlacklisted(now.goal.paper.blacklist, poi->p_center_world)) continue;
     Candidate candidate;
     candidate.kind = CandidateKind::kLivePoi;
-    candidate.id = poi->id;
+    candidate.poi_id = poi->id;
     candidate.p_focus_world = poi->p_center_world;
     candidate.size = static_cast<int>(poi->voxels.size());
     candidate.score = poi->confidence;
@@ -239,11 +240,10 @@ std::optional<Target> ChooseLivePoi(const Situation& now, int* id) {
 std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
   const auto try_poi = [&](int i) -> std::optional<Target> {
     HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(i)];
-    if (poi.is_exhausted || IsBlacklisted(now.goal.blacklist, poi.p_center_world))
+    if (poi.is_exhausted || IsBlacklisted(now.goal.paper.blacklist, poi.p_center_world))
       return std::nullopt;
     Candidate candidate;
     candidate.kind = CandidateKind::kHistoryPoi;
-    candidate.id = i;
     candidate.p_focus_world = poi.p_center_world;
     candidate.size = static_cast<int>(poi.voxels.size());
     candidate.score = poi.score;
@@ -254,11 +254,11 @@ std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
     *index = i;
     return MakeTarget(std::move(candidate), std::move(way->plan), way->rules);
   };
-  if (now.goal.active_history >= 0) {
-    if (auto target = try_poi(now.goal.active_history)) return target;
+  if (now.goal.paper.active_history >= 0) {
+    if (auto target = try_poi(now.goal.paper.active_history)) return target;
   }
   for (int i = 0; i < static_cast<int>(now.goal.history.size()); ++i) {
-    if (i == now.goal.active_history) continue;
+    if (i == now.goal.paper.active_history) continue;
     if (auto target = try_poi(i)) return target;
   }
   return std::nullopt;
@@ -266,9 +266,9 @@ std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
 
 std::optional<Target> ChooseStairFrontier(const Situation& now) {
   if (!now.start) return std::nullopt;
-  const auto frontiers = StairFrontiers(*now.goal.session, now.world.map, now.agent.p_world);
-  const double here_m =
-      now.goal.session->direction * (now.agent.p_world.z() - now.goal.session->entrance_level_m);
+  const auto frontiers = StairFrontiers(*now.goal.paper.session, now.world.map, now.agent.p_world);
+  const double here_m = now.goal.paper.session->direction *
+                        (now.agent.p_world.z() - now.goal.paper.session->entrance_level_m);
   // Steps that were seen one by one first; the sphere bridges treads that hide behind their risers.
   for (const GraphKind kind : {GraphKind::kNormal, GraphKind::kStair}) {
     planner::PlannerConfig local = now.config.planner;

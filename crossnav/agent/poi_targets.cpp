@@ -90,7 +90,7 @@ std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& 
     auto target = ViewOf(now, start, *poi);
     if (!target) continue;
     target->candidate.kind = CandidateKind::kLivePoi;
-    target->candidate.id = poi->id;
+    target->candidate.poi_id = poi->id;
     target->candidate.p_focus_world = poi->p_center_world;
     target->candidate.size = static_cast<int>(poi->voxels.size());
     target->candidate.score = poi->confidence;
@@ -102,18 +102,18 @@ std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& 
 namespace {
 
 /// Not exhausted, like enough to the goal, not tried too often, and not searched in vain of late.
-bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi, double least_score) {
+bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi,
+                    std::optional<int> unreachable_step, double least_score) {
   const auto& policy = now.config.policy;
   if (poi.is_exhausted || poi.score < least_score) return false;
   // A search in vain visits the whole house, and a step does not open it.
-  if (poi.unreachable_step &&
-      now.world.step - *poi.unreachable_step < policy.explore.reconsider_steps)
+  if (unreachable_step && now.world.step - *unreachable_step < policy.explore.reconsider_steps)
     return false;
-  if (poi.similarity < now.world.confirmed_similarity - policy.poi.similarity_slack &&
-      now.goal.last_resorts == 0)
+  if (poi.similarity < now.world.full.confirmed_similarity - policy.poi.similarity_slack &&
+      now.goal.full.last_resorts == 0)
     return false;
   // Asked again, the memory offers the same places: those that were visited are settled.
-  return !IsSpent(now.goal.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
+  return !IsSpent(now.goal.full.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
                   policy.poi.blacklist_xy_m, policy.explore.max_choices);
 }
 
@@ -128,29 +128,32 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
 
 }  // namespace
 
-std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
+PlaceChoice ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
+  PlaceChoice choice;
   double best_score = 0;
-  for (const HistoryPoi& poi : now.goal.history)
+  for (const HistoryPoi& poi : now.goal.history) {
+    choice.unreachable_steps.push_back(poi.unreachable_step);
     if (!poi.is_exhausted) best_score = std::max(best_score, poi.score);
+  }
   // Among places that answer about equally well the nearest; then the others in their order.
   for (const double share : {kBestShare, 0.0}) {
-    std::optional<GroundTarget> nearest;
     for (std::size_t i = 0; i < now.goal.history.size(); ++i) {
-      HistoryPoi& poi = now.goal.history[i];
-      if (!IsWorthGoingTo(now, poi, share * best_score)) continue;
+      const HistoryPoi& poi = now.goal.history[i];
+      std::optional<int>& unreachable_step = choice.unreachable_steps[i];
+      if (!IsWorthGoingTo(now, poi, unreachable_step, share * best_score)) continue;
       auto target = ViewOf(now, start, poi);
-      poi.unreachable_step = target ? std::nullopt : std::optional(now.world.step);
-      if (!target || (nearest && nearest->cost_m <= target->cost_m)) continue;
+      unreachable_step = target ? std::nullopt : std::optional(now.world.step);
+      if (!target || (choice.target && choice.target->cost_m <= target->cost_m)) continue;
       target->candidate.kind = CandidateKind::kHistoryPoi;
-      target->candidate.id = static_cast<int>(i);
       target->candidate.p_focus_world = poi.p_center_world;
       target->candidate.size = static_cast<int>(poi.voxels.size());
       target->candidate.score = poi.score;
-      nearest = std::move(target);
+      choice.place = static_cast<int>(i);
+      choice.target = std::move(target);
     }
-    if (nearest) return nearest;
+    if (choice.target) break;
   }
-  return std::nullopt;
+  return choice;
 }
 
 }  // namespace crossnav::agent

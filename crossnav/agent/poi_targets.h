@@ -42,7 +42,13 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const geometry::VoxelKe
 /// The best live POI that can be approached.
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const geometry::VoxelKey& start);
 
+struct PlaceChoice {
+  std::optional<GroundTarget> target;
+  int place = -1;  ///< index into GoalState::history
+  /// HistoryPoi::unreachable_step of each place after the searches of this choice.
+  std::vector<std::optional<int>> unreachable_steps;
+};
 /// The remembered place to visit next.
-std::optional<GroundTarget> ChooseHistoryPoi(const Situation& now, const geometry::VoxelKey& start);
+PlaceChoice ChooseHistoryPoi(const Situation& now, const geometry::VoxelKey& start);
 
 }  // namespace crossnav::agent

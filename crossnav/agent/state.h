@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the agent remembers, in two structs: what lives as long as the episode, and what a new goal
-// starts anew (paper, "Experimental Configuration" in the supplement). Plain data.
+// State of the agent in two structs: World lives as long as the episode, GoalState starts anew with
+// every goal (paper, "Experimental Configuration" in the supplement). Each has a part that both
+// profiles share and a part for either profile (policy.profile). Plain data.
 #pragma once
 
 #include <deque>
@@ -29,31 +30,40 @@
 
 namespace crossnav::agent {
 
+/// World state of policy.profile = full.
+struct FullWorld {
+  policy::LookedAlong looked_along;           ///< headings of the frames so far, by place
+  std::vector<double> looked_around_m;        ///< heights at which a full turn was made
+  std::vector<double> levels_with_descent_m;  ///< levels from which stairs down were seen
+  std::optional<AgentPose> before_forward;    ///< pose before the last forward step
+  int flat_frames = 0;  ///< consecutive frames on flat ground off the exploration level
+  double confirmed_similarity = -1;      ///< lowest of a confirmed object and its goal's text
+  std::vector<policy::NamedText> names;  ///< rival names of claims, verify.memory = on
+};
+
+/// World state of policy.profile = paper.
+struct PaperWorld {
+  policy::BumpMonitor bumps;
+  int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
+};
+
 /// Survives a change of goal.
 struct World {
   geometry::VoxelMap map;
   planner::GroundMap ground;
   memory::SemanticMemory memory;
   policy::StairEvidence stairs;
-  policy::Coverage coverage;  ///< what was seen from near; without history POIs, for this goal
-  std::vector<geometry::StairFlight> flights;  ///< walked ones first
+  policy::Coverage coverage;  ///< ground inspected from near; without history POIs, for this goal
+  std::vector<geometry::StairFlight> flights;  ///< walked flights first
   policy::FlightSurvey flight_survey;
-  std::vector<Vector3d> way_off_level_world;  ///< foot positions since the level was left
-  double level_m = 0;                         ///< height of the exploration level
+  std::vector<Vector3d> path_off_level_world;  ///< foot positions since the level was left
+  double level_m = 0;                          ///< height of the exploration level
   bool has_level = false;
   int step = 0;
-  int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
-  int flat_frames = 0;     ///< consecutive frames on flat ground off the exploration level
-  double confirmed_similarity = -1;     ///< lowest of an object that was found and its goal's text
-  std::vector<double> levels_m;         ///< heights of the levels that were stood on
-  std::vector<double> upper_levels_m;   ///< heights of the levels from which stairs down were seen
-  policy::LookedAlong looked_along;     ///< pictures so far
-  std::vector<double> looked_around_m;  ///< heights at which a look around was made
-  std::optional<AgentPose> before_forward;  ///< pose before the last forward step
-  policy::BumpMonitor bumps;                ///< policy.profile = paper
-
-  std::vector<policy::NamedText> names;        ///< that claims are held against, verify.memory = on
+  std::vector<double> levels_m;                ///< heights of the levels that were stood on
   std::vector<geometry::StateChange> changes;  ///< of this step
+  FullWorld full;
+  PaperWorld paper;
 
   /// Brings states and ground up to date with the evidence.
   void UpdateStates() {
@@ -73,8 +83,20 @@ struct HistoryPoi {
   double score = 0;
   double similarity = 0;  ///< mean cosine of its best quarter [-1, 1]
   bool is_exhausted = false;
-  std::optional<int> unreachable_step;  ///< in which no way to a view of it was found last
+  std::optional<int> unreachable_step;  ///< last step at which no path to a view of it was found
   int looked = 0;                       ///< frames spent looking at it on arrival
+};
+
+/// Goal state of policy.profile = full.
+struct FullGoal {
+  Activity activity;
+  std::vector<Attempt> attempts;  ///< pursuits that ended
+  policy::LivePois hints;         ///< sightings too weak for a live POI
+  policy::ClaimTracker claims;    ///< verify.memory = on
+  int last_resorts = 0;           ///< last resorts used up
+  double inspect_range_m = 0;
+  policy::Relevancy relevancy;  ///< scoring = semantic
+  int relevancy_step = -1;      ///< step of its last refresh
 };
 
 /// Verification of a stair entrance, while the agent stands there and looks.
@@ -85,7 +107,7 @@ struct EntranceCheck {
   int looks = 0;  ///< pitch actions spent
 };
 
-/// The exploration target being followed.
+/// The exploration target of the literal method.
 struct Commitment {
   policy::CandidateKind kind = policy::CandidateKind::kTraversableFrontier;
   Vector3d p_focus_world = Vector3d::Zero();
@@ -94,22 +116,11 @@ struct Commitment {
   int arrived_looks = 0;
 };
 
-/// Reinitialised by every new goal.
-struct GoalState {
-  std::string goal;
-  int index = -1;
-  std::vector<float> text;
-  std::vector<std::vector<float>> background;  ///< text vectors for query.relevancy = contrastive
+/// Goal state of policy.profile = paper.
+struct PaperGoal {
   policy::Mode mode = policy::Mode::kBasicExplore;
   bool is_new = true;
-  policy::LivePois live;
-  std::vector<HistoryPoi> history;
-  int active_history = -1;  ///< index into `history`, -1 = none
-  int active_live = -1;     ///< id of the POI being approached, -1 = none
-  std::vector<Vector3d> tried_viewpoints;
-  int failed_views = 0;
-
-  // policy.profile = paper
+  int active_history = -1;                                   ///< index into `history`, -1 = none
   std::vector<policy::BlacklistedPlace> blacklist;           ///< POIs
   std::vector<policy::BlacklistedPlace> frontier_blacklist;  ///< frontiers that did not open up
   std::vector<policy::BlacklistedPlace> set_aside;           ///< rejected stair entrances
@@ -117,21 +128,27 @@ struct GoalState {
   std::optional<EntranceCheck> entrance;
   std::optional<policy::StairSession> session;
   int steps_without_stair_target = 0;
-  double scanned_landing_m = -1e9;  ///< height of the landing that was looked around on
-  std::deque<Action> script;        ///< a look around, a correction of pitch
-  Vector3d p_looked_around_world = Vector3d::Constant(1e9);
+  double scanned_landing_m = -1e9;  ///< height of the landing of the last full turn
+  std::deque<Action> script;        ///< actions of a full turn or of an escape from a bump
   bool is_relaxed = false;          ///< the one relaxed retry was used
-  std::vector<std::string> events;  ///< of this step
+};
 
-  // policy.profile = full
-  Activity activity;
-  std::vector<Attempt> attempts;  ///< everything that was tried and ended
-  policy::LivePois hints;         ///< sightings too weak for a live POI
-  policy::ClaimBook claims;       ///< verify.memory = on
-  int last_resorts = 0;           ///< of the things to try when nothing is left, how many were used
-  double inspect_range_m = 0;
-  policy::Resemblance resemblance;  ///< scoring = semantic
-  int resemblance_step = -1;        ///< in which it was refreshed last
+/// Reinitialised by every new goal.
+struct GoalState {
+  std::string goal;
+  int index = -1;
+  std::vector<float> text;
+  std::vector<std::vector<float>> background;  ///< text vectors for query.relevancy = contrastive
+  policy::LivePois live;
+  std::vector<HistoryPoi> history;
+  int active_live = -1;  ///< id of the POI being approached, -1 = none
+  std::vector<Vector3d> tried_viewpoints;
+  int failed_views = 0;
+  Vector3d p_looked_around_world =
+      Vector3d::Constant(1e9);      ///< foot position of the last full turn
+  std::vector<std::string> events;  ///< of this step
+  FullGoal full;
+  PaperGoal paper;
 };
 
 }  // namespace crossnav::agent

@@ -3,6 +3,7 @@
 // it is about. World frame, metres.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct Candidate {
   std::vector<VoxelKey> beyond;               ///< frontiers: what each standing voxel borders on
   int size = 0;                               ///< [voxels]
   double score = 0;                           ///< higher is better, within its class
-  int id = -1;                                ///< of the POI or entrance behind it
+  std::optional<int> poi_id;                  ///< of the live POI or hint behind it
 };
 
 /// A vertical cylinder in which nothing is tried again.

@@ -113,7 +113,7 @@ bool IsNewView(const Vector3d& p_object, const Vector3d& p_camera,
   });
 }
 
-const ClaimViews* ClaimBook::ViewsOf(int poi_id) const {
+const ClaimViews* ClaimTracker::ViewsOf(int poi_id) const {
   const auto it = std::find_if(views.begin(), views.end(),
                                [&](const ClaimViews& v) { return v.poi_id == poi_id; });
   return it == views.end() ? nullptr : &*it;
@@ -121,7 +121,7 @@ const ClaimViews* ClaimBook::ViewsOf(int poi_id) const {
 
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimBook* book,
+                                      const VerifyConfig& config, ClaimTracker* book,
                                       std::vector<int>* revived) {
   auto& rejected = book->rejected;
   std::erase_if(sightings, [&](const Sighting& sighting) {
@@ -145,7 +145,7 @@ std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
 
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimBook* book) {
+               const VerifyConfig& config, ClaimTracker* book) {
   for (const LivePoi& poi : pois) {
     const bool is_claimed =
         std::any_of(sightings.begin(), sightings.end(), [&](const Sighting& sighting) {

@@ -86,7 +86,7 @@ struct RejectedObject {
 };
 
 /// All claims about one goal.
-struct ClaimBook {
+struct ClaimTracker {
   std::vector<ClaimViews> views;
   std::vector<RejectedObject> rejected;
   int second_view_of = -1;  ///< id of the POI that is to be seen from another side, -1 = none
@@ -99,13 +99,13 @@ struct ClaimBook {
 /// to `revived`.
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimBook* book,
+                                      const VerifyConfig& config, ClaimTracker* book,
                                       std::vector<int>* revived);
 
 /// Notes from where each POI was claimed in this frame with the confidence that STOP asks for.
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimBook* book);
+               const VerifyConfig& config, ClaimTracker* book);
 
 enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 

@@ -46,7 +46,7 @@ double UnseenBeyond(const planner::GroundMap& ground, const VoxelKey& place, dou
   return unseen_vox2 * ground.voxel_m() * ground.voxel_m();
 }
 
-void Resemblance::Refresh(const memory::SemanticMemory& memory, std::span<const float> similarity) {
+void Relevancy::Refresh(const memory::SemanticMemory& memory, std::span<const float> similarity) {
   best_.clear();
   if (similarity.empty()) return;
   std::vector<float> sorted(similarity.begin(), similarity.end());
@@ -61,7 +61,7 @@ void Resemblance::Refresh(const memory::SemanticMemory& memory, std::span<const 
   }
 }
 
-double Resemblance::Around(const Vector3d& p_world) const {
+double Relevancy::Around(const Vector3d& p_world) const {
   const VoxelKey cell = CellOf(p_world);
   double sum = 0;
   int count = 0;
@@ -77,11 +77,11 @@ double Resemblance::Around(const Vector3d& p_world) const {
 }
 
 double FrontierWorth(const planner::GroundMap& ground, const VoxelKey& place,
-                     const Resemblance& resemblance, const ExploreConfig& config) {
+                     const Relevancy& relevancy, const ExploreConfig& config) {
   if (config.scoring == "nearest") return 1;
   double worth = UnseenBeyond(ground, place, config.view_range_m) / config.room_m2;
   if (config.scoring == "semantic")
-    worth *= 1 + resemblance.Around(CenterOf(place, ground.voxel_m()));
+    worth *= 1 + relevancy.Around(CenterOf(place, ground.voxel_m()));
   return std::clamp(worth, config.least_share, 1.0);
 }
 

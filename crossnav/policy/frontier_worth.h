@@ -21,7 +21,7 @@ double UnseenBeyond(const planner::GroundMap& ground, const geometry::VoxelKey& 
 
 /// How much the surroundings of a place resemble the goal: in coarse cells, the best answer of the
 /// memory's rows to the goal's text, between that of the median row (0) and that of the best (1).
-class Resemblance {
+class Relevancy {
  public:
   /// `similarity`: cosine of every row of `memory` with the text.
   void Refresh(const memory::SemanticMemory& memory, std::span<const float> similarity);
@@ -36,6 +36,6 @@ class Resemblance {
 /// unseen ground with `area`, besides up to twice as much for what resembles the goal with
 /// `semantic`.
 double FrontierWorth(const planner::GroundMap& ground, const geometry::VoxelKey& place,
-                     const Resemblance& resemblance, const ExploreConfig& config);
+                     const Relevancy& relevancy, const ExploreConfig& config);
 
 }  // namespace crossnav::policy

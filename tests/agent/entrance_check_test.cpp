@@ -14,7 +14,7 @@ std::vector<int> PitchesSeen(CandidateKind kind, int pitch_deg) {
   const Config config;
   World world(config);
   GoalState goal;
-  goal.entrance = EntranceCheck{kind, {2, 0, 0}, 0, 0};
+  goal.paper.entrance = EntranceCheck{kind, {2, 0, 0}, 0, 0};
   std::vector<int> seen;
   for (int step = 0; step < 20; ++step) {
     AgentPose agent;

@@ -73,20 +73,20 @@ Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
   GoalState goal;
   goal.goal = goal_name;
   if (committed) {
-    goal.activity.kind = ActivityKind::kClimb;
-    goal.activity.candidate = *committed;
+    Climb climb;
+    climb.target = *committed;
+    goal.full.activity = Pursuit(std::move(climb));
   }
   policy::ObjectConfig any;
   any.detector_confidence = any.min_box_area_fraction = 0;
-  goal.hints.Update(hints, any, config.map.voxel_m, 0);
+  goal.full.hints.Update(hints, any, config.map.voxel_m, 0);
   AgentPose agent;
   agent.yaw_rad = M_PI;
   agent.p_world = CenterOf(start, config.map.voxel_m) - Vector3d(0, 0, 0.05);
   const Observation obs;
   const std::vector<policy::Sighting> sightings;
-  Situation now{config, world, goal, agent, agent, obs, sightings};
-  std::vector<policy::Candidate> shown;
-  auto target = ChooseExploration(now, start, &shown);
+  const Situation now{config, world, goal, agent, agent, obs, sightings};
+  auto target = ChooseExploration(now, start).target;
   if (!target) {
     ADD_FAILURE() << "nothing to look at";
     return {};

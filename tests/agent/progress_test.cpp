@@ -10,6 +10,7 @@
 
 #include "agent/two_rooms.h"
 #include "crossnav/agent/progress.h"
+#include "crossnav/agent/pursuit.h"
 #include "crossnav/core/rng.h"
 #include "support/map_of_states.h"
 
@@ -84,7 +85,7 @@ struct Ground {
   GoalState goal;
   const Observation obs;
   const std::vector<policy::Sighting> sightings;
-  Situation now{config, world, goal, {}, {}, obs, sightings};
+  StepState now{config, world, goal, {}, {}, obs, sightings};
 
   Ground() {
     test::AddGround(world.map, 0, 0, 30, 30, 0);
@@ -104,9 +105,9 @@ TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
       ground.Block(given.now.agent.p_world + Vector3d(0.1 * edge, 0.1 * i, 0.1));
     }
   const auto fail = [&](double x_m) {
-    GroundTarget target;
-    target.candidate.p_focus_world = Vector3d(x_m, 0, 0);
-    Begin(given.now, ActivityKind::kGoTo, std::move(target));
+    GoTo go_to;
+    go_to.target.p_focus_world = Vector3d(x_m, 0, 0);
+    Begin(given.now, std::move(go_to));
     End(given.now, Ending::kNoProgress);
   };
   fail(10);
@@ -121,7 +122,7 @@ TEST(Progress, AStepThatSlidMarksWhatLiesBesideIt) {
     Ground given;
     AgentPose before = given.now.agent;  // heads east
     before.p_world -= moved;
-    given.world.before_forward = before;
+    given.world.full.before_forward = before;
     NoteBump(given.now);
     return given.world.ground.IsStanding(key);
   };

@@ -72,7 +72,7 @@ TEST(Views, AreNotedOnceForASide) {
   poi.id = 7;
   poi.voxels = Column(0);
   poi.p_center_world = Vector3d(0, 0, 0.25);
-  ClaimBook book;
+  ClaimTracker book;
   const auto note = [&](const Vector3d& p_camera, double confidence) {
     NoteViews({poi}, {SightingOf(0, confidence)}, p_camera, kObject, kConfig, &book);
     const ClaimViews* views = book.ViewsOf(7);
@@ -85,7 +85,7 @@ TEST(Views, AreNotedOnceForASide) {
 }
 
 TEST(Rejected, AnObjectIsNotTriedAgainWithoutNewEvidence) {
-  ClaimBook book;
+  ClaimTracker book;
   book.rejected.push_back({3, Column(0), Vector3d(0, 0, 0.25), 0.75, {Vector3d(2, 0, 0.9)}});
   std::vector<int> revived;
   const auto left = [&](const Vector3d& p_camera, double confidence) {

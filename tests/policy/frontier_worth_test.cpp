@@ -50,7 +50,7 @@ TEST(FrontierWorth, BeforeAWallThatWasSeenThereIsNone) {
 TEST(FrontierWorth, ScoringSaysWhatCounts) {
   const auto pocket = GroundOf(RoomBefore(5)), room = GroundOf(RoomBefore(30));
   const VoxelKey place{19, 10, 1};
-  const Resemblance nothing;
+  const Relevancy nothing;
   ExploreConfig config;
   config.scoring = "nearest";
   EXPECT_EQ(FrontierWorth(pocket, place, nothing, config), 1);
@@ -79,20 +79,20 @@ TEST(FrontierWorth, WhatWasSeenAroundItResemblesTheGoal) {
   add(0, {kOne, 0});
   add(60, {0, kOne});
   add(120, {0, kOne});
-  Resemblance resemblance;
-  resemblance.Refresh(memory, memory.Similarity(std::vector<float>{1, 0}));
-  EXPECT_NEAR(resemblance.Around({0.5, 1.0, 0.2}), 1, 1e-6);
-  EXPECT_NEAR(resemblance.Around({6.5, 1.0, 0.2}), 0, 1e-6);
-  EXPECT_EQ(resemblance.Around({40, 40, 0}), 0);
-  resemblance.Refresh(memory, {});
-  EXPECT_EQ(resemblance.Around({0.5, 1.0, 0.2}), 0);
+  Relevancy relevancy;
+  relevancy.Refresh(memory, memory.Similarity(std::vector<float>{1, 0}));
+  EXPECT_NEAR(relevancy.Around({0.5, 1.0, 0.2}), 1, 1e-6);
+  EXPECT_NEAR(relevancy.Around({6.5, 1.0, 0.2}), 0, 1e-6);
+  EXPECT_EQ(relevancy.Around({40, 40, 0}), 0);
+  relevancy.Refresh(memory, {});
+  EXPECT_EQ(relevancy.Around({0.5, 1.0, 0.2}), 0);
 
   ExploreConfig config;
   config.scoring = "semantic";
-  resemblance.Refresh(memory, memory.Similarity(std::vector<float>{0, 1}));
+  relevancy.Refresh(memory, memory.Similarity(std::vector<float>{0, 1}));
   const auto ground = GroundOf(RoomBefore(5));
-  const double plain = FrontierWorth(ground, {19, 10, 1}, Resemblance{}, config);
-  EXPECT_GE(FrontierWorth(ground, {19, 10, 1}, resemblance, config), plain);
+  const double plain = FrontierWorth(ground, {19, 10, 1}, Relevancy{}, config);
+  EXPECT_GE(FrontierWorth(ground, {19, 10, 1}, relevancy, config), plain);
 }
 
 }  // namespace

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/act.h"
+
+#include <algorithm>
+#include <string>
+
+#include "crossnav/agent/claims.h"
+#include "crossnav/agent/pursuit.h"
+#include "crossnav/agent/scan.h"
+#include "crossnav/policy/ground_motion.h"
+#include "crossnav/policy/steering.h"
+
+namespace crossnav::agent {
+
+using policy::CandidateKind;
+
+namespace {
+
+constexpr double kArrived_m = 0.35;  // chosen: one forward step and a voxel
+constexpr int kLooksAtTarget = 6;    // chosen: half a turn, or less and a pitch
+constexpr int kWobbles = 3;          // chosen: one more than a live POI needs to be stable
+
+/// The next action along the path; nullopt at its end, or where no step helps.
+std::optional<Action> Walk(StepState& now, Route& route) {
+  const auto& motion = now.config.policy.motion;
+  if (auto pitch =
+          policy::PitchTowards(now.agent, DegToRad(motion.travel_pitch_deg), now.config.action))
+    return pitch;
+  const bool is_clear = !route.motion.empty() &&
+                        (route.motion.back() != Action::kMoveForward ||
+                         IsStepClear(now.world.ground, now.agent, motion, now.config.action));
+  if (!is_clear) {
+    route.motion = MotionAlong(now.world.ground, route.path, now.agent, motion, now.config.planner,
+                               now.config.action);
+    std::reverse(route.motion.begin(), route.motion.end());
+  }
+  if (route.motion.empty()) return std::nullopt;
+  const Action next = route.motion.back();
+  route.motion.pop_back();
+  return next;
+}
+
+/// A turn or pitch towards `p_world`; nullopt when it is centred or `max_looks` were spent.
+std::optional<Action> LookAt(StepState& now, Pursued& pursued, const Vector3d& p_world,
+                             int max_looks) {
+  if (pursued.looks >= max_looks) return std::nullopt;
+  const auto look = policy::CenteringAction(now.eye, p_world, now.config.sensor.camera_height_m,
+                                            now.config.action);
+  if (look) {
+    ++pursued.looks;
+    pursued.route.motion.clear();
+  }
+  return look;
+}
+
+/// On arrival the agent looks at the target once, then gives it up.
+std::optional<Action> ActOnExploration(StepState& now, Pursued& pursued) {
+  if (DistanceToEnd(now) > kArrived_m) {
+    if (auto action = Walk(now, pursued.route)) return action;
+    pursued.route.idle_steps += now.config.policy.explore.progress_steps / 3;
+    pursued.route.motion.clear();
+    return Action::kTurnLeft;
+  }
+  if (auto look = LookAt(now, pursued, pursued.target.p_focus_world, kLooksAtTarget)) return look;
+  pursued.looks = kLooksAtTarget;
+  // The last part of the path may still show the target.
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
+    if (auto action = Walk(now, pursued.route)) return action;
+  }
+  const bool is_hint = pursued.target.kind == CandidateKind::kSighting;
+  End(now, is_hint ? Ending::kReached : Ending::kNotOpened);
+  return std::nullopt;
+}
+
+std::optional<Action> ActOn(StepState& /*now*/, Idle& /*idle*/, const policy::Verification& /*v*/) {
+  return std::nullopt;
+}
+std::optional<Action> ActOn(StepState& now, GoTo& go_to, const policy::Verification& /*v*/) {
+  return ActOnExploration(now, go_to);
+}
+std::optional<Action> ActOn(StepState& now, Climb& climb, const policy::Verification& /*v*/) {
+  return ActOnExploration(now, climb);
+}
+
+std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Verification& /*v*/) {
+  HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(visit.place)];
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && poi.looked == 0) {
+    if (auto action = Walk(now, visit.route)) return action;
+  }
+  const Vector3d p_aim = policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
+  if (poi.looked == 0) {
+    if (auto look = LookAt(now, visit, p_aim, 2 * kLooksAtTarget)) return look;
+  }
+  // Once aimed, a wobble to either side gives the detector a few more frames.
+  constexpr Action kWobble[kWobbles] = {Action::kTurnLeft, Action::kTurnRight, Action::kTurnRight};
+  if (poi.looked < kWobbles) return kWobble[poi.looked++];
+  poi.is_exhausted = true;
+  now.goal.events.push_back("history POI without success, similarity " +
+                            std::to_string(poi.similarity) + " score " + std::to_string(poi.score));
+  End(now, Ending::kReached);
+  return std::nullopt;
+}
+
+std::optional<Action> ActOn(StepState& now, Approach& approach,
+                            const policy::Verification& verification) {
+  GoalState& goal = now.goal;
+  const policy::LivePoi* poi = goal.live.Find(approach.poi_id);
+  if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
+    if (auto action = Walk(now, approach.route)) return action;
+  }
+  const Vector3d p_aim = policy::AimPoint(poi->voxels, now.agent.p_world, now.config.map.voxel_m);
+  if (auto look = LookAt(now, approach, p_aim, 2 * kLooksAtTarget)) return look;
+  goal.tried_viewpoints.push_back(now.agent.p_world);
+  goal.events.push_back("view failed: " + verification.failed_check);
+  approach.looks = 0;
+  if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
+    Reject(now, *poi);
+    goal.events.push_back("verification failed: " + verification.failed_check);
+    End(now, Ending::kRefuted);
+  }
+  return Action::kTurnLeft;
+}
+
+}  // namespace
+
+std::optional<Action> Act(StepState& now, const policy::Verification& verification) {
+  Activity& activity = now.goal.full.activity;
+  if (Scan* scan = std::get_if<Scan>(&activity)) {
+    const Action turn = scan->turns.front();
+    scan->turns.pop_front();
+    if (scan->turns.empty()) EndScan(now);
+    return turn;
+  }
+  return std::visit([&](auto& pursuit) { return ActOn(now, pursuit, verification); },
+                    PursuitOf(activity));
+}
+
+}  // namespace crossnav::agent

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Candidates of exploration at the places of a search over the ground: frontiers, treads of flights
+// that were not walked yet, uninspected ground, hints. World frame, metres.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "crossnav/agent/hints.h"
+
+namespace crossnav::agent {
+
+enum class ExplorationClass { kFrontier, kFlight, kUninspected, kHint };
+
+struct ExplorationCandidate {
+  ExplorationClass type = ExplorationClass::kFrontier;
+  policy::Candidate candidate;
+  geometry::VoxelKey place;     ///< to stand at
+  bool is_on_level = true;      ///< of the exploration level
+  bool is_beside_step = false;  ///< kFlight: treads are around the place
+  /// kFrontier: straight line to the nearest open hint of its storey [m].
+  std::optional<double> to_hint_m;
+};
+
+/// Rise of a foot at `place` over the exploration level [m].
+double RiseOf(const Situation& now, const geometry::VoxelKey& place);
+
+/// Candidates of one search. Keeps a reference to the situation.
+class ExplorationCandidates {
+ public:
+  explicit ExplorationCandidates(const Situation& now) : now_(now), hints_(now) {}
+
+  /// Candidates for which `place` is the cheapest place to stand. Places come in order of cost.
+  std::vector<ExplorationCandidate> At(const geometry::VoxelKey& place);
+
+ private:
+  std::optional<ExplorationCandidate> FrontierAt(const geometry::VoxelKey& place,
+                                                 const geometry::VoxelKey& beyond);
+  std::optional<ExplorationCandidate> UninspectedAt(const geometry::VoxelKey& place);
+
+  const Situation& now_;
+  Hints hints_;
+  std::set<geometry::VoxelKey> clustered_;    // members of the frontiers so far
+  std::set<geometry::VoxelKey> uninspected_;  // coarse cells so far
+};
+
+}  // namespace crossnav::agent

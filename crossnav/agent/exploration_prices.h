@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Price of an exploration candidate [m]: its path, the turns before the first step, and the terms
+// of its class, of the floor prior, of turning back on a flight, and of the commitment
+// (docs/navigation.md, "What to do").
+#pragma once
+
+#include <vector>
+
+#include "crossnav/agent/exploration_candidates.h"
+#include "crossnav/agent/poi_targets.h"
+
+namespace crossnav::agent {
+
+/// A candidate with its path and price.
+struct PricedCandidate {
+  GroundTarget target;
+  double rise_m = 0;    ///< over the exploration level
+  double spared_m = 0;  ///< discount of the commitment
+  bool is_flight = false;
+};
+
+/// Prices of one search. Keeps references.
+class ExplorationPrices {
+ public:
+  ExplorationPrices(const Situation& now, const policy::Relevancy& relevancy);
+
+  /// `path_m`: cost of `path`.
+  PricedCandidate Of(ExplorationCandidate found, std::vector<geometry::VoxelKey> path,
+                     double path_m);
+
+  /// A flight that continues past a floor with open candidates leads one storey further than that
+  /// floor, however near its next tread is.
+  void RaiseFlightsPastFloors(std::vector<PricedCandidate>* all) const;
+
+  /// Largest discount that a class and the commitment can give, negative.
+  double LargestDiscount() const;
+  /// Price of `priced` once RaiseFlightsPastFloors has raised it, at most.
+  double UpperBound(const PricedCandidate& priced) const;
+  /// A flight down from the level was priced, and none was known before.
+  bool has_found_descent() const { return has_found_descent_; }
+
+ private:
+  struct Terms {
+    double class_m = 0;
+    double worth = 1;  ///< share of the path that counts, (0, 1]; divides the path
+  };
+  Terms TermsOf(const ExplorationCandidate& found, double path_m);
+  double FlightPrice(double rise_m);
+  bool HasDescent() const;
+  double TurningBack(const policy::Candidate& candidate) const;
+  double SettingOut(const std::vector<geometry::VoxelKey>& path) const;
+  double CommitmentDiscount(const policy::Candidate& candidate, double class_m) const;
+
+  const Situation& now_;
+  const policy::ExploreConfig& config_;
+  const policy::Relevancy& relevancy_;
+  double floor_prior_m_;  // positive: the goal is likelier on an upper floor; negative: below
+  bool has_found_descent_ = false;
+};
+
+}  // namespace crossnav::agent

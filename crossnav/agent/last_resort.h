@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Last resorts of policy.profile = full, before "all explored" is declared.
+#pragma once
+
+#include "crossnav/agent/decision.h"
+
+namespace crossnav::agent {
+
+/// Applies the next resort; each is used once for a goal. False if none is left.
+bool TryLastResort(StepState& now);
+
+}  // namespace crossnav::agent

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/scan.h"
+
+#include <cmath>
+#include <utility>
+
+#include "crossnav/policy/steering.h"
+
+namespace crossnav::agent {
+
+void BeginScan(StepState& now, std::deque<Action> turns) {
+  EndScan(now);
+  if (turns.empty()) return;
+  Activity& activity = now.goal.full.activity;
+  Scan scan;
+  scan.turns = std::move(turns);
+  std::swap(scan.suspended, PursuitOf(activity));
+  activity = std::move(scan);
+}
+
+void EndScan(StepState& now) {
+  Activity& activity = now.goal.full.activity;
+  if (!IsScanning(activity)) return;
+  Pursuit suspended;
+  std::swap(suspended, PursuitOf(activity));
+  activity = std::move(suspended);
+}
+
+void LookAround(StepState& now) {
+  const auto& action = now.config.action;
+  std::deque<Action> turns;
+  const double down_rad = DegToRad(now.config.policy.motion.travel_pitch_deg);
+  if (const auto pitch = policy::PitchTowards(now.agent, down_rad, action)) turns.push_back(*pitch);
+  const auto count = static_cast<std::size_t>(std::lround(360.0 / action.turn_deg));
+  turns.insert(turns.end(), count, Action::kTurnLeft);
+  BeginScan(now, std::move(turns));
+  now.goal.p_looked_around_world = now.agent.p_world;
+  now.world.full.looked_around_m.push_back(now.agent.p_world.z());
+}
+
+std::deque<Action> GlanceFrom(const Situation& now, const geometry::VoxelKey& start) {
+  const auto heading_rad =
+      policy::GlanceHeading(now.world.ground, start, now.eye, DegToRad(now.config.sensor.hfov_deg),
+                            now.world.full.looked_along, now.config.policy.explore);
+  if (!heading_rad) return {};
+  const double off_rad = WrapAngle(*heading_rad - now.eye.yaw_rad);
+  const auto count = std::lround(std::abs(off_rad) / DegToRad(now.config.action.turn_deg));
+  return std::deque<Action>(static_cast<std::size_t>(count),
+                            off_rad > 0 ? Action::kTurnLeft : Action::kTurnRight);
+}
+
+}  // namespace crossnav::agent

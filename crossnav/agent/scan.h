@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Scans: turns on the spot that show unseen ground.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "crossnav/agent/decision.h"
+
+namespace crossnav::agent {
+
+/// Interrupts the pursuit by `turns`. Replaces a scan in progress; nothing happens without turns.
+void BeginScan(StepState& now, std::deque<Action> turns);
+/// Ends the scan, if there is one; the suspended pursuit goes on.
+void EndScan(StepState& now);
+
+/// Begins a full turn with the camera down at the ground.
+void LookAround(StepState& now);
+
+/// Turns towards much unseen ground in sight that was not looked at from `start`. Empty if there is
+/// none.
+std::deque<Action> GlanceFrom(const Situation& now, const geometry::VoxelKey& start);
+
+}  // namespace crossnav::agent
