@@ -107,6 +107,8 @@ struct EpisodesOptions {
   double cross_floor = 0.3;
   std::uint64_t seed = 1;
   bool repeats = false;
+  std::string certify;  ///< coverage or detection; empty = as configured
+  std::string track;    ///< origin of the buildings; empty = not said
 };
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
                               Console& console);
@@ -164,6 +166,8 @@ Result<void> Merge(const MergeOptions& options, const CommonOptions& common, Con
 
 struct SuiteOptions {
   std::string name, out = "out/suites";
+  std::string homes = "/usr/share/sweethome3d/sweethome3d.jar";  ///< of the track drawn
+  std::string buildings;  ///< folder of imported scenes, for the track bim
   std::string furniture;  ///< as in WorldOptions, for suites that use a pack
   std::string variant = "full", keep_replays = "none";
   int jobs = 1;
@@ -185,6 +189,12 @@ struct ReportOptions {
   bool page = false;     ///< OUT/report.html, too, by the Python package
 };
 Result<void> Report(const ReportOptions& options, const CommonOptions& common, Console& console);
+
+struct GapsOptions {
+  std::vector<std::string> runs;
+};
+/// What keeps SPL below 100, from runs of full, known-map and known-objects.
+Result<void> ShowGaps(const GapsOptions& options, const CommonOptions& common, Console& console);
 
 struct MetricsOptions {
   std::vector<std::string> files;

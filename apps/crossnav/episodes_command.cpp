@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "crossnav/bench/episode_generator.h"
@@ -16,6 +17,7 @@ using Json = nlohmann::ordered_json;
 
 struct Tally {
   int episodes = 0, cross_floor = 0;
+  int goal_objects = 0, not_confirmable = 0;
   std::vector<int> first_stage;
 };
 
@@ -27,6 +29,11 @@ Tally Count(const bench::EpisodeFile& file) {
     if (!episode.cross_floor_required) continue;
     ++tally.cross_floor;
     ++tally.first_stage[static_cast<std::size_t>(episode.first_transition_stage - 1)];
+  }
+  for (const auto& [key, goals] : file.goals_by_category) {
+    tally.goal_objects += static_cast<int>(goals.size());
+    tally.not_confirmable += static_cast<int>(std::count_if(
+        goals.begin(), goals.end(), [](const auto& goal) { return !goal.is_confirmable; }));
   }
   return tally;
 }
@@ -40,16 +47,18 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   if (!config) return tl::unexpected(config.error());
   if (options.goals > 0) config->dataset.goals = options.goals;
   if (options.repeats) config->dataset.allow_repeats = true;
+  if (!options.certify.empty()) config->dataset.certificate = options.certify;
   SceneCache cache(options.scenes, *config);
   const auto scenes = cache.GetAll(console);
   if (!scenes) return tl::unexpected(scenes.error());
   CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(options.count));
-  const auto file = bench::GenerateEpisodes(
+  auto file = bench::GenerateEpisodes(
       *scenes, *config, {options.count, options.cross_floor, options.seed, {}, [&](int done) {
                            progress.Done(static_cast<std::size_t>(done));
                          }});
   if (!file) return tl::unexpected(file.error());
   console.EndProgress();
+  for (bench::Episode& episode : file->episodes) episode.track = options.track;
   if (auto ok = bench::WriteEpisodes(options.out, *file); !ok) return ok;
   const Tally tally = Count(*file);
   std::string stages;
@@ -58,22 +67,35 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   console.Print(
       fmt::format("{}: {} episodes in {} scenes, {} require a floor change (first at stage {})\n",
                   options.out, tally.episodes, scenes->size(), tally.cross_floor, stages));
+  if (file->certificate_edition > 1) {
+    console.Print(fmt::format("  {} of {} goal objects are confirmed from nowhere\n",
+                              tally.not_confirmable, tally.goal_objects));
+  }
   console.Document(Json({{"file", options.out},
                          {"episodes", tally.episodes},
                          {"scenes", scenes->size()},
                          {"cross_floor_required", tally.cross_floor},
-                         {"first_transition_stage", tally.first_stage}}));
+                         {"first_transition_stage", tally.first_stage},
+                         {"certificate_edition", file->certificate_edition},
+                         {"goal_objects", tally.goal_objects},
+                         {"not_confirmable", tally.not_confirmable}}));
   return {};
 }
 
 Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& common,
                            Console& console) {
-  const auto config = LoadConfig(common);
+  auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto file = bench::ReadEpisodes(options.file);
   if (!file) return tl::unexpected(file.error());
+  config->dataset.certificate = file->certificate_edition > 1 ? "detection" : "coverage";
   SceneCache cache(options.scenes, *config);
   Json failures = Json::array();
+  const auto fail = [&](const std::string& id, const std::string& problem) {
+    console.Print(id + ": " + problem + "\n");
+    failures.push_back({{"episode_id", id}, {"problem", problem}});
+  };
+  std::string scene_id;
   CountProgress progress(console, "episodes checked", file->episodes.size());
   std::size_t checked = 0;
   for (const bench::Episode& episode : bench::GroupedByScene(file->episodes)) {
@@ -84,10 +106,13 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
     } else {
       problems = {context.error().Message()};
     }
-    for (const std::string& problem : problems) {
-      console.Print(episode.episode_id + ": " + problem + "\n");
-      failures.push_back({{"episode_id", episode.episode_id}, {"problem", problem}});
+    if (context && file->certificate_edition > 1 && scene_id != episode.scene_id) {
+      for (const std::string& problem :
+           bench::CheckMarks(**context, episode.scene_id, file->goals_by_category))
+        fail(bench::SceneName(episode.scene_id), problem);
     }
+    scene_id = episode.scene_id;
+    for (const std::string& problem : problems) fail(episode.episode_id, problem);
     progress.Done(++checked);
   }
   console.EndProgress();

@@ -9,6 +9,7 @@
 #include "eval_prepare.h"
 #include "eval_progress.h"
 #include "kept_replays.h"
+#include "memory_files.h"
 #include "perception_source.h"
 #include "progress.h"
 
@@ -26,6 +27,7 @@ struct RunSettings {
   const bench::RunConfig& config;
   const KeptReplays& replays;
   const PerceptionSource& perception;
+  const KnownMemories& known;
 };
 
 /// Plays one episode in a worker.
@@ -35,6 +37,9 @@ Result<bench::EpisodeRecord> Play(SceneCache& cache, const bench::Episode& episo
   if (!context) return tl::unexpected(context.error());
   std::vector<bench::RunObserver*> observers;
   if (progress != nullptr) observers.push_back(progress);
+  const auto told = run.known.For(**context);
+  if (!told) return tl::unexpected(told.error());
+  if (*told) observers.push_back(told->get());
   auto replay = run.replays.Open(**context, episode);
   if (!replay) return tl::unexpected(replay.error());
   if (*replay) observers.push_back(replay->get());
@@ -126,8 +131,10 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
     console.Log(fmt::format("{}: {} episodes are there, {} remain", path.string(), finished.size(),
                             remaining.size()));
   }
-  if (auto ok = PlayAll(std::move(remaining), options.jobs, cache, {*config, replays, *perception},
-                        *writer, console);
+  const KnownMemories known(std::filesystem::path(options.out) / "known", options.variant, *config,
+                            perception->EncoderName());
+  if (auto ok = PlayAll(std::move(remaining), options.jobs, cache,
+                        {*config, replays, *perception, known}, *writer, console);
       !ok) {
     return ok;
   }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "memory_files.h"
 
+#include <unistd.h>
+
+#include "crossnav/bench/config_file.h"
+#include "crossnav/bench/result_records.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -27,6 +31,32 @@ Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::fil
   info.flights = agent.flights();
   info.seen_stairs = agent.seen_stairs();
   return store::SaveMemory(path, agent.map(), agent.memory(), info);
+}
+
+Result<std::unique_ptr<MemoryLoader>> KnownMemories::For(const bench::SceneContext& context) const {
+  namespace fs = std::filesystem;
+  if (!IsOn()) return std::unique_ptr<MemoryLoader>();
+  const fs::path path =
+      folder_ / (context.scene().id + "-" + bench::ConfigHash(config_).substr(0, 8) + "-" +
+                 bench::HexHash(context.scene().mesh_hash).substr(0, 8) + ".map");
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    auto survey = bench::SurveyScene(context, config_, known_);
+    if (!survey) return tl::unexpected(survey.error());
+    fs::create_directories(folder_, error);
+    fs::path part = path;
+    part += "." + std::to_string(getpid());  // of this worker; another may make the same one
+    store::SaveInfo info;
+    info.encoder_name = encoder_;
+    info.frame = "ground truth of " + context.scene().id;
+    info.flights = std::move(survey->flights);
+    info.seen_stairs = std::move(survey->seen_stairs);
+    const auto saved = store::SaveMemory(part, survey->map, survey->memory, info);
+    if (!saved) return tl::unexpected(saved.error());
+    fs::rename(part, path, error);
+    if (error) return Fail(ErrorCode::kIo, error.message(), path.string());
+  }
+  return std::make_unique<MemoryLoader>(path, config_, encoder_);
 }
 
 }  // namespace crossnav::app

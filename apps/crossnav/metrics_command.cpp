@@ -10,7 +10,7 @@ Result<void> ShowMetrics(const MetricsOptions& options, const CommonOptions& /*c
                          Console& console) {
   const std::vector<std::filesystem::path> paths(options.files.begin(), options.files.end());
   if (auto ok = bench::CheckNoneTwice(paths); !ok) return ok;
-  const auto results = bench::MergeResults(paths, /*require_all=*/false);
+  const auto results = bench::MergeTracks(paths);
   if (!results) return tl::unexpected(results.error());
   if (results->has_torn_line)
     console.Log(options.files[0] + ": the last line is cut off, left out");

@@ -34,22 +34,6 @@ class TraceLog : public bench::RunObserver {
   std::string text_;
 };
 
-/// Gives the agent a saved memory before its first goal: the lifelong case.
-class MemoryLoader : public bench::RunObserver {
- public:
-  MemoryLoader(std::filesystem::path path, const bench::RunConfig& config, std::string encoder)
-      : path_(std::move(path)), config_(config), encoder_(std::move(encoder)) {}
-
-  Result<void> OnStart(agent::Agent& state) override {
-    return RestoreMemory(path_, config_, encoder_, state);
-  }
-
- private:
-  std::filesystem::path path_;
-  const bench::RunConfig& config_;
-  std::string encoder_;
-};
-
 struct MemorySummary {
   std::int64_t rows = 0, compacted_rows = 0, dropped_rows = 0, bytes = 0;
 };
@@ -178,6 +162,10 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   }
   MemoryLoader memory(files.memory, config, perception.EncoderName());
   if (!files.memory.empty()) observers.push_back(&memory);
+  const KnownMemories known(files.folder, header.variant, config, perception.EncoderName());
+  const auto told = known.For(context);
+  if (!told) return tl::unexpected(told.error());
+  if (*told) observers.push_back(told->get());
   MapLog map(files.map, context.scene().id, perception.EncoderName());
   observers.push_back(&map);
   auto record = bench::RunEpisode(context, episode, config, observers, perception.Maker());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -41,12 +42,22 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs,
   return pages;
 }
 
-/// Every run against the first.
+std::string TracksOf(const bench::ReportRun& run) {
+  std::string tracks;
+  for (const auto& [name, episodes] : bench::GroupByTrack(run.episodes)) tracks += name + " ";
+  return tracks;
+}
+
+/// Every run against the first of its track.
 Result<std::vector<bench::Comparison>> CompareAll(const std::vector<bench::ReportRun>& runs,
                                                   bool is_forced) {
   std::vector<bench::Comparison> comparisons;
   for (std::size_t i = 1; i < runs.size(); ++i) {
-    auto comparison = bench::CompareRuns(runs[0], runs[i], {}, is_forced);
+    const auto first = std::find_if(runs.begin(), runs.end(), [&](const bench::ReportRun& run) {
+      return TracksOf(run) == TracksOf(runs[i]);
+    });
+    if (&*first == &runs[i]) continue;
+    auto comparison = bench::CompareRuns(*first, runs[i], {}, is_forced);
     if (!comparison) return tl::unexpected(comparison.error());
     comparisons.push_back(std::move(*comparison));
   }

@@ -3,6 +3,7 @@
 
 #include "crossnav/bench/episode_generator.h"
 #include "crossnav/bench/output_path.h"
+#include "crossnav/bench/survey.h"
 #include "crossnav/world/house/embedded_house.h"
 #include "play.h"
 
@@ -32,6 +33,10 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   if (!file) return tl::unexpected(file.error());
   auto episode = FindEpisode(*file, options.episode, options.episodes);
   if (!episode) return tl::unexpected(episode.error());
+  if (!options.memory.empty() && bench::KnownOf(options.variant) != bench::Known::kNothing) {
+    return Fail(ErrorCode::kInvalid, options.variant + " starts from a memory of its own",
+                "--memory");
+  }
   PlayFiles files;
   files.folder = options.out.empty() ? std::filesystem::path("out/run") / episode->episode_id
                                      : std::filesystem::path(options.out);

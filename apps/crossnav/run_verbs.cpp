@@ -6,6 +6,9 @@ namespace {
 
 constexpr const char* kPageHelp = "Also report.html, one page with plots, by the Python package";
 
+constexpr const char* kVariantHelp =
+    "full, no-history-poi, planar or paper; told by ground truth: known-map, known-objects";
+
 void AddPerception(CLI::App* verb, std::string& perception) {
   verb->add_option("--perception", perception,
                    "oracle (ground truth), or networks; default: eval.perception")
@@ -15,7 +18,7 @@ void AddPerception(CLI::App* verb, std::string& perception) {
 /// --variant, --success, --budget-scope and --perception.
 template <class T>
 void AddProtocol(CLI::App* verb, T& options) {
-  verb->add_option("--variant", options.variant, "full, no-history-poi, planar or paper");
+  verb->add_option("--variant", options.variant, kVariantHelp);
   verb->add_option("--success", options.success, "What a STOP must be near: box or viewpoint");
   verb->add_option("--budget-scope", options.budget_scope, "Action budget per episode or goal");
   AddPerception(verb, options.perception);
@@ -113,15 +116,22 @@ void AddSuites(CLI::App& app, Options& o) {
   for (CLI::App* verb : {make, run, report}) {
     verb->add_option("NAME", o.suite.name,
                      "crossnav-mfmon-1, crossnav-mfmon-1-mini or crossnav-mfmon-1-val, with -pack "
-                     "behind it for furniture of a pack")
+                     "behind it for furniture of a pack; crossnav-mfmon-2, or one of its tracks: "
+                     "crossnav-mfmon-2/generated, /drawn or /bim")
         ->required();
     verb->add_option("--out", o.suite.out, "Folder of suites; default: out/suites");
+    verb->add_option("--homes", o.suite.homes,
+                     "Archive of Sweet Home 3D, for the track drawn; default: the installed one")
+        ->type_name("JAR");
+    verb->add_option("--buildings", o.suite.buildings,
+                     "Folder of imported scenes, for the track bim")
+        ->type_name("DIR");
     verb->add_option("--furniture", o.suite.furniture, "Furniture pack of a -pack suite")
         ->type_name("DIR");
     verb->add_option("--jobs", o.suite.jobs, "Processes")->check(CLI::Range(1, 1024));
   }
   for (CLI::App* verb : {run, report}) {
-    verb->add_option("--variant", o.suite.variant, "full, no-history-poi, planar or paper");
+    verb->add_option("--variant", o.suite.variant, kVariantHelp);
     verb->add_option("--keep-replays", o.suite.keep_replays, "none or failures")
         ->check(CLI::IsMember({"none", "failures"}));
   }
@@ -144,6 +154,14 @@ void AddResults(CLI::App& app, Options& o) {
                               "crossnav metrics runs/full/results.jsonl --json",
                               [&o](Console& c) { return ShowMetrics(o.metrics, o.common, c); });
   metrics->add_option("RESULTS", o.metrics.files, "Result files (.jsonl)")->required();
+
+  CLI::App* gaps =
+      AddVerb(app, o, "gaps", "What keeps SPL below 100: geometry, search order, detours, approach",
+              "crossnav gaps runs/full runs/known-map runs/known-objects",
+              [&o](Console& c) { return ShowGaps(o.gaps, o.common, c); });
+  gaps->add_option("RUN", o.gaps.runs,
+                   "Run folders or result files of different variants on the same episodes")
+      ->required();
 
   CLI::App* replay = app.add_subcommand("replay", "Work with replays");
   replay->require_subcommand(1);

@@ -129,6 +129,15 @@ void AddEpisodes(CLI::App& app, Options& o) {
       ->add_option("--cross-floor", o.episodes.cross_floor, "Share that requires a floor change")
       ->check(CLI::Range(0.0, 1.0));
   generate->add_option("--seed", o.episodes.seed, "Seed");
+  generate
+      ->add_option("--certify", o.episodes.certify,
+                   "By what an instance certifies a stage: coverage (a viewpoint), or detection (a "
+                   "viewpoint from where the agent would confirm it); default: dataset.certificate")
+      ->check(CLI::IsMember({"coverage", "detection"}));
+  generate->add_option(
+      "--track", o.episodes.track,
+      "Origin of the buildings, by which results are given: generated, drawn, bim, "
+      "scan or a word of yours");
   generate->add_flag("--repeats", o.episodes.repeats, "Allow a category twice in an episode");
   generate->add_option("--out", o.episodes.out, "Episode file (.json or .json.gz)")->required();
   CLI::App* check = AddVerb(*episodes, o, "check", "Proves every certificate again",

@@ -33,7 +33,10 @@ Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) 
   if (entries_.size() >= keep_) entries_.erase(entries_.begin());
   auto context = bench::SceneContext::Load(scenes_dir_, scene_id, config_);
   if (!context) return tl::unexpected(context.error());
-  if (goals_ != nullptr) (*context)->UseGoals(*goals_, scene_id);
+  if (file_ != nullptr && file_->format == bench::EpisodeFormat::kObjectNav)
+    (*context)->UseGoals(file_->goals_by_category, scene_id);
+  if (file_ != nullptr && file_->certificate_edition > 1)
+    (*context)->UseMarks(file_->goals_by_category, scene_id);
   entries_.push_back({scene_id, std::move(*context)});
   return entries_.back().context.get();
 }

@@ -29,11 +29,9 @@ class SceneCache {
   SceneCache(std::filesystem::path scenes_dir, const bench::RunConfig& config)
       : scenes_dir_(std::move(scenes_dir)), config_(config) {}
 
-  /// Scenes take the viewpoints of an ObjectNav file; those of other files are found anew. `file`
-  /// must outlive the cache.
-  void UseGoalsOf(const bench::EpisodeFile& file) {
-    goals_ = file.format == bench::EpisodeFormat::kObjectNav ? &file.goals_by_category : nullptr;
-  }
+  /// Scenes take the viewpoints of an ObjectNav file; those of other files are found anew, but the
+  /// marks of a file of edition 2 count. `file` must outlive the cache.
+  void UseGoalsOf(const bench::EpisodeFile& file) { file_ = &file; }
 
   Result<const bench::SceneContext*> Get(const std::string& scene_id);
 
@@ -49,7 +47,7 @@ class SceneCache {
   const bench::RunConfig& config_;
   std::size_t keep_ = 2;
   std::vector<Entry> entries_;  // oldest first
-  const std::map<std::string, std::vector<bench::GoalObject>>* goals_ = nullptr;
+  const bench::EpisodeFile* file_ = nullptr;
 };
 
 /// Header of a run over `file`; `scenes` is filled in by the caller.

@@ -9,17 +9,15 @@
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/suite.h"
 #include "crossnav/bench/worker_pool.h"
-#include "crossnav/world/house/house_generator.h"
 #include "eval_progress.h"
 #include "session.h"
+#include "suite_buildings.h"
 
 namespace crossnav::app {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr std::uint64_t kSeeds = 500;  // chosen: that a suite may try; most give a house
 
 struct SuitePlace {
   fs::path folder;
@@ -29,62 +27,29 @@ struct SuitePlace {
   fs::path runs() const { return folder / "runs"; }
 };
 
-SuitePlace PlaceOf(const SuiteOptions& options) {
-  return {fs::path(options.out) / options.name};
+SuitePlace PlaceOf(const bench::SuiteDefinition& suite, const SuiteOptions& options) {
+  return {fs::path(options.out) / suite.name};
 }
 
-/// The houses of `seeds`, in processes; `passed` gets the mesh hash of each house that passed.
-Result<void> MakeHouses(const bench::SuiteDefinition& suite, const SuitePlace& place,
-                        const std::vector<std::uint64_t>& seeds, const world::FurniturePack* pack,
-                        int jobs, std::map<std::string, std::string>& passed, Console& console) {
-  int done = 0;
-  bench::PoolTask task;
-  task.count = static_cast<int>(seeds.size());
-  task.jobs = jobs;
-  task.work = [&](int item) -> Result<std::string> {
-    const auto params = suite.HouseOf(seeds[static_cast<std::size_t>(item)]);
-    const auto house = world::GenerateHouse(params, place.scenes(), pack);
-    if (!house && house.error().code == ErrorCode::kInvalid) return std::string();  // next seed
-    if (!house) return tl::unexpected(house.error());
-    const auto scene = sim::LoadScene(house->folder);
-    if (!scene) return tl::unexpected(scene.error());
-    return house->scene_id + " " + bench::HexHash(scene->mesh_hash);
-  };
-  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
-    if (answer.end != bench::ItemEnd::kDone) {
-      return Fail(answer.error.code, answer.error.Message(),
-                  fmt::format("house of seed {}", seeds[static_cast<std::size_t>(item)]));
-    }
-    console.Progress(fmt::format("house {} of {}", ++done, seeds.size()));
-    const std::size_t blank = answer.text.find(' ');
-    if (blank != std::string::npos) {
-      passed[answer.text.substr(0, blank)] = answer.text.substr(blank + 1);
-    }
-    return {};
-  };
-  return bench::RunPool(task);
+/// What a suite's episodes are made with; they depend on no settings of the user's.
+bench::RunConfig ConfigOf(const bench::SuiteDefinition& suite) {
+  bench::RunConfig config;
+  if (!suite.track.empty()) config.dataset.certificate = "detection";
+  return config;
 }
 
-/// The first seeds that give a house, whatever the number of processes.
-Result<std::map<std::string, std::string>> MakeAllHouses(const bench::SuiteDefinition& suite,
-                                                         const SuitePlace& place,
-                                                         const world::FurniturePack* pack, int jobs,
-                                                         Console& console) {
-  std::map<std::string, std::string> meshes;
-  std::uint64_t next = suite.first_seed;
-  while (static_cast<int>(meshes.size()) < suite.houses) {
-    std::vector<std::uint64_t> seeds;
-    if (next >= suite.first_seed + kSeeds) {
-      return Fail(ErrorCode::kInvalid, "too few seeds give a house", suite.name);
-    }
-    for (int left = suite.houses - static_cast<int>(meshes.size()); left > 0; --left) {
-      seeds.push_back(next++);
-    }
-    if (auto ok = MakeHouses(suite, place, seeds, pack, jobs, meshes, console); !ok) {
-      return tl::unexpected(ok.error());
-    }
-  }
-  return meshes;
+bench::GeneratorOptions DrawingOf(const bench::SuiteDefinition& suite,
+                                  std::span<const bench::GeneratorScene> scenes) {
+  bench::GeneratorOptions drawing;
+  drawing.count = suite.per_building > 0 ? suite.per_building * static_cast<int>(scenes.size())
+                                         : suite.episodes;
+  drawing.seed = suite.episode_seed;
+  drawing.first_transitions = suite.first_transitions;
+  const bool has_stairs = std::any_of(scenes.begin(), scenes.end(), [](const auto& scene) {
+    return scene.context->navmesh().Floors().size() > 1;
+  });
+  drawing.cross_floor_share = has_stairs ? suite.cross_floor_share : 0;
+  return drawing;
 }
 
 /// In one worker: scenes are loaded there, and this process may go on to fork.
@@ -97,12 +62,12 @@ Result<void> MakeEpisodes(const bench::SuiteDefinition& suite, const SuitePlace&
     const auto scenes = cache.GetAll(console);
     if (!scenes) return tl::unexpected(scenes.error());
     console.EndProgress();
-    CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(suite.episodes));
-    const auto file =
-        bench::GenerateEpisodes(*scenes, config,
-                                {suite.episodes, 0, suite.episode_seed, suite.first_transitions,
-                                 [&](int done) { progress.Done(static_cast<std::size_t>(done)); }});
+    bench::GeneratorOptions drawing = DrawingOf(suite, *scenes);
+    CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(drawing.count));
+    drawing.drawn = [&](int done) { progress.Done(static_cast<std::size_t>(done)); };
+    auto file = bench::GenerateEpisodes(*scenes, config, drawing);
     if (!file) return tl::unexpected(file.error());
+    for (bench::Episode& episode : file->episodes) episode.track = suite.track;
     console.EndProgress();
     if (auto ok = bench::WriteEpisodes(place.episodes(), *file); !ok) {
       return tl::unexpected(ok.error());
@@ -127,27 +92,49 @@ Result<std::optional<world::FurniturePack>> PackOf(const bench::SuiteDefinition&
   return pack;
 }
 
-/// Houses, episodes, manifest; the manifest is written last, so that what has one is whole.
+Result<MeshHashes> MakeBuildings(const bench::SuiteDefinition& suite, const SuiteOptions& options,
+                                 const world::FurniturePack* pack, Console& console) {
+  const fs::path scenes = PlaceOf(suite, options).scenes();
+  if (suite.track == "drawn") return ImportDrawnHomes(options.homes, scenes, options.jobs, console);
+  if (suite.track != "bim") return GenerateBuildings(suite, scenes, pack, options.jobs, console);
+  if (options.buildings.empty()) {
+    return Fail(ErrorCode::kNotFound,
+                "is made of buildings that you import (crossnav scene import); name the folder of "
+                "their scenes with --buildings",
+                suite.name);
+  }
+  return CopyBuildings(options.buildings, scenes, console);
+}
+
+std::string FurnitureOf(const bench::SuiteDefinition& suite, const world::FurniturePack* pack) {
+  if (suite.track == "drawn") return "as drawn";
+  if (suite.track == "bim") return "as imported";
+  return pack != nullptr ? "pack " + pack->hash() : std::string("simple shapes");
+}
+
+/// Buildings, episodes, manifest; the manifest is written last, so that what has one is whole.
 Result<bench::SuiteManifest> MakeSuite(const bench::SuiteDefinition& suite,
                                        const SuiteOptions& options, Console& console) {
-  const SuitePlace place = PlaceOf(options);
+  const SuitePlace place = PlaceOf(suite, options);
   if (auto ok = bench::CheckOutputFile(place.manifest(), "--out"); !ok) {
     return tl::unexpected(ok.error());
   }
-  const auto pack = PackOf(suite, options, console);
-  if (!pack) return tl::unexpected(pack.error());
+  const auto opened = PackOf(suite, options, console);
+  if (!opened) return tl::unexpected(opened.error());
+  const world::FurniturePack* pack = *opened ? &**opened : nullptr;
   std::error_code ignored;
   fs::remove_all(place.scenes(), ignored);  // of a make that was interrupted
-  const auto meshes = MakeAllHouses(suite, place, *pack ? &**pack : nullptr, options.jobs, console);
+  const auto meshes = MakeBuildings(suite, options, pack, console);
   if (!meshes) return tl::unexpected(meshes.error());
-  const bench::RunConfig config;  // a suite does not depend on settings
-  if (auto ok = MakeEpisodes(suite, place, config, console); !ok) return tl::unexpected(ok.error());
+  if (auto ok = MakeEpisodes(suite, place, ConfigOf(suite), console); !ok)
+    return tl::unexpected(ok.error());
   const auto file = bench::ReadEpisodes(place.episodes());
   if (!file) return tl::unexpected(file.error());
   bench::SuiteManifest manifest;
   manifest.suite = suite.name;
-  manifest.generator_version = world::kGeneratorVersion;
-  manifest.furniture = *pack ? "pack " + (*pack)->hash() : std::string("simple shapes");
+  manifest.track = suite.track;
+  manifest.generator_version = suite.generator_version;
+  manifest.furniture = FurnitureOf(suite, pack);
   manifest.episodes = static_cast<int>(file->episodes.size());
   manifest.first_transitions = bench::FirstTransitions(*file);
   manifest.episodes_hash = bench::HexHash(file->content_hash);
@@ -161,25 +148,41 @@ Result<bench::SuiteManifest> MakeSuite(const bench::SuiteDefinition& suite,
   return manifest;
 }
 
-/// The suite as it is on disk, made where it is not.
-Result<bench::SuiteManifest> EnsureSuite(const SuiteOptions& options, Console& console) {
-  const auto suite = bench::FindSuite(options.name);
-  if (!suite) return tl::unexpected(suite.error());
-  const SuitePlace place = PlaceOf(options);
+/// The suite or track as it is on disk, made where it is not.
+Result<bench::SuiteManifest> EnsureSuite(const bench::SuiteDefinition& suite,
+                                         const SuiteOptions& options, Console& console) {
+  const SuitePlace place = PlaceOf(suite, options);
   std::error_code ignored;
-  if (!fs::exists(place.manifest(), ignored)) return MakeSuite(*suite, options, console);
+  if (!fs::exists(place.manifest(), ignored)) return MakeSuite(suite, options, console);
   auto manifest = bench::ReadManifest(place.manifest());
   if (!manifest) return manifest;
-  if (auto ok = bench::CheckManifest(*suite, *manifest, place.manifest()); !ok) {
+  if (auto ok = bench::CheckManifest(suite, *manifest, place.manifest()); !ok) {
     return tl::unexpected(ok.error());
   }
   return manifest;
 }
 
+/// The tracks that the name means and that can be had: without --buildings, not bim.
+Result<std::vector<bench::SuiteDefinition>> WantedTracks(const SuiteOptions& options,
+                                                         Console& console) {
+  auto tracks = bench::FindTracks(options.name);
+  if (!tracks || tracks->size() == 1) return tracks;
+  std::error_code ignored;
+  std::erase_if(*tracks, [&](const bench::SuiteDefinition& suite) {
+    const bool is_left_out = suite.track == "bim" && options.buildings.empty() &&
+                             !fs::exists(PlaceOf(suite, options).manifest(), ignored);
+    if (is_left_out) console.Log(suite.name + " is left out: it needs --buildings");
+    return is_left_out;
+  });
+  return tracks;
+}
+
 /// A run of the suite, finished.
-Result<void> EnsureRun(const SuiteOptions& options, const CommonOptions& common,
-                       const bench::SuiteManifest& manifest, Console& console) {
-  const SuitePlace place = PlaceOf(options);
+Result<void> EnsureRun(const bench::SuiteDefinition& suite, const SuiteOptions& options,
+                       const CommonOptions& common, Console& console) {
+  const auto manifest = EnsureSuite(suite, options, console);
+  if (!manifest) return tl::unexpected(manifest.error());
+  const SuitePlace place = PlaceOf(suite, options);
   EvalOptions eval;
   eval.scenes = place.scenes().string();
   eval.episodes = place.episodes().string();
@@ -187,57 +190,82 @@ Result<void> EnsureRun(const SuiteOptions& options, const CommonOptions& common,
   eval.variant = options.variant;
   eval.keep_replays = options.keep_replays;
   eval.jobs = options.jobs;
-  eval.episodes_hash = manifest.episodes_hash;
-  eval.mesh_hashes = manifest.meshes;
+  eval.episodes_hash = manifest->episodes_hash;
+  eval.mesh_hashes = manifest->meshes;
   return Eval(eval, common, console);
+}
+
+/// A line for people and a document.
+std::pair<std::string, Json> Describe(const SuitePlace& place,
+                                      const bench::SuiteManifest& manifest) {
+  int required = 0;
+  std::string stages;
+  for (const int count : manifest.first_transitions) {
+    required += count;
+    stages += fmt::format("{}{}", stages.empty() ? "" : "/", count);
+  }
+  Json json = {{"folder", place.folder.string()},
+               {"houses", manifest.meshes.size()},
+               {"furniture", manifest.furniture},
+               {"episodes", manifest.episodes},
+               {"first_transition_stage", manifest.first_transitions},
+               {"hash", bench::SuiteHash(manifest)}};
+  if (!manifest.track.empty()) json["track"] = manifest.track;
+  return {fmt::format("{}: {} houses ({}), {} episodes, {} require a floor change (first at stage "
+                      "{}), hash {}\n",
+                      place.folder.string(), manifest.meshes.size(), manifest.furniture,
+                      manifest.episodes, required, stages, bench::SuiteHash(manifest)),
+          std::move(json)};
 }
 
 }  // namespace
 
 Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& /*common*/,
                        Console& console) {
-  const auto manifest = EnsureSuite(options, console);
-  if (!manifest) return tl::unexpected(manifest.error());
-  const SuitePlace place = PlaceOf(options);
-  int required = 0;
-  std::string stages;
-  for (const int count : manifest->first_transitions) {
-    required += count;
-    stages += fmt::format("{}{}", stages.empty() ? "" : "/", count);
+  const auto tracks = WantedTracks(options, console);
+  if (!tracks) return tl::unexpected(tracks.error());
+  Json documents = Json::array();
+  for (const bench::SuiteDefinition& suite : *tracks) {
+    const auto manifest = EnsureSuite(suite, options, console);
+    if (!manifest) return tl::unexpected(manifest.error());
+    console.EndProgress();
+    auto [text, json] = Describe(PlaceOf(suite, options), *manifest);
+    console.Print(text);
+    documents.push_back(std::move(json));
   }
-  console.EndProgress();
-  console.Print(fmt::format(
-      "{}: {} houses ({}), {} episodes, {} require a floor change (first at stage {}), hash {}\n",
-      place.folder.string(), manifest->meshes.size(), manifest->furniture, manifest->episodes,
-      required, stages, bench::SuiteHash(*manifest)));
-  console.Document(Json({{"folder", place.folder.string()},
-                         {"houses", manifest->meshes.size()},
-                         {"furniture", manifest->furniture},
-                         {"episodes", manifest->episodes},
-                         {"first_transition_stage", manifest->first_transitions},
-                         {"hash", bench::SuiteHash(*manifest)}}));
+  console.Document(documents.size() == 1 ? documents[0] : Json({{"tracks", documents}}));
   return {};
 }
 
 Result<void> SuiteRun(const SuiteOptions& options, const CommonOptions& common, Console& console) {
-  const auto manifest = EnsureSuite(options, console);
-  if (!manifest) return tl::unexpected(manifest.error());
-  return EnsureRun(options, common, *manifest, console);
+  const auto tracks = WantedTracks(options, console);
+  if (!tracks) return tl::unexpected(tracks.error());
+  if (tracks->size() == 1) return EnsureRun(tracks->front(), options, common, console);
+  MetricsOptions metrics;
+  Console quiet(false, common.quiet, /*is_silent=*/true);
+  for (const bench::SuiteDefinition& suite : *tracks) {
+    if (auto ok = EnsureRun(suite, options, common, quiet); !ok) return ok;
+    metrics.files.push_back(
+        (PlaceOf(suite, options).runs() / options.variant / "results.jsonl").string());
+  }
+  return ShowMetrics(metrics, common, console);
 }
 
 Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& common,
                          Console& console) {
-  const auto manifest = EnsureSuite(options, console);
-  if (!manifest) return tl::unexpected(manifest.error());
+  const auto tracks = WantedTracks(options, console);
+  if (!tracks) return tl::unexpected(tracks.error());
   Console quiet(false, common.quiet, /*is_silent=*/true);  // the run's figures stand in the report
-  if (auto ok = EnsureRun(options, common, *manifest, quiet); !ok) return ok;
-  const SuitePlace place = PlaceOf(options);
   ReportOptions report;
-  report.out = (place.folder / "report").string();
-  for (const auto& run : fs::directory_iterator(place.runs())) {
-    report.runs.push_back(run.path().string());
+  report.out = (fs::path(options.out) / options.name / "report").string();
+  for (const bench::SuiteDefinition& suite : *tracks) {
+    if (auto ok = EnsureRun(suite, options, common, quiet); !ok) return ok;
+    std::vector<std::string> runs;
+    for (const auto& run : fs::directory_iterator(PlaceOf(suite, options).runs()))
+      runs.push_back(run.path().string());
+    std::sort(runs.begin(), runs.end());
+    report.runs.insert(report.runs.end(), runs.begin(), runs.end());
   }
-  std::sort(report.runs.begin(), report.runs.end());
   report.partial = options.partial;
   report.force = options.force;
   report.page = options.page;

@@ -31,6 +31,7 @@ struct Options {
   MergeOptions merge;
   SuiteOptions suite;
   ReportOptions report;
+  GapsOptions gaps;
   MetricsOptions metrics;
   ReplayOptions replay;
   MapOptions map;

@@ -9,12 +9,12 @@
 namespace crossnav::bench {
 namespace {
 
-/// Floors on which the goal can be observed from a viewpoint that the start can reach.
+/// Floors on which the goal can be certified by a place that the start can reach.
 std::vector<int> ReachableFloorsOf(const SceneContext& context, const std::string& goal,
                                    const Vector3d& p_start_world) {
   std::vector<int> floors;
-  for (const auto& [floor, viewpoints] : context.PlacesOf(goal).on_floor) {
-    if (context.navmesh().Geodesic(p_start_world, viewpoints)) floors.push_back(floor);
+  for (const auto& [floor, places] : context.PlacesOf(goal).on_floor) {
+    if (context.navmesh().Geodesic(p_start_world, places)) floors.push_back(floor);
   }
   return floors;
 }
@@ -85,6 +85,27 @@ void Certify(const SceneContext& context, Episode& episode) {
   }
   episode.cross_floor_required = episode.first_transition_stage > 0;
   episode.has_certificate = true;
+}
+
+std::vector<std::string> CheckMarks(
+    const SceneContext& context, const std::string& scene_id,
+    const std::map<std::string, std::vector<GoalObject>>& goals_by_category) {
+  const std::string prefix = std::filesystem::path(scene_id).filename().string() + "_";
+  std::vector<std::string> problems;
+  for (const auto& [key, goals] : goals_by_category) {
+    if (key.rfind(prefix, 0) != 0) continue;
+    const auto& targets = context.TargetsOf(key.substr(prefix.size()));
+    for (const GoalObject& goal : goals) {
+      const auto target = std::find_if(targets.begin(), targets.end(), [&](const Target& t) {
+        return t.instance == goal.object_id;
+      });
+      if (target == targets.end() || target->is_confirmable == goal.is_confirmable) continue;
+      problems.push_back("instance " + std::to_string(goal.object_id) + " (" + goal.category +
+                         ") is " + (goal.is_confirmable ? "not " : "") +
+                         "confirmed by the detection rule");
+    }
+  }
+  return problems;
 }
 
 std::vector<std::string> CheckCertificate(const SceneContext& context, const Episode& episode,

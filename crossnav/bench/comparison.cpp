@@ -46,7 +46,8 @@ std::map<std::string, std::string> SettingsOf(const RunHeader& header) {
   std::map<std::string, std::string> defaults;
   Flatten(Json::parse(DumpJson(RunConfig())), "", defaults);
   for (const auto& [key, value] : defaults) {
-    if (key.starts_with("noise.")) flat.emplace(key, value);  // records from before there was any
+    const bool is_newer = key.starts_with("noise.") || key == "dataset.certificate";
+    if (is_newer) flat.emplace(key, value);  // records from before there was any
   }
   flat.erase("eval.seed");        // header.seed
   flat.erase("eval.perception");  // header.perception

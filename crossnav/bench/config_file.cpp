@@ -257,10 +257,16 @@ Result<void> ApplyVariant(std::string_view variant, RunConfig& config) {
     config.agent.policy.profile = "paper";
     return {};
   }
-  const std::vector<std::string> variants = {"full", "no-history-poi", "planar", "paper"};
+  if (variant == "known-map") return {};  // what is known comes with the memory (survey.h)
+  if (variant == "known-objects") {
+    config.agent.query.top_k = 1000;  // every instance, not the paper's four
+    return {};
+  }
+  const std::vector<std::string> variants = {"full",  "no-history-poi", "planar",
+                                             "paper", "known-map",      "known-objects"};
   return Fail(ErrorCode::kInvalid,
               "unknown variant \"" + std::string(variant) +
-                  "\"; there are full, no-history-poi, planar and paper" +
+                  "\"; there are full, no-history-poi, planar, paper, known-map and known-objects" +
                   DidYouMean(variant, variants),
               "--variant");
 }

@@ -144,8 +144,8 @@ void AddGoalObjects(const GeneratorScene& scene, EpisodeFile& file) {
     std::vector<GoalObject> goals;
     for (const Target& target : scene.context->TargetsOf(category)) {
       if (target.viewpoints_world.empty()) continue;
-      goals.push_back(
-          {target.instance, target.name, category, target.box.Center(), target.viewpoints_world});
+      goals.push_back({target.instance, target.name, category, target.box.Center(),
+                       target.viewpoints_world, target.is_confirmable});
     }
     if (!goals.empty()) file.goals_by_category[prefix + category] = std::move(goals);
   }
@@ -189,6 +189,7 @@ Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
     file.episodes.push_back(std::move(*episode));
     options.drawn(i + 1);
   }
+  if (config.dataset.certificate == "detection") file.certificate_edition = 2;
   for (const GeneratorScene& scene : scenes) AddGoalObjects(scene, file);
   return file;
 }

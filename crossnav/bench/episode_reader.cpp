@@ -7,6 +7,7 @@
 #include "crossnav/bench/episodes.h"
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/habitat_frame.h"
+#include "crossnav/bench/not_a_number.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/rng.h"
 
@@ -197,6 +198,8 @@ Result<Episode> ReadEpisode(dom::object object, EpisodeFormat format, const std:
   auto scene_id = GetString(object, "scene_id", where);
   if (!scene_id) return tl::unexpected(scene_id.error());
   episode.scene_id = std::move(*scene_id);
+  std::string_view track;
+  if (object["track"].get(track) == simdjson::SUCCESS) episode.track = track;
   auto start = GetStart(object, where);
   if (!start) return tl::unexpected(start.error());
   episode.start = *start;
@@ -214,6 +217,9 @@ Result<GoalObject> ReadGoalObject(dom::object object, const std::string& where) 
   std::string_view text;
   if (object["object_name"].get(text) == simdjson::SUCCESS) goal.name = text;
   if (object["object_category"].get(text) == simdjson::SUCCESS) goal.category = text;
+  bool is_confirmable = true;
+  if (object["confirmable"].get(is_confirmable) == simdjson::SUCCESS)
+    goal.is_confirmable = is_confirmable;
   dom::array viewpoints;
   if (object["view_points"].get(viewpoints) != simdjson::SUCCESS) return goal;
   for (const dom::element viewpoint : viewpoints) {
@@ -267,22 +273,22 @@ Result<void> ReadGoalsByCategory(dom::object root, const std::string& where, Epi
   return {};
 }
 
-/// JSON has no NaN, but Python writes it: names the key it stands at. Empty if there is none.
-std::string DescribeNotANumber(const std::string& text) {
-  std::string last_string, key;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"') {
-      const std::size_t begin = ++i;
-      while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
-      last_string = text.substr(begin, i - begin);
-    } else if (text[i] == ':') {
-      key = last_string;
-    } else if (text.compare(i, 3, "NaN") == 0 || text.compare(i, 8, "Infinity") == 0) {
-      return "key \"" + key + "\" holds " + (text[i] == 'N' ? "NaN" : "Infinity") + " (byte " +
-             std::to_string(i) + "), which is no number";
-    }
+/// Which certificates the file holds; all files of one read hold the same.
+Result<void> ReadEdition(dom::object root, const std::string& where, EpisodeFile& file) {
+  std::int64_t edition = 1;
+  if (const auto error = root["certificate_edition"].get(edition);
+      error != simdjson::SUCCESS && error != simdjson::NO_SUCH_FIELD) {
+    return Malformed("key \"certificate_edition\" is no whole number", where);
   }
-  return "";
+  if (edition < 1 || edition > 2) {
+    return Malformed("key \"certificate_edition\" is " + std::to_string(edition) +
+                         "; this version knows 1 and 2",
+                     where);
+  }
+  if (!file.episodes.empty() && file.certificate_edition != edition)
+    return Malformed("mixes two editions of certificates", where);
+  file.certificate_edition = static_cast<int>(edition);
+  return {};
 }
 
 /// Adds one file's content to `file`.
@@ -301,6 +307,7 @@ Result<void> ReadText(const std::string& text, const std::string& where, Episode
       root["episodes"].get(episodes) != simdjson::SUCCESS) {
     return Malformed("key \"episodes\" is missing or no list", where);
   }
+  if (auto ok = ReadEdition(root, where, file); !ok) return ok;
   for (const dom::element element : episodes) {
     const std::string at = where + ": episodes[" + std::to_string(file.episodes.size()) + "]";
     dom::object object;

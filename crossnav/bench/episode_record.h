@@ -52,6 +52,22 @@ struct StageCause {
   friend bool operator==(const StageCause&, const StageCause&) = default;
 };
 
+/// How far a successful stage walked, in parts (gaps.h). Place of reach: since then the agent was
+/// within the success radius of the instance that it stopped at.
+struct StageReach {
+  double walked_m = 0;          ///< until the place of reach
+  double reach_shortest_m = 0;  ///< shortest path from the stage's start to the place of reach
+  double end_shortest_m = 0;    ///< and to the place of STOP
+  friend bool operator==(const StageReach&, const StageReach&) = default;
+};
+
+/// What the actions of a stage were.
+struct StageWalk {
+  int forward = 0, turn = 0, look = 0;
+  std::optional<StageReach> reach;  ///< of a successful stage
+  friend bool operator==(const StageWalk&, const StageWalk&) = default;
+};
+
 /// Beside the outcome, never instead of it.
 struct StageExtra {
   bool passed_target = false;  ///< a true instance was in view within the success radius, unclaimed
@@ -61,6 +77,7 @@ struct StageExtra {
   std::string stairs;
   std::optional<double> distance_to_goal_m;  ///< geodesic, from the end to the nearest viewpoint
   std::optional<StageCause> cause;           ///< of failed stages; old records lack it
+  std::optional<StageWalk> walk;             ///< old records lack it
 };
 
 struct StageRecord {
@@ -90,6 +107,7 @@ struct StageTiming {
 struct EpisodeRecord {
   std::string episode_id;
   std::string scene_id;
+  std::string track;  ///< origin of the building (suite.h), or empty
   bool cross_floor_required = false;
   int first_transition_stage = 0;  ///< from 1; 0 = none required
   std::vector<std::string> goals;

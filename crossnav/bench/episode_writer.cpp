@@ -35,18 +35,20 @@ Json EpisodeJson(const Episode& episode) {
   for (const EpisodeFloor& floor : episode.floors) {
     floors.push_back({{"id", floor.id}, {"height_m", Rounded(floor.height_m)}});
   }
-  return {{"episode_id", episode.episode_id},
-          {"scene_id", episode.scene_id},
-          {"scene_dataset_config", "scene_dataset_config.json"},
-          {"start_position", PositionJson(episode.start.p_world)},
-          {"start_rotation", RotationJson(episode.start.yaw_rad)},
-          {"object_category", episode.goals.front()},
-          {"goals", episode.goals},
-          {"floors", std::move(floors)},
-          {"start_floor", episode.start_floor},
-          {"cross_floor_required", episode.cross_floor_required},
-          {"first_transition_stage", episode.first_transition_stage},
-          {"certificate", episode.certificate}};
+  Json json = {{"episode_id", episode.episode_id},
+               {"scene_id", episode.scene_id},
+               {"scene_dataset_config", "scene_dataset_config.json"},
+               {"start_position", PositionJson(episode.start.p_world)},
+               {"start_rotation", RotationJson(episode.start.yaw_rad)},
+               {"object_category", episode.goals.front()},
+               {"goals", episode.goals},
+               {"floors", std::move(floors)},
+               {"start_floor", episode.start_floor},
+               {"cross_floor_required", episode.cross_floor_required},
+               {"first_transition_stage", episode.first_transition_stage},
+               {"certificate", episode.certificate}};
+  if (!episode.track.empty()) json["track"] = episode.track;
+  return json;
 }
 
 /// Yaw at which an agent at `from` faces `to`.
@@ -61,11 +63,13 @@ Json GoalJson(const GoalObject& goal) {
                            {{"position", PositionJson(p_world)},
                             {"rotation", RotationJson(YawTowards(p_world, goal.p_world))}}}});
   }
-  return {{"position", PositionJson(goal.p_world)},
-          {"object_id", goal.object_id},
-          {"object_name", goal.name},
-          {"object_category", goal.category},
-          {"view_points", std::move(viewpoints)}};
+  Json json = {{"position", PositionJson(goal.p_world)},
+               {"object_id", goal.object_id},
+               {"object_name", goal.name},
+               {"object_category", goal.category},
+               {"view_points", std::move(viewpoints)}};
+  if (!goal.is_confirmable) json["confirmable"] = false;
+  return json;
 }
 
 }  // namespace
@@ -92,10 +96,11 @@ Result<void> WriteEpisodes(const std::filesystem::path& path, const EpisodeFile&
   for (const Episode& episode : file.episodes) episodes.push_back(EpisodeJson(episode));
   Json ids = Json::object();
   for (std::size_t i = 0; i < kCategories.size(); ++i) ids[std::string(kCategories[i])] = i;
-  const Json json = {{"goals_by_category", std::move(goals_by_category)},
-                     {"episodes", std::move(episodes)},
-                     {"category_to_task_category_id", ids},
-                     {"category_to_scene_annotation_category_id", ids}};
+  Json json = {{"goals_by_category", std::move(goals_by_category)},
+               {"episodes", std::move(episodes)},
+               {"category_to_task_category_id", ids},
+               {"category_to_scene_annotation_category_id", ids}};
+  if (file.certificate_edition > 1) json["certificate_edition"] = file.certificate_edition;
   return WriteTextFile(path, json.dump() + "\n");
 }
 

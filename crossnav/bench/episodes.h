@@ -23,6 +23,7 @@ struct EpisodeFloor {
 struct Episode {
   std::string episode_id;  ///< from content, never from load order
   std::string scene_id;    ///< as in the file; sim::FindScene resolves it
+  std::string track;       ///< origin of the building: generated, drawn, bim, scan, ...; or empty
   AgentPose start;
   std::vector<std::string> goals;
 
@@ -43,6 +44,7 @@ struct GoalObject {
   std::string name, category;
   Vector3d p_world = Vector3d::Zero();
   std::vector<Vector3d> viewpoints_world;
+  bool is_confirmable = true;  ///< by the detection rule; files of edition 1 do not say
 };
 
 enum class EpisodeFormat { kCrossnav, kObjectNav, kOneMap };
@@ -52,6 +54,9 @@ struct EpisodeFile {
   std::vector<Episode> episodes;
   std::map<std::string, std::vector<GoalObject>> goals_by_category;  ///< "<scene file>_<category>"
   std::uint64_t content_hash = 0;  ///< of the uncompressed text(s)
+  /// What the certificates ask of an instance: 1 = a viewpoint, 2 = and that the agent's detection
+  /// rule confirms it (confirmation.h).
+  int certificate_edition = 1;
 };
 
 /// Reads one file. An ObjectNav index without episodes takes those of its `content/` folder; a

@@ -28,6 +28,7 @@ EpisodeRecord FailedRecord(const Episode& episode, EpisodeFailure failure) {
   EpisodeRecord record;
   record.episode_id = episode.episode_id;
   record.scene_id = episode.scene_id;
+  record.track = episode.track;
   record.cross_floor_required = episode.cross_floor_required;
   record.first_transition_stage = episode.first_transition_stage;
   record.goals = episode.goals;

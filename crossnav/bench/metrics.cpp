@@ -195,6 +195,17 @@ std::map<std::string, std::vector<EpisodeRecord>> GroupByScene(
   return groups;
 }
 
+std::map<std::string, std::vector<EpisodeRecord>> GroupByTrack(
+    std::span<const EpisodeRecord> episodes) {
+  std::map<std::string, std::vector<EpisodeRecord>> groups;
+  const bool is_known = std::any_of(episodes.begin(), episodes.end(),
+                                    [](const EpisodeRecord& e) { return !e.track.empty(); });
+  if (!is_known) return groups;
+  for (const EpisodeRecord& episode : episodes)
+    groups[episode.track.empty() ? "other" : episode.track].push_back(episode);
+  return groups;
+}
+
 std::map<std::string, std::vector<EpisodeRecord>> GroupByCrossFloor(
     std::span<const EpisodeRecord> episodes) {
   std::map<std::string, std::vector<EpisodeRecord>> groups;

@@ -59,6 +59,10 @@ std::map<std::string, std::vector<EpisodeRecord>> GroupByScene(
 std::map<std::string, std::vector<EpisodeRecord>> GroupByCrossFloor(
     std::span<const EpisodeRecord> episodes);
 
+/// By EpisodeRecord::track; empty where no record names one.
+std::map<std::string, std::vector<EpisodeRecord>> GroupByTrack(
+    std::span<const EpisodeRecord> episodes);
+
 struct Interval {
   double low = 0, high = 0;
 };

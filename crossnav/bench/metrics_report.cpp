@@ -95,10 +95,8 @@ std::string FailuresText(std::span<const EpisodeRecord> episodes) {
   return "failed: " + reasons + "; they count as not successful\n";
 }
 
-}  // namespace
-
-std::string MetricsText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
-  if (episodes.empty()) return "no episodes\n";
+/// Of records of one origin.
+std::string TrackText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
   std::string text =
       fmt::format("{} episodes; per cent, with bootstrap 95 % intervals\n", episodes.size());
   text += FailuresText(episodes);
@@ -117,7 +115,7 @@ std::string MetricsText(std::span<const EpisodeRecord> episodes, const Bootstrap
   return text + "\n" + OutcomeText(CountOutcomes(episodes));
 }
 
-std::string MetricsJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
+Json TrackJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
   const Metrics metrics = ComputeMetrics(episodes);
   Json groups = Json::object(), scenes = Json::object(), categories = Json::object();
   for (const auto& [name, group] : GroupByCrossFloor(episodes)) {
@@ -136,13 +134,38 @@ std::string MetricsJson(std::span<const EpisodeRecord> episodes, const Bootstrap
     for (std::size_t i = 0; i < counts.size(); ++i) row[std::string(kOutcomeNames[i])] = counts[i];
     outcomes[goal] = std::move(row);
   }
-  const Json json = {
-      {"episodes", metrics.episodes},      {"goals", metrics.goals},
-      {"failed", CountFailures(episodes)}, {"metrics", FiguresJson(episodes, bootstrap)},
-      {"reached", metrics.reached},        {"groups", std::move(groups)},
-      {"scenes", std::move(scenes)},       {"categories", std::move(categories)},
-      {"outcomes", std::move(outcomes)}};
-  return json.dump(1);
+  return {{"episodes", metrics.episodes},      {"goals", metrics.goals},
+          {"failed", CountFailures(episodes)}, {"metrics", FiguresJson(episodes, bootstrap)},
+          {"reached", metrics.reached},        {"groups", std::move(groups)},
+          {"scenes", std::move(scenes)},       {"categories", std::move(categories)},
+          {"outcomes", std::move(outcomes)}};
+}
+
+}  // namespace
+
+std::string MetricsText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
+  if (episodes.empty()) return "no episodes\n";
+  const auto tracks = GroupByTrack(episodes);
+  if (tracks.size() < 2) {
+    return (tracks.empty() ? "" : "track " + tracks.begin()->first + ": ") +
+           TrackText(episodes, bootstrap);
+  }
+  std::string text;
+  for (const auto& [name, group] : tracks)
+    text += (text.empty() ? "track " : "\ntrack ") + name + ": " + TrackText(group, bootstrap);
+  return text;
+}
+
+std::string MetricsJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
+  const auto tracks = GroupByTrack(episodes);
+  if (tracks.size() < 2) {
+    Json json = TrackJson(episodes, bootstrap);
+    if (!tracks.empty()) json["track"] = tracks.begin()->first;
+    return json.dump(1);
+  }
+  Json by_name = Json::object();
+  for (const auto& [name, group] : tracks) by_name[name] = TrackJson(group, bootstrap);
+  return Json({{"episodes", episodes.size()}, {"tracks", std::move(by_name)}}).dump(1);
 }
 
 std::string EpisodeText(const EpisodeRecord& record) {

@@ -83,6 +83,13 @@ std::vector<ReportFigure> CollectFigures(const std::vector<ReportRun>& runs,
     for (const auto& [name, episodes] : GroupByCrossFloor(run.episodes)) {
       AddGroup(run, name, episodes, bootstrap, figures);
     }
+    for (const auto& [name, episodes] : GroupByTrack(run.episodes)) {
+      AddGroup(run, "track:" + name, episodes, bootstrap, figures);
+      for (const auto& [part, some] : GroupByCrossFloor(episodes)) {
+        if (part == "cfr" || part == "same_floor")
+          AddGroup(run, "track:" + name + ":" + part, some, bootstrap, figures);
+      }
+    }
     for (const auto& [name, episodes] : GroupByScene(run.episodes)) {
       AddGroup(run, "scene:" + name, episodes, bootstrap, figures);
     }

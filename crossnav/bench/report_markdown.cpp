@@ -56,8 +56,9 @@ std::string SequenceTable(const std::vector<ReportRun>& runs,
   for (const ReportRun& run : runs) {
     const ReportFigure* sr = Find(figures, run.name, group, "SR");
     if (sr == nullptr) continue;
-    text += Row({run.name, std::to_string(sr->episodes), Cell(sr),
-                 Cell(Find(figures, run.name, group, "SPL")),
+    const bool is_pooled = GroupByTrack(run.episodes).size() > 1;
+    text += Row({run.name + (is_pooled ? " (tracks pooled)" : ""), std::to_string(sr->episodes),
+                 Cell(sr), Cell(Find(figures, run.name, group, "SPL")),
                  Cell(Find(figures, run.name, group, "PR")),
                  Cell(Find(figures, run.name, group, "PPL"))});
   }
@@ -92,6 +93,23 @@ std::string StageTable(const std::vector<ReportRun>& runs, const std::vector<Rep
     text += Row(cells);
   }
   return text;
+}
+
+/// Each track of each run; a run that has several is pooled in no row. Empty where none is known.
+std::string TrackTable(const std::vector<ReportRun>& runs,
+                       const std::vector<ReportFigure>& figures) {
+  std::string rows;
+  for (const ReportRun& run : runs) {
+    for (const auto& [name, episodes] : GroupByTrack(run.episodes)) {
+      const std::string group = "track:" + name;
+      rows += Row({name, run.name, std::to_string(episodes.size()),
+                   Cell(Find(figures, run.name, group, "SR")),
+                   Cell(Find(figures, run.name, group + ":cfr", "SR")),
+                   Cell(Find(figures, run.name, group, "SPL"))});
+    }
+  }
+  if (rows.empty()) return rows;
+  return Head({"track", "run", "episodes", "SR", "SR, floor change required", "SPL"}) + rows;
 }
 
 /// One line per group of a run; `groups` by name.
@@ -194,6 +212,8 @@ std::string ReportMarkdown(const std::vector<ReportRun>& runs,
   std::string text =
       "# Report\n\nPer cent, with bootstrap 95 % intervals over episodes. The paper's numbers were "
       "taken on HM3D with networks; they stand beside ours and are no target.\n";
+  if (const std::string tracks = TrackTable(runs, figures); !tracks.empty())
+    text += "\n## Tracks\n\nBy the origin of the buildings.\n\n" + tracks;
   text += "\n## All episodes\n\n" + SequenceTable(runs, figures, "all", kPaperAll);
   text += "\n## Episodes that require a floor change\n\n" +
           SequenceTable(runs, figures, "cfr", kPaperCrossFloor);

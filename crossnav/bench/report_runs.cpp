@@ -22,6 +22,8 @@ Result<ReportRun> ReadRun(const std::filesystem::path& path, bool require_all) {
   }
   run.header = std::move(merged->header);
   run.episodes = std::move(merged->episodes);
+  if (const auto tracks = GroupByTrack(run.episodes); tracks.size() == 1)
+    run.name = tracks.begin()->first + "/" + run.name;
   return run;
 }
 

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "crossnav/bench/json_value.h"
+#include "crossnav/bench/result_extra.h"
+#include "crossnav/bench/result_line.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/text_shape.h"
@@ -12,35 +13,11 @@
 namespace crossnav::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json ToJson(const Vector3d& p) {
   return Json::array({p.x(), p.y(), p.z()});
 }
 
-Json ToJson(const StageCause& cause) {
-  Json json = {{"last_activity", cause.last_activity},
-               {"under_way", cause.is_under_way},
-               {"last_ending", cause.last_ending}};
-  if (cause.flight) {
-    json["flight"] = {{"floor", cause.flight->floor},
-                      {"goal_floor", cause.flight->goal_floor},
-                      {"seen", cause.flight->seen},
-                      {"begun", cause.flight->begun},
-                      {"climbed", cause.flight->climbed}};
-  }
-  json["seen_share"] = cause.seen_share;
-  json["steps"] = Json::object();
-  for (const auto& [activity, steps] : cause.steps) json["steps"][activity] = steps;
-  return json;
-}
-
 Json ToJson(const StageRecord& stage) {
-  Json extra = {{"passed_target", stage.extra.passed_target},
-                {"wrong_floor", stage.extra.wrong_floor}};
-  if (!stage.extra.stairs.empty()) extra["stairs"] = stage.extra.stairs;
-  if (stage.extra.distance_to_goal_m) extra["distance_to_goal_m"] = *stage.extra.distance_to_goal_m;
-  if (stage.extra.cause) extra["cause"] = ToJson(*stage.extra.cause);
   return {{"goal", stage.goal},
           {"outcome", NameOf(stage.outcome)},
           {"success", stage.success},
@@ -52,87 +29,14 @@ Json ToJson(const StageRecord& stage) {
           {"floor_start", stage.floor_start},
           {"floor_end", stage.floor_end},
           {"transitions", stage.transitions},
-          {"extra", std::move(extra)}};
-}
-
-/// A line of the file while it is being read: typed access that names the key that is wrong.
-class Line {
- public:
-  Line(const Json& json, std::string where) : json_(json), where_(std::move(where)) {}
-
-  template <class T>
-  Result<T> Get(const char* key) const {
-    const auto it = json_.find(key);
-    if (it == json_.end()) return Missing(key, "is missing");
-    return Convert<T>(*it, key);
-  }
-  template <class T>
-  Result<T> GetOr(const char* key, T fallback) const {
-    const auto it = json_.find(key);
-    if (it == json_.end() || it->is_null()) return fallback;
-    return Convert<T>(*it, key);
-  }
-  const Json& json() const { return json_; }
-  const std::string& where() const { return where_; }
-
- private:
-  template <class T>
-  Result<T> Convert(const Json& value, const char* key) const {
-    try {
-      return ValueOf<T>(value);
-    } catch (const Json::exception& error) {
-      return Missing(key, error.id == kNumberOutOfRange ? "is out of range" : "has the wrong type");
-    }
-  }
-  tl::unexpected<Error> Missing(const char* key, const char* what) const {
-    return Fail(ErrorCode::kMalformed, std::string("key \"") + key + "\" " + what, where_);
-  }
-  const Json& json_;
-  std::string where_;
-};
-
-/// Stores the value, or keeps the first error.
-template <class T>
-void Take(Result<T> value, T& target, std::optional<Error>& error) {
-  if (value) {
-    target = std::move(*value);
-  } else if (!error) {
-    error = value.error();
-  }
+          {"extra", ExtraJson(stage.extra)}};
 }
 
 Vector3d ToVector(const std::vector<double>& values) {
   return values.size() == 3 ? Vector3d(values[0], values[1], values[2]) : Vector3d::Zero();
 }
 
-FlightCause ReadFlight(const Line& line, std::optional<Error>& error) {
-  FlightCause flight;
-  Take(line.Get<int>("floor"), flight.floor, error);
-  Take(line.Get<int>("goal_floor"), flight.goal_floor, error);
-  Take(line.Get<bool>("seen"), flight.seen, error);
-  Take(line.Get<bool>("begun"), flight.begun, error);
-  Take(line.Get<bool>("climbed"), flight.climbed, error);
-  return flight;
-}
-
-/// `extra.cause`; absent in files from before there were causes.
-std::optional<StageCause> ReadCause(const Line& extra, std::optional<Error>& error) {
-  const auto found = extra.json().find("cause");
-  if (found == extra.json().end() || found->is_null()) return std::nullopt;
-  const Line line(*found, extra.where() + ".cause");
-  StageCause cause;
-  Take(line.Get<std::string>("last_activity"), cause.last_activity, error);
-  Take(line.Get<bool>("under_way"), cause.is_under_way, error);
-  Take(line.Get<std::string>("last_ending"), cause.last_ending, error);
-  Take(line.Get<double>("seen_share"), cause.seen_share, error);
-  Take(line.Get<std::map<std::string, int>>("steps"), cause.steps, error);
-  if (const auto flight = found->find("flight"); flight != found->end()) {
-    cause.flight = ReadFlight(Line(*flight, line.where() + ".flight"), error);
-  }
-  return cause;
-}
-
-Result<StageRecord> ReadStage(const Line& line) {
+Result<StageRecord> ReadStage(const ResultLine& line) {
   StageRecord stage;
   std::optional<Error> error;
   std::string outcome;
@@ -149,15 +53,8 @@ Result<StageRecord> ReadStage(const Line& line) {
   Take(line.GetOr<int>("floor_end", 0), stage.floor_end, error);
   Take(line.GetOr<int>("transitions", 0), stage.transitions, error);
   const Json extra_json = line.json().value("extra", Json::object());
-  const Line extra(extra_json, line.where() + ", extra");
-  Take(extra.GetOr<bool>("passed_target", false), stage.extra.passed_target, error);
-  Take(extra.GetOr<bool>("wrong_floor", false), stage.extra.wrong_floor, error);
-  Take(extra.GetOr<std::string>("stairs", ""), stage.extra.stairs, error);
-  double distance_m = -1;
-  Take(extra.GetOr<double>("distance_to_goal_m", -1.0), distance_m, error);
-  stage.extra.cause = ReadCause(extra, error);
+  stage.extra = ReadExtra(ResultLine(extra_json, line.where() + ", extra"), error);
   if (error) return tl::unexpected(*error);
-  if (distance_m >= 0) stage.extra.distance_to_goal_m = distance_m;
   const auto known = OutcomeFromName(outcome);
   if (!known) return Fail(ErrorCode::kInvalid, "unknown outcome \"" + outcome + "\"", line.where());
   stage.outcome = *known;
@@ -204,12 +101,13 @@ Result<void> CheckStages(const EpisodeRecord& episode, const std::string& where)
   return {};
 }
 
-Result<EpisodeRecord> ReadEpisode(const Line& line, int number) {
+Result<EpisodeRecord> ReadEpisode(const ResultLine& line, int number) {
   EpisodeRecord episode;
   std::optional<Error> error;
   Take(line.GetOr<std::string>("episode_id", "line" + std::to_string(number)), episode.episode_id,
        error);
   Take(line.GetOr<std::string>("scene_id", ""), episode.scene_id, error);
+  Take(line.GetOr<std::string>("track", ""), episode.track, error);
   Take(line.GetOr<bool>("cross_floor_required", false), episode.cross_floor_required, error);
   Take(line.GetOr<int>("first_transition_stage", 0), episode.first_transition_stage, error);
   Take(line.Get<std::vector<std::string>>("goals"), episode.goals, error);
@@ -220,7 +118,7 @@ Result<EpisodeRecord> ReadEpisode(const Line& line, int number) {
     if (!failed->is_object()) {
       return Fail(ErrorCode::kMalformed, "key \"failed\" is no object", line.where());
     }
-    const Line failure(*failed, line.where() + ", failed");
+    const ResultLine failure(*failed, line.where() + ", failed");
     episode.failed.emplace();
     Take(failure.Get<std::string>("reason"), episode.failed->reason, error);
     Take(failure.GetOr<std::string>("message", ""), episode.failed->message, error);
@@ -231,7 +129,7 @@ Result<EpisodeRecord> ReadEpisode(const Line& line, int number) {
     return Fail(ErrorCode::kMalformed, "key \"stages\" is missing or no list", line.where());
   }
   for (std::size_t k = 0; k < stages->size(); ++k) {
-    const Line stage_line((*stages)[k], line.where() + ", stages[" + std::to_string(k) + "]");
+    const ResultLine stage_line((*stages)[k], line.where() + ", stages[" + std::to_string(k) + "]");
     if (!stage_line.json().is_object()) {
       return Fail(ErrorCode::kMalformed, "is no object", stage_line.where());
     }
@@ -248,7 +146,7 @@ Result<EpisodeRecord> ReadEpisode(const Line& line, int number) {
   return episode;
 }
 
-Result<RunHeader> ReadHeader(const Line& line) {
+Result<RunHeader> ReadHeader(const ResultLine& line) {
   RunHeader header;
   std::optional<Error> error;
   int format = 0;
@@ -285,7 +183,7 @@ Result<void> ReadLine(const std::string& text, int number, const std::string& wh
   if (auto ok = CheckJsonShape(text, where); !ok) return ok;
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) return Fail(ErrorCode::kMalformed, "is no JSON object", where);
-  const Line line(json, where);
+  const ResultLine line(json, where);
   std::string kind = "episode";
   if (const auto it = json.find("kind"); it != json.end() && it->is_string()) kind = *it;
   if (kind == "header") {
@@ -345,6 +243,7 @@ std::string ToJsonLine(const EpisodeRecord& record, bool with_timings) {
                {"first_transition_stage", record.first_transition_stage},
                {"goals", record.goals},
                {"actions", record.actions}};
+  if (!record.track.empty()) json["track"] = record.track;
   if (with_timings) json["wall_s"] = record.wall_s;
   if (record.failed)
     json["failed"] = {{"reason", record.failed->reason}, {"message", record.failed->message}};

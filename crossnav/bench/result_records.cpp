@@ -157,6 +157,35 @@ Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bo
   return merged;
 }
 
+Result<ResultFile> MergeTracks(std::span<const std::filesystem::path> paths) {
+  std::map<std::string, std::vector<std::filesystem::path>> groups;  // by episode file
+  for (const auto& path : paths) {
+    const auto file = ReadResults(path);
+    if (!file) return tl::unexpected(file.error());
+    groups[file->header ? file->header->episodes_hash : ""].push_back(path);
+  }
+  if (groups.size() == 1) return MergeResults(paths, /*require_all=*/false);
+  ResultFile all;
+  std::map<std::string, std::string> tracks;  // name: episode file
+  for (const auto& [hash, files] : groups) {
+    auto merged = MergeResults(files, /*require_all=*/false);
+    if (!merged) return merged;
+    for (EpisodeRecord& episode : merged->episodes) {
+      const auto [entry, is_new] = tracks.emplace(episode.track, hash);
+      if (episode.track.empty() || entry->second != hash) {
+        return Fail(
+            ErrorCode::kMismatch,
+            "cannot be merged with files of other episodes, unless each is of another track",
+            files[0].string());
+      }
+      all.episodes.push_back(std::move(episode));
+    }
+    all.has_torn_line = all.has_torn_line || merged->has_torn_line;
+  }
+  SortRecords(all.episodes);
+  return all;
+}
+
 Result<std::vector<std::filesystem::path>> ResultFilesOf(const std::filesystem::path& run) {
   std::error_code error;
   if (std::filesystem::is_regular_file(run, error)) return std::vector{run};

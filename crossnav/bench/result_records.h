@@ -75,6 +75,10 @@ std::string HeaderDifference(const RunHeader& a, const RunHeader& b);
 /// where `require_all`, missing ones.
 Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bool require_all);
 
+/// The episodes of runs over different tracks, sorted by id: files that belong together are merged
+/// as above, and no track may be in two groups. `header` is empty where there are several groups.
+Result<ResultFile> MergeTracks(std::span<const std::filesystem::path> paths);
+
 /// The result files of a run, sorted: the file itself, or all results*.jsonl of its folder.
 Result<std::vector<std::filesystem::path>> ResultFilesOf(const std::filesystem::path& run);
 

@@ -37,6 +37,9 @@ struct DatasetConfig {
   double min_first_goal_m = 1.0;  // chosen: no episode starts with its goal reached
   double max_start_step_m = 0.1;  // chosen: starts lie on a floor, not on a flight
   int tries_per_episode = 200;    // chosen: before the generator says what it cannot do
+  /// What makes an instance one that a stage can be certified by: a viewpoint (edition 1), or one
+  /// from where the agent's detection would confirm it, too (edition 2; confirmation.h).
+  std::string certificate = "coverage";  ///< coverage | detection
 };
 
 struct RunConfig {
@@ -72,6 +75,7 @@ void Visit(V& visit, DatasetConfig& c) {
   visit("min_first_goal_m", c.min_first_goal_m, 0.0, 100.0);
   visit("max_start_step_m", c.max_start_step_m, 0.0, 10.0);
   visit("tries_per_episode", c.tries_per_episode, 1, 1000000);
+  visit("certificate", c.certificate, {"coverage", "detection"});
 }
 
 template <class V>

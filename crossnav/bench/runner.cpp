@@ -10,6 +10,7 @@
 #include "crossnav/bench/cause.h"
 #include "crossnav/bench/outcome.h"
 #include "crossnav/bench/timing.h"
+#include "crossnav/bench/walk_log.h"
 #include "crossnav/core/rng.h"
 #include "crossnav/sim/ground_truth.h"
 #include "crossnav/sim/simulator.h"
@@ -63,6 +64,7 @@ class EpisodeRun {
     StageRecord record;
     CauseWatch cause;
     StairWatch stairs;
+    WalkLog walk;
     bool was_in_view = false;
     int actions_before = 0;
   };
@@ -106,6 +108,7 @@ Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   EpisodeRecord record;
   record.episode_id = episode_.episode_id;
   record.scene_id = episode_.scene_id;
+  record.track = episode_.track;
   record.cross_floor_required = episode_.cross_floor_required;
   record.first_transition_stage = episode_.first_transition_stage;
   record.goals = episode_.goals;
@@ -208,6 +211,7 @@ void EpisodeRun::Move(Action action, StageState& stage) {
   simulator_.Step(action);
   const double moved_m = (simulator_.agent().p_world - before).norm();
   stage.record.length_m += moved_m;
+  stage.walk.Add(action, simulator_.agent().p_world, moved_m);
   recent_m_.push_back(moved_m);
   while (static_cast<int>(recent_m_.size()) > config_.eval.stuck_steps) recent_m_.pop_front();
   const int floor_before = floors_->floor();
@@ -244,6 +248,7 @@ void EpisodeRun::FinishStage(const StageEnd& end, StageState& stage) const {
   record.floor_end = floors_->floor();
   record.transitions = floors_->transitions();
   record.actions = actions_ - stage.actions_before;
+  record.extra.walk = stage.walk.Finish(context_, record, config_.eval);
   record.extra.passed_target = stage.was_in_view && !record.success;
   record.extra.wrong_floor =
       !record.success && IsOnWrongFloor(context_.TargetsOf(record.goal), record.end_world,

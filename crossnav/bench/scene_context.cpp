@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "crossnav/bench/confirmation.h"
 #include "crossnav/bench/outcome.h"
 #include "crossnav/bench/viewpoint_cache.h"
 #include "crossnav/core/categories.h"
@@ -72,7 +73,7 @@ std::unique_ptr<SceneContext> SceneContext::Assemble(std::unique_ptr<sim::Scene>
   context->scene_ = std::move(scene);
   context->navmesh_ = std::make_unique<sim::NavMesh>(std::move(navmesh));
   context->caster_ = std::make_unique<sim::RayCaster>(*context->scene_);
-  context->sensor_ = config.agent.sensor;
+  context->config_ = config;
   return context;
 }
 
@@ -85,7 +86,7 @@ void SceneContext::UseGoals(const std::map<std::string, std::vector<GoalObject>>
     for (const GoalObject& goal : goals) {
       if (goal.viewpoints_world.empty()) continue;
       const sim::SceneInstance* instance = InstanceOf(*scene_, goal);
-      Target target{goal.object_id, goal.name, {}, goal.viewpoints_world, {}};
+      Target target{goal.object_id, goal.name, {}, goal.viewpoints_world, {}, true, {}};
       target.box.Add(goal.p_world);
       if (instance != nullptr) {
         target.instance = instance->id;
@@ -101,6 +102,36 @@ void SceneContext::UseGoals(const std::map<std::string, std::vector<GoalObject>>
   solved_.clear();
 }
 
+void SceneContext::UseMarks(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+                            const std::string& scene_id) {
+  const std::string prefix = std::filesystem::path(scene_id).filename().string() + "_";
+  for (const auto& [key, goals] : goals_by_category) {
+    if (key.rfind(prefix, 0) != 0) continue;
+    for (const GoalObject& goal : goals) {
+      if (!goal.is_confirmable) not_confirmable_[key.substr(prefix.size())].insert(goal.object_id);
+    }
+  }
+  targets_.clear();
+  places_.clear();
+  seen_.clear();
+  solved_.clear();
+}
+
+std::vector<Vector3d> SceneContext::ConfirmingPlaces(
+    const sim::SceneInstance& instance, const std::vector<Vector3d>& viewpoints_world) const {
+  const ConfirmationRule rule(*caster_, instance, config_);
+  std::map<std::pair<int, int>, std::vector<Vector3d>> groups;  // by floor and part
+  for (const Vector3d& p : viewpoints_world) {
+    const int part = Parts().PartAt(p);
+    if (part >= 0) groups[{navmesh_->FloorOf(p), part}].push_back(p);
+  }
+  std::vector<Vector3d> places;
+  for (auto& [floor_and_part, points] : groups) {
+    if (const auto place = rule.FirstOf(std::move(points))) places.push_back(*place);
+  }
+  return places;
+}
+
 const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) const {
   const auto known = targets_.find(goal);
   if (known != targets_.end()) return known->second;
@@ -110,12 +141,18 @@ const std::vector<Target>& SceneContext::TargetsOf(const std::string& goal) cons
       instances.push_back(&instance);
     }
   }
-  auto viewpoints = ViewpointsOf({*scene_, *navmesh_, *caster_, sensor_}, instances);
+  auto viewpoints = ViewpointsOf({*scene_, *navmesh_, *caster_, config_.agent.sensor}, instances);
   std::vector<Target> targets;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const sim::SceneInstance& instance = *instances[i];
-    Target target{instance.id, instance.name, instance.box, std::move(viewpoints[i]), {}};
+    Target target{instance.id, instance.name, instance.box, std::move(viewpoints[i]), {}, true, {}};
     target.floors = FloorsUnder(*navmesh_, target.viewpoints_world);
+    if (IsByDetection()) {
+      target.confirmed_world = ConfirmingPlaces(instance, target.viewpoints_world);
+      target.is_confirmable = !target.confirmed_world.empty();
+    } else if (const auto marks = not_confirmable_.find(goal); marks != not_confirmable_.end()) {
+      target.is_confirmable = !marks->second.contains(target.instance);
+    }
     targets.push_back(std::move(target));
   }
   return targets_.emplace(goal, std::move(targets)).first->second;
@@ -128,11 +165,10 @@ const GoalPlaces& SceneContext::PlacesOf(const std::string& goal) const {
   std::map<int, std::vector<Vector3d>> on_floor;
   GoalPlaces places;
   for (const Target& target : TargetsOf(goal)) {
-    for (const Vector3d& p : target.viewpoints_world) {
-      const int floor = navmesh_->FloorOf(p);
-      all.push_back(p);
-      on_floor[floor].push_back(p);
-    }
+    if (!target.is_confirmable) continue;
+    const auto& certifying = CertifyingPlacesOf(target);
+    all.insert(all.end(), target.viewpoints_world.begin(), target.viewpoints_world.end());
+    for (const Vector3d& p : certifying) on_floor[navmesh_->FloorOf(p)].push_back(p);
   }
   places.viewpoints = navmesh_->FindGoals(all);
   for (const auto& [floor, points] : on_floor) {
@@ -145,7 +181,7 @@ bool SceneContext::IsSeenOnPart(const std::string& goal, int floor, int part) co
   const auto [seen, is_new] = seen_.try_emplace(goal);
   if (is_new) {
     for (const Target& target : TargetsOf(goal)) {
-      for (const Vector3d& p : target.viewpoints_world) {
+      for (const Vector3d& p : CertifyingPlacesOf(target)) {
         seen->second.emplace(navmesh_->FloorOf(p), Parts().PartAt(p));
       }
     }
@@ -173,6 +209,7 @@ bool SceneContext::IsSolvedOnPart(const std::string& goal, int floor, int part,
 std::vector<int> SceneContext::FloorsOf(const std::string& goal) const {
   std::set<int> floors;
   for (const Target& target : TargetsOf(goal)) {
+    if (!target.is_confirmable) continue;
     floors.insert(target.floors.begin(), target.floors.end());
   }
   return {floors.begin(), floors.end()};

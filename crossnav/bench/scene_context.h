@@ -30,12 +30,18 @@ struct Target {
   Box3 box;
   std::vector<Vector3d> viewpoints_world;  ///< X(g); empty = cannot be observed from anywhere
   std::vector<int> floors;                 ///< of the viewpoints, sorted
+  /// False where the agent's detection rule confirms it from nowhere (dataset.certificate =
+  /// detection, or a file that says so). A STOP at it is a success, but nothing is certified by it
+  /// and no distance leads to it.
+  bool is_confirmable = true;
+  /// dataset.certificate = detection: a viewpoint that confirms it, one for each floor and part.
+  std::vector<Vector3d> confirmed_world;
 };
 
-/// Where a goal can be observed from, over all its instances.
+/// Where a goal can be observed from, over all its confirmable instances.
 struct GoalPlaces {
   sim::WalkGoals viewpoints;
-  std::map<int, sim::WalkGoals> on_floor;  ///< the same, by floor
+  std::map<int, sim::WalkGoals> on_floor;  ///< where stages can be certified, by floor
 };
 
 class SceneContext {
@@ -52,6 +58,10 @@ class SceneContext {
   void UseGoals(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
                 const std::string& scene_id);
 
+  /// Takes from an episode file of edition 2 which instances are not confirmable.
+  void UseMarks(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+                const std::string& scene_id);
+
   const sim::Scene& scene() const { return *scene_; }
   const sim::NavMesh& navmesh() const { return *navmesh_; }
   const sim::RayCaster& caster() const { return *caster_; }
@@ -59,17 +69,23 @@ class SceneContext {
   /// Instances of a category, or of a raw name where it is no category. Computed once per goal.
   const std::vector<Target>& TargetsOf(const std::string& goal) const;
 
+  /// Places by which a stage is certified: viewpoints that confirm the target under
+  /// dataset.certificate = detection, else all its viewpoints.
+  const std::vector<Vector3d>& CertifyingPlacesOf(const Target& target) const {
+    return IsByDetection() ? target.confirmed_world : target.viewpoints_world;
+  }
+
   /// The viewpoints of TargetsOf, found on the navmesh. Computed once per goal.
   const GoalPlaces& PlacesOf(const std::string& goal) const;
 
-  /// True where the goal can be observed from some place of `part` (of Parts), on `floor`.
+  /// True where the goal can be certified by some place of `part` (of Parts), on `floor`.
   bool IsSeenOnPart(const std::string& goal, int floor, int part) const;
 
   /// True where a STOP at some place of `part`, which is on `floor`, is a success under
   /// eval.success = box. All places are tried, once per goal, part and radius.
   bool IsSolvedOnPart(const std::string& goal, int floor, int part, const EvalConfig& eval) const;
 
-  /// Sorted ids of the floors on which `goal` can be observed.
+  /// Sorted ids of the floors on which a confirmable instance of `goal` can be observed.
   std::vector<int> FloorsOf(const std::string& goal) const;
 
   /// d*: shortest path from `p_world` to a viewpoint of `goal`; empty where there is none.
@@ -92,13 +108,19 @@ class SceneContext {
 
  private:
   SceneContext() = default;
+  bool IsByDetection() const { return config_.dataset.certificate == "detection"; }
+  /// Where the detection rule confirms the instance: at most one of its viewpoints a floor and
+  /// part.
+  std::vector<Vector3d> ConfirmingPlaces(const sim::SceneInstance& instance,
+                                         const std::vector<Vector3d>& viewpoints_world) const;
   static std::unique_ptr<SceneContext> Assemble(std::unique_ptr<sim::Scene> scene,
                                                 sim::NavMesh navmesh, const RunConfig& config);
 
   std::unique_ptr<sim::Scene> scene_;
   std::unique_ptr<sim::NavMesh> navmesh_;
   std::unique_ptr<sim::RayCaster> caster_;
-  SensorConfig sensor_;
+  RunConfig config_;
+  std::map<std::string, std::set<int>> not_confirmable_;  // UseMarks: ids by category
   mutable std::map<std::string, std::vector<Target>> targets_;
   mutable std::map<std::string, GoalPlaces> places_;
   mutable std::map<std::string, std::set<std::pair<int, int>>> seen_;  // (floor, part)s
@@ -113,6 +135,12 @@ Result<std::vector<std::string>> ListScenes(const std::filesystem::path& scenes_
 /// What is wrong with the episode in this scene (unknown goal, unreachable goal, start off the
 /// navmesh), or nothing.
 Result<void> CheckPlayable(const SceneContext& context, const Episode& episode);
+
+/// Marks of a file of edition 2 that the detection rule contradicts, in words; the context must be
+/// of dataset.certificate = detection.
+std::vector<std::string> CheckMarks(
+    const SceneContext& context, const std::string& scene_id,
+    const std::map<std::string, std::vector<GoalObject>>& goals_by_category);
 
 /// Fills in floors, certificate, cross_floor_required and first_transition_stage.
 void Certify(const SceneContext& context, Episode& episode);

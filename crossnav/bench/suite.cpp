@@ -2,6 +2,7 @@
 #include "crossnav/bench/suite.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "crossnav/bench/gzip_file.h"
@@ -16,18 +17,62 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 1, kTrackFormat = 2;
 constexpr std::string_view kPackSuffix = "-pack";
+constexpr std::array<const char*, 9> kDrawnHomes = {
+    "1BedroomApartmentWithRoundWall", "2BedroomApartment", "2BedroomApartmentWithBowWindow",
+    "2BedroomHouseWithBasement",      "3BedroomApartment", "3BedroomHouseWithAttic",
+    "3BedroomHouseWithMezzanine",     "4BedroomHouse",     "Studio"};
 
 Json ToJson(const SuiteManifest& manifest) {
-  return {{"format", kFormat},
-          {"suite", manifest.suite},
-          {"generator_version", manifest.generator_version},
-          {"furniture", manifest.furniture},
-          {"episodes", manifest.episodes},
-          {"first_transition_stage", manifest.first_transitions},
-          {"episodes_hash", manifest.episodes_hash},
-          {"meshes", manifest.meshes}};
+  Json json = {{"format", manifest.track.empty() ? kFormat : kTrackFormat},
+               {"suite", manifest.suite},
+               {"generator_version", manifest.generator_version},
+               {"furniture", manifest.furniture},
+               {"episodes", manifest.episodes},
+               {"first_transition_stage", manifest.first_transitions},
+               {"episodes_hash", manifest.episodes_hash},
+               {"meshes", manifest.meshes}};
+  if (!manifest.track.empty()) json["track"] = manifest.track;
+  return json;
+}
+
+/// Has `params` built by an edition of the generator; false where this program has none.
+template <class Params>
+bool UseEdition(Params& params, int edition) {
+  if constexpr (requires { params.edition; }) {
+    params.edition = edition;
+    return true;
+  }
+  return edition == 1;
+}
+
+/// The tracks of crossnav-mfmon-2 and of a smaller relative for tests.
+std::vector<SuiteDefinition> Tracks() {
+  SuiteDefinition generated{"crossnav-mfmon-2/generated", 71001, 24, 240, {40, 40, 40}, 4, false};
+  generated.track = "generated";
+  generated.generator_version = 2;
+  SuiteDefinition drawn{"crossnav-mfmon-2/drawn", 0, 9, 108, {}, 5, false};
+  drawn.track = "drawn";
+  drawn.generator_version = 0;
+  drawn.cross_floor_share = 0.4;  // chosen: four of the nine have stairs
+  SuiteDefinition bim{"crossnav-mfmon-2/bim", 0, 0, 0, {}, 6, false};
+  bim.track = "bim";
+  bim.generator_version = 0;
+  bim.cross_floor_share = 0.5;
+  bim.per_building = 8;
+  std::vector<SuiteDefinition> tracks = {generated, drawn, bim};
+  for (SuiteDefinition suite : {generated, drawn, bim}) {
+    suite.name = "crossnav-mfmon-2-mini/" + suite.track;
+    suite.first_seed += 1000;
+    suite.houses = suite.track == "generated" ? 4 : suite.houses;
+    suite.episodes = suite.track == "generated" ? 16 : suite.episodes / 6;
+    if (!suite.first_transitions.empty()) suite.first_transitions = {3, 3, 2};
+    suite.per_building = suite.per_building / 4;
+    suite.episode_seed += 3;
+    tracks.push_back(std::move(suite));
+  }
+  return tracks;
 }
 
 std::string Listed(const std::vector<int>& counts) {
@@ -42,7 +87,17 @@ world::HouseParams SuiteDefinition::HouseOf(std::uint64_t seed) const {
   world::HouseParams params;
   params.seed = seed;
   params.floors = seed % 3 == 0 ? 3 : 2;
+  if (!track.empty()) UseEdition(params, generator_version);
   return params;
+}
+
+std::span<const char* const> DrawnHomes() {
+  return kDrawnHomes;
+}
+
+bool CanGenerate(const SuiteDefinition& suite) {
+  world::HouseParams params;
+  return suite.track.empty() || UseEdition(params, suite.generator_version);
 }
 
 std::vector<SuiteDefinition> AllSuites() {
@@ -57,6 +112,7 @@ std::vector<SuiteDefinition> AllSuites() {
     suite.has_pack = true;
     all.push_back(std::move(suite));
   }
+  for (SuiteDefinition& track : Tracks()) all.push_back(std::move(track));
   return all;
 }
 
@@ -70,6 +126,18 @@ Result<SuiteDefinition> FindSuite(const std::string& name) {
   }
   return Fail(ErrorCode::kNotFound,
               "no suite of this name; there are " + names + DidYouMean(name, all), name);
+}
+
+Result<std::vector<SuiteDefinition>> FindTracks(const std::string& name) {
+  std::vector<SuiteDefinition> tracks;
+  for (SuiteDefinition& suite : AllSuites()) {
+    if (!suite.track.empty() && suite.name == name + "/" + suite.track)
+      tracks.push_back(std::move(suite));
+  }
+  if (!tracks.empty()) return tracks;
+  auto suite = FindSuite(name);
+  if (!suite) return tl::unexpected(suite.error());
+  return std::vector<SuiteDefinition>{std::move(*suite)};
 }
 
 std::string SuiteHash(const SuiteManifest& manifest) {
@@ -90,7 +158,9 @@ Result<SuiteManifest> ReadManifest(const std::filesystem::path& path) {
   if (auto ok = CheckJsonShape(*text, path.string()); !ok) return tl::unexpected(ok.error());
   try {
     const Json json = Json::parse(*text);
-    if (ValueOf<int>(json.at("format")) != kFormat) {
+    const int format = ValueOf<int>(json.at("format"));
+    if (format == kTrackFormat) manifest.track = json.at("track");
+    if (format != kFormat && format != kTrackFormat) {
       return Fail(ErrorCode::kUnsupported, "is of another format; make the suite anew",
                   path.string() + ": format");
     }
@@ -127,19 +197,23 @@ Result<void> CheckManifest(const SuiteDefinition& suite, const SuiteManifest& ma
   };
   if (auto ok = expect("suite", manifest.suite, suite.name); !ok) return ok;
   if (auto ok = expect("generator_version", std::to_string(manifest.generator_version),
-                       std::to_string(world::kGeneratorVersion));
+                       std::to_string(suite.generator_version));
       !ok) {
     return ok;
   }
+  if (auto ok = expect("track", manifest.track, suite.track); !ok) return ok;
+  if (suite.per_building > 0) return {};  // the user's buildings
   if (auto ok =
           expect("episodes", std::to_string(manifest.episodes), std::to_string(suite.episodes));
       !ok) {
     return ok;
   }
-  if (auto ok = expect("first_transition_stage", Listed(manifest.first_transitions),
-                       Listed(suite.first_transitions));
-      !ok) {
-    return ok;
+  if (!suite.first_transitions.empty()) {
+    if (auto ok = expect("first_transition_stage", Listed(manifest.first_transitions),
+                         Listed(suite.first_transitions));
+        !ok) {
+      return ok;
+    }
   }
   return expect("meshes", std::to_string(manifest.meshes.size()) + " houses",
                 std::to_string(suite.houses) + " houses");

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Named benchmarks that anybody can make: houses and episodes that follow from the name and the
 // generator's version alone, and a manifest whose hash says whether two copies are the same.
-// Format: docs/formats/suite.md. Pure but for reading and writing the manifest.
+// Version 2 has tracks by the origin of the buildings, each a suite by itself: generated, drawn
+// (the example homes of Sweet Home 3D) and bim (imported models of architects, which the user
+// brings). Format: docs/formats/suite.md. Pure but for reading and writing the manifest.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,26 +19,43 @@
 namespace crossnav::bench {
 
 struct SuiteDefinition {
-  std::string name;
+  std::string name;              ///< of version 2: suite/track
   std::uint64_t first_seed = 0;  ///< of the houses; a seed that gives no house is passed over
   int houses = 0, episodes = 0;
   std::vector<int> first_transitions;  ///< episodes per stage of the first required floor change
   std::uint64_t episode_seed = 0;
   bool has_pack = false;  ///< furnished from a pack, not with simple shapes
 
+  // Version 2; certificates are of edition 2.
+  std::string track = {};                            ///< generated, drawn or bim; empty = version 1
+  int generator_version = world::kGeneratorVersion;  ///< 0 = not generated
+  double cross_floor_share = 0;  ///< of the episodes, where no counts per stage are given
+  int per_building = 0;          ///< bim: episodes of each; houses and episodes follow from it
+
   /// House of a seed: two floors, or three for every third seed.
   world::HouseParams HouseOf(std::uint64_t seed) const;
 };
 
+/// The nine homes of the track `drawn`, as `crossnav scene import --home` names them.
+std::span<const char* const> DrawnHomes();
+
+/// Whether this program's generator builds the edition that the suite asks for.
+bool CanGenerate(const SuiteDefinition& suite);
+
 /// crossnav-mfmon-1 and its smaller relatives; "-pack" behind a name furnishes them from a pack.
+/// Then the tracks of crossnav-mfmon-2 and of its smaller relative.
 std::vector<SuiteDefinition> AllSuites();
 
 /// Error: no such suite; names those there are.
 Result<SuiteDefinition> FindSuite(const std::string& name);
 
+/// All tracks of the suite, or the one suite or track of exactly this name. Error: as FindSuite.
+Result<std::vector<SuiteDefinition>> FindTracks(const std::string& name);
+
 /// What a suite on disk consists of.
 struct SuiteManifest {
   std::string suite;
+  std::string track;  ///< of version 2, format 2 of the manifest; else empty
   int generator_version = 0;
   std::string furniture;  ///< "simple shapes", or "pack " and its hash
   int episodes = 0;

@@ -17,6 +17,16 @@ using perception::PixelBox;
 constexpr float kStairProbability = 0.9F;  // chosen: sure, but not certain
 constexpr std::array<std::string_view, 3> kStairNames{"stairs", "staircase", "stair"};
 
+/// 0.5 for something barely seen, up to 0.98; halves its distance to that with every 2 % of the
+/// image, and loses up to 0.2 over the range.
+float ConfidenceOf(const SeenInstance& s, const SensorConfig& sensor,
+                   double max_distance_m) {  // chosen: shaped like a detector's, not fitted to one
+  const double share = s.pixels / (static_cast<double>(sensor.width_px) * sensor.height_px);
+  const double by_size = 0.98 - 0.48 * std::exp2(-share / 0.02);
+  const double by_distance = 0.2 * std::clamp(s.nearest_m / max_distance_m, 0.0, 1.0);
+  return static_cast<float>(std::clamp(by_size - by_distance + 0.1, 0.0, 0.98));
+}
+
 bool IsCategory(std::string_view goal) {
   return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
 }
@@ -44,16 +54,16 @@ class GroundTruthDetector : public perception::Detector {
   Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) override {
     const Frame* frame = FrameOf(simulator_, obs);
     if (frame == nullptr) return StaleFrame();
-    std::map<int, Seen> seen;  // by instance id, so that the order is fixed
+    std::map<int, SeenInstance> seen;  // by instance id, so that the order is fixed
     for (const SceneInstance& instance : simulator_.scene().instances) {
       const bool wanted = IsCategory(goal) ? instance.category == goal : instance.name == goal;
       if (wanted) seen[instance.id];
     }
     if (!seen.empty()) Collect(*frame, seen);
     std::vector<Detection> detections;
-    for (auto& [id, s] : seen) {
-      if (s.pixels < config_.min_visible_px || s.nearest_m > config_.max_distance_m) continue;
-      detections.push_back({s.box, Confidence(s), {}, 0});
+    for (const auto& [id, s] : seen) {
+      if (auto detection = DetectionOf(s, simulator_.sensor(), config_))
+        detections.push_back(std::move(*detection));
     }
     std::stable_sort(detections.begin(), detections.end(),
                      [](const auto& a, const auto& b) { return a.confidence > b.confidence; });
@@ -61,15 +71,9 @@ class GroundTruthDetector : public perception::Detector {
   }
 
  private:
-  struct Seen {
-    int pixels = 0;
-    double nearest_m = 1e30;
-    PixelBox box{1 << 30, 1 << 30, 0, 0};
-  };
-
-  static void Collect(const Frame& frame, std::map<int, Seen>& seen) {
+  static void Collect(const Frame& frame, std::map<int, SeenInstance>& seen) {
     std::int32_t last_id = 0;
-    Seen* last = nullptr;
+    SeenInstance* last = nullptr;
     for (int v = 0; v < frame.instance.height; ++v) {
       for (int u = 0; u < frame.instance.width; ++u) {
         const std::int32_t id = frame.instance.At(u, v);
@@ -80,22 +84,9 @@ class GroundTruthDetector : public perception::Detector {
           last_id = id;
         }
         if (last == nullptr) continue;
-        ++last->pixels;
-        last->nearest_m = std::min(last->nearest_m, static_cast<double>(frame.depth_m.At(u, v)));
-        last->box = {std::min(last->box.u0, u), std::min(last->box.v0, v),
-                     std::max(last->box.u1, u + 1), std::max(last->box.v1, v + 1)};
+        last->Add(u, v, frame.depth_m.At(u, v));
       }
     }
-  }
-
-  /// 0.5 for something barely seen, up to 0.98; halves its distance to that with every 2 % of the
-  /// image, and loses up to 0.2 over the range.
-  float Confidence(const Seen& s) const {  // chosen: shaped like a detector's, not fitted to one
-    const SensorConfig& sensor = simulator_.sensor();
-    const double share = s.pixels / (static_cast<double>(sensor.width_px) * sensor.height_px);
-    const double by_size = 0.98 - 0.48 * std::exp2(-share / 0.02);
-    const double by_distance = 0.2 * std::clamp(s.nearest_m / config_.max_distance_m, 0.0, 1.0);
-    return static_cast<float>(std::clamp(by_size - by_distance + 0.1, 0.0, 0.98));
   }
 
   const Simulator& simulator_;
@@ -196,6 +187,20 @@ class GroundTruthStairs : public perception::StairSegmenter {
 };
 
 }  // namespace
+
+void SeenInstance::Add(int u, int v, float depth_m) {
+  ++pixels;
+  nearest_m = std::min(nearest_m, static_cast<double>(depth_m));
+  box = {std::min(box.u0, u), std::min(box.v0, v), std::max(box.u1, u + 1),
+         std::max(box.v1, v + 1)};
+}
+
+std::optional<Detection> DetectionOf(const SeenInstance& seen, const SensorConfig& sensor,
+                                     const GroundTruthConfig& config) {
+  if (seen.pixels < config.min_visible_px || seen.nearest_m > config.max_distance_m)
+    return std::nullopt;
+  return Detection{seen.box, ConfidenceOf(seen, sensor, config.max_distance_m), {}, 0};
+}
 
 std::string EncoderName(const GroundTruthConfig& config) {
   return config.clip_dir.empty() ? "ground-truth" : "ground-truth-clip";

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "crossnav/perception/perception.h"
@@ -36,6 +37,21 @@ void Visit(V& visit, GroundTruthConfig& c) {
   visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
   visit("clip_dir", c.clip_dir);
 }
+
+/// What a picture shows of one instance.
+struct SeenInstance {
+  int pixels = 0;
+  double nearest_m = 1e30;  ///< depth of its nearest pixel
+  perception::PixelBox box{1 << 30, 1 << 30, 0, 0};
+
+  void Add(int u, int v, float depth_m);
+};
+
+/// The detection that ground truth makes of it, without a mask; empty where it is too small or too
+/// far away.
+std::optional<perception::Detection> DetectionOf(const SeenInstance& seen,
+                                                 const SensorConfig& sensor,
+                                                 const GroundTruthConfig& config);
 
 /// All four interfaces, answered from `simulator`, which must outlive the suite. Detections of the
 /// goal category are true instances; names that are not one of kCategories match raw names exactly.

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "suite_buildings.h"
+
+#include <fmt/format.h>
+
+#include "crossnav/bench/result_records.h"
+#include "crossnav/bench/scene_context.h"
+#include "crossnav/bench/worker_pool.h"
+#include "crossnav/homes/scene_import.h"
+#include "crossnav/sim/scene.h"
+#include "crossnav/world/house/house_generator.h"
+#include "crossnav/world/scene/scene_writer.h"
+
+namespace crossnav::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kSeeds = 500;  // chosen: that a suite may try; most give a house
+
+Result<std::string> MeshHashOf(const fs::path& folder) {
+  const auto scene = sim::LoadScene(folder);
+  if (!scene) return tl::unexpected(scene.error());
+  return bench::HexHash(scene->mesh_hash);
+}
+
+/// The houses of `seeds`, in processes; `passed` gets the mesh hash of each house that passed.
+Result<void> MakeHouses(const bench::SuiteDefinition& suite, const fs::path& scenes,
+                        const std::vector<std::uint64_t>& seeds, const world::FurniturePack* pack,
+                        int jobs, MeshHashes& passed, Console& console) {
+  int done = 0;
+  bench::PoolTask task;
+  task.count = static_cast<int>(seeds.size());
+  task.jobs = jobs;
+  task.work = [&](int item) -> Result<std::string> {
+    const auto params = suite.HouseOf(seeds[static_cast<std::size_t>(item)]);
+    const auto house = world::GenerateHouse(params, scenes, pack);
+    if (!house && house.error().code == ErrorCode::kInvalid) return std::string();  // next seed
+    if (!house) return tl::unexpected(house.error());
+    const auto scene = sim::LoadScene(house->folder);
+    if (!scene) return tl::unexpected(scene.error());
+    return house->scene_id + " " + bench::HexHash(scene->mesh_hash);
+  };
+  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
+    if (answer.end != bench::ItemEnd::kDone) {
+      return Fail(answer.error.code, answer.error.Message(),
+                  fmt::format("house of seed {}", seeds[static_cast<std::size_t>(item)]));
+    }
+    console.Progress(fmt::format("house {} of {}", ++done, seeds.size()));
+    const std::size_t blank = answer.text.find(' ');
+    if (blank != std::string::npos) {
+      passed[answer.text.substr(0, blank)] = answer.text.substr(blank + 1);
+    }
+    return {};
+  };
+  return bench::RunPool(task);
+}
+
+}  // namespace
+
+Result<MeshHashes> GenerateBuildings(const bench::SuiteDefinition& suite, const fs::path& scenes,
+                                     const world::FurniturePack* pack, int jobs, Console& console) {
+  if (!bench::CanGenerate(suite)) {
+    return Fail(ErrorCode::kUnsupported,
+                fmt::format("needs edition {} of the generator, which this program does not have",
+                            suite.generator_version),
+                suite.name);
+  }
+  MeshHashes meshes;
+  std::uint64_t next = suite.first_seed;
+  while (static_cast<int>(meshes.size()) < suite.houses) {
+    std::vector<std::uint64_t> seeds;
+    if (next >= suite.first_seed + kSeeds) {
+      return Fail(ErrorCode::kInvalid, "too few seeds give a house", suite.name);
+    }
+    for (int left = suite.houses - static_cast<int>(meshes.size()); left > 0; --left) {
+      seeds.push_back(next++);
+    }
+    if (auto ok = MakeHouses(suite, scenes, seeds, pack, jobs, meshes, console); !ok) {
+      return tl::unexpected(ok.error());
+    }
+  }
+  return meshes;
+}
+
+Result<MeshHashes> ImportDrawnHomes(const fs::path& jar, const fs::path& scenes, int jobs,
+                                    Console& console) {
+  std::error_code error;
+  if (!fs::is_regular_file(jar, error)) {
+    return Fail(ErrorCode::kNotFound,
+                "no such file; install the package sweethome3d, or unpack it and name its "
+                "sweethome3d.jar with --homes",
+                jar.string());
+  }
+  const auto homes = bench::DrawnHomes();
+  MeshHashes meshes;
+  bench::PoolTask task;
+  task.count = static_cast<int>(homes.size());
+  task.jobs = jobs;
+  const auto id_of = [&](int item) {
+    return fmt::format("{:05}-{}", item + 1, homes[static_cast<std::size_t>(item)]);
+  };
+  task.work = [&](int item) -> Result<std::string> {
+    homes::ImportOptions import;
+    import.input = jar;
+    import.out_dir = scenes;
+    import.home = homes[static_cast<std::size_t>(item)];
+    import.name = id_of(item);
+    const auto report = homes::ImportScene(import);
+    if (!report) return tl::unexpected(report.error());
+    return MeshHashOf(report->folder);
+  };
+  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
+    if (answer.end != bench::ItemEnd::kDone)
+      return Fail(answer.error.code, answer.error.Message(), id_of(item));
+    meshes[id_of(item)] = answer.text;
+    console.Progress(fmt::format("home {} of {}", meshes.size(), homes.size()));
+    return {};
+  };
+  if (auto ok = bench::RunPool(task); !ok) return tl::unexpected(ok.error());
+  return meshes;
+}
+
+Result<MeshHashes> CopyBuildings(const fs::path& from, const fs::path& scenes, Console& console) {
+  const auto ids = bench::ListScenes(from);
+  if (!ids) return tl::unexpected(ids.error());
+  MeshHashes meshes;
+  for (const std::string& id : *ids) {
+    const fs::path source = (from / id).parent_path();
+    const std::string name = source.filename().string();
+    if (meshes.contains(name))
+      return Fail(ErrorCode::kInvalid, "two scenes are called " + name, from.string());
+    const auto hash = MeshHashOf(source);
+    if (!hash) return tl::unexpected(hash.error());
+    std::error_code error;
+    fs::create_directories(scenes, error);
+    fs::copy(source, scenes / name, fs::copy_options::recursive, error);
+    if (error) return Fail(ErrorCode::kIo, error.message(), (scenes / name).string());
+    meshes[name] = *hash;
+    console.Progress(fmt::format("building {} of {}", meshes.size(), ids->size()));
+  }
+  if (auto ok = world::WriteDatasetConfig(scenes); !ok) return tl::unexpected(ok.error());
+  return meshes;
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The buildings of a suite's tracks, below a folder of scenes. Each function gives the mesh hash of
+// each scene by its name.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "commands.h"
+#include "crossnav/bench/suite.h"
+
+namespace crossnav::app {
+
+using MeshHashes = std::map<std::string, std::string>;
+
+/// Houses of the first seeds that give one, whatever the number of processes.
+Result<MeshHashes> GenerateBuildings(const bench::SuiteDefinition& suite,
+                                     const std::filesystem::path& scenes,
+                                     const world::FurniturePack* pack, int jobs, Console& console);
+
+/// The example homes that the archive `jar` of Sweet Home 3D holds. Error: no such file.
+Result<MeshHashes> ImportDrawnHomes(const std::filesystem::path& jar,
+                                    const std::filesystem::path& scenes, int jobs,
+                                    Console& console);
+
+/// A copy of every scene below `from`, where `crossnav scene import` wrote them.
+Result<MeshHashes> CopyBuildings(const std::filesystem::path& from,
+                                 const std::filesystem::path& scenes, Console& console);
+
+}  // namespace crossnav::app
