@@ -30,6 +30,7 @@ Result<bench::RunConfig> LoadConfig(const CommonOptions& options,
 
 struct WorldOptions {
   std::uint64_t seed = 1;
+  int edition = 1;            ///< of the generator
   int count = 1, floors = 2;  ///< floors 0 = drawn from the seed
   double area_m2 = 0;         ///< of one floor; 0 = drawn from the seed
   std::string out;
@@ -41,6 +42,7 @@ struct WorldOptions {
   world::HouseParams ParamsOf(int i) const {
     world::HouseParams params;
     params.seed = seed + static_cast<std::uint64_t>(i);
+    params.edition = edition;
     params.floors = floors;
     params.area_m2 = area_m2;
     params.is_scan = scan;

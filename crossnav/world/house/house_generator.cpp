@@ -10,6 +10,7 @@
 #include "crossnav/world/furniture/furniture_pack.h"
 #include "crossnav/world/house/house_file.h"
 #include "crossnav/world/house/house_gate.h"
+#include "crossnav/world/layout/edition.h"
 #include "crossnav/world/layout/house_plan.h"
 #include "crossnav/world/mesh/subdivide.h"
 #include "crossnav/world/scene/glb_writer.h"
@@ -28,11 +29,19 @@ constexpr double kLitEdge_m = 0.5;    // chosen: fine enough for the shadow of a
 constexpr double kLitArea_m2 = 0.03;  // chosen: skirtings and frames need no finer light
 
 Result<void> CheckParams(const HouseParams& params) {
+  if (params.edition < 1 || params.edition > kEditions) {
+    return Fail(ErrorCode::kInvalid, fmt::format("edition must be 1 to {}", kEditions),
+                "world.edition");
+  }
   if (params.floors < 0 || params.floors > 4) {
     return Fail(ErrorCode::kInvalid, "floors must be 1 to 4, or 0 to draw", "world.floors");
   }
-  if (params.area_m2 != 0 && !(params.area_m2 >= 60 && params.area_m2 <= 400)) {
-    return Fail(ErrorCode::kInvalid, "area must be 60 to 400 m2, or 0 to draw", "world.area_m2");
+  const double most_m2 = EditionOf(params.edition).max_area_m2;
+  if (params.area_m2 != 0 && !(params.area_m2 >= 60 && params.area_m2 <= most_m2)) {
+    return Fail(ErrorCode::kInvalid,
+                fmt::format("area must be 60 to {} m2 in edition {}, or 0 to draw", most_m2,
+                            params.edition),
+                "world.area_m2");
   }
   if (params.max_attempts < 1) {
     return Fail(ErrorCode::kInvalid, "at least one attempt", "world.max_attempts");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/world/layout/edition.h"
+#include "crossnav/world/layout/house_shapes.h"
 #include "crossnav/world/layout/layout.h"
 #include "crossnav/world/layout/plan_turn.h"
 #include "crossnav/world/layout/room_types.h"
@@ -123,7 +125,7 @@ struct Draft {
     const bool has_door = shaft.params.kind == StairKind::kBasement;
     if (level < shaft.hi) {
       const StairBlock b = StairIn(layout, shaft, level, shaft.params.rise_m);
-      open(b.entry_x0, b.entry_x1, false);
+      open(b.entry_x0, b.entry_x1, shaft.params.kind == StairKind::kAttic);
     }
     if (level > shaft.lo) {
       const StairBlock b = StairIn(layout, shaft, level - 1, shaft.params.rise_m);
@@ -169,7 +171,11 @@ struct Draft {
         o.kind = draw < 0.55   ? OpeningKind::kDoorway
                  : draw < 0.85 ? OpeningKind::kDoorOpen
                                : OpeningKind::kDoorAjar;
-        o.width_m = rng.Uniform(0.8, 0.95);
+        o.width_m = edition.door_m.Draw(rng);
+        if (o.kind == OpeningKind::kDoorAjar && edition.ajar_deg.lo < edition.ajar_deg.hi) {
+          o.ajar_deg = edition.ajar_deg.Draw(rng);
+        }
+        if (Draws(edition.threshold_chance, rng)) o.threshold_m = rng.Uniform(0.015, 0.06);
       }
       o.center_m = rng.Uniform(0.0, length);
       o.hinge_at_a = rng.Chance(0.5);
@@ -294,16 +300,20 @@ struct Draft {
   }
 
   std::vector<std::pair<int, int>> balconies;
+  const Edition& edition = EditionOf(params.edition);
 };
 
 }  // namespace
 
 Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng) {
+  const Edition& edition = EditionOf(params.edition);
   LayoutParams lp;
+  lp.edition = params.edition;
   lp.levels = params.floors;
   lp.area_m2 = params.area_m2;
   lp.slab_m = 0.01 * rng.Int(20, 30);
   lp.has_basement = lp.levels >= 2 && rng.Chance(0.3);
+  lp.has_attic = lp.levels >= (lp.has_basement ? 3 : 2) && Draws(edition.attic_chance, rng);
   Draft draft{params, rng, {}, {}, lp.has_basement ? 1 : 0, {}, {}, true, {}};
   draft.DrawLevels(lp.levels, lp.slab_m, lp);
   auto layout = DrawLayout(lp, rng);
@@ -324,6 +334,10 @@ Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng) {
   for (int level = 0; level < lp.levels; ++level) draft.AddDoors(level);
   draft.AddWindows();
   RailVoids(draft.plan, rng.Int(0, 2));
+  if (edition.round_chance > 0) RoundRooms(draft.plan, edition.round_chance, rng);
+  if (Draws(edition.sloping_chance, rng)) {
+    SlopeTopLevel(draft.plan, draft.layout.depth_m, rng);
+  }
   if (!draft.is_good) return Fail(ErrorCode::kInvalid, "a door finds no place");
   TurnPlan(draft.plan, rng.Int(0, 3));
   return std::move(draft.plan);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/world/layout/stair_draw.h"
+
 namespace crossnav::world {
 namespace {
 
@@ -49,42 +51,11 @@ std::vector<double> Slice(double total, double depth, bool wants_small, Rng& rng
   return widths;
 }
 
-/// A stair for storeys `lo`..`hi` whose risers keep to 15..21 cm on all of them.
-std::optional<StairParams> DrawStair(StairKind kind, const LayoutParams& params, int lo, int hi,
-                                     Rng& rng) {
-  double least = 1e9, most = 0;
-  for (int k = lo; k < hi; ++k) {
-    least = std::min(least, params.rises_m[static_cast<std::size_t>(k)]);
-    most = std::max(most, params.rises_m[static_cast<std::size_t>(k)]);
-  }
-  StairParams stair;
-  stair.kind = kind;
-  const int fewest = static_cast<int>(std::ceil(most / 0.21)),
-            highest = static_cast<int>(std::floor(least / 0.15));
-  if (fewest > highest) return std::nullopt;
-  stair.risers =
-      std::clamp(static_cast<int>(std::lround(most / rng.Uniform(0.165, 0.195))), fewest, highest);
-  stair.tread_m = std::clamp(0.63 - 2 * most / stair.risers, 0.24, 0.32);  // Blondel's rule
-  const bool is_spiral = kind == StairKind::kSpiral;
-  stair.width_m = is_spiral ? rng.Uniform(0.8, 1.0) : rng.Uniform(0.8, 1.2);
-  stair.slab_m = params.slab_m;
-  stair.body = static_cast<StairBody>(rng.Int(0, 2));
-  stair.rail_style = rng.Chance(0.5) ? 0 : rng.Int(1, 2);
-  stair.rise_m = most;
-  return stair;
-}
-
-StairKind DrawKind(Rng& rng) {
-  constexpr StairKind kKinds[] = {
-      StairKind::kStraight, StairKind::kStraightLanding, StairKind::kL,      StairKind::kU,
-      StairKind::kU,        StairKind::kWinder,          StairKind::kSpiral, StairKind::kDouble};
-  return kKinds[rng.Below(std::size(kKinds))];
-}
-
 struct Drawing {
   const LayoutParams& params;
   Rng& rng;
   HouseLayout house;
+  const Edition& edition = EditionOf(params.edition);
 
   double StripDepth(bool is_north) const {
     return is_north ? house.depth_m - house.corridor_y1 : house.corridor_y0;
@@ -126,17 +97,28 @@ struct Drawing {
     return false;
   }
 
-  bool AddShaft(int lo, int hi, bool is_basement, double end_m) {
+  Storeys StoreysOf(int lo, int hi) const {
+    Storeys storeys{1e9, 0, params.slab_m};
+    for (int k = lo; k < hi; ++k) {
+      const double rise_m = params.rises_m[static_cast<std::size_t>(k)];
+      storeys.least_m = std::min(storeys.least_m, rise_m);
+      storeys.most_m = std::max(storeys.most_m, rise_m);
+    }
+    return storeys;
+  }
+
+  bool AddShaft(int lo, int hi, StairUse use, double end_m) {
     for (int attempt = 0; attempt < 6; ++attempt) {
       Shaft shaft;
       shaft.lo = lo;
       shaft.hi = hi;
-      const auto kind = is_basement ? StairKind::kBasement : DrawKind(rng);
-      const auto stair = DrawStair(kind, params, lo, hi, rng);
+      const auto kind = DrawStairKind(edition, use, rng);
+      const auto stair = DrawStair(edition, kind, StoreysOf(lo, hi), rng);
       if (!stair) return false;
       shaft.params = *stair;
       const bool is_straight = kind == StairKind::kStraight || kind == StairKind::kStraightLanding;
-      shaft.is_enclosed = is_basement || (is_straight && rng.Chance(0.3));
+      shaft.is_enclosed = use == StairUse::kCellar || (is_straight && rng.Chance(0.3)) ||
+                          (use == StairUse::kAttic && rng.Chance(0.6));
       shaft.params.has_right_rail = !shaft.is_enclosed;
       if (PlaceShaft(shaft, end_m)) return true;
     }
@@ -145,18 +127,18 @@ struct Drawing {
 
   bool AddShafts(double end_m) {
     int lo = 0;
-    const int top = params.levels - 1;
+    const int top = params.levels - 1, main_top = params.has_attic ? top - 1 : top;
     if (params.has_basement && top >= 1) {
-      if (!AddShaft(0, 1, true, end_m)) return false;
+      if (!AddShaft(0, 1, StairUse::kCellar, end_m)) return false;
       lo = 1;
     }
-    while (lo < top) {
+    while (lo < main_top) {
       // Mostly one shaft all the way up; sometimes the next storey has its stair elsewhere.
-      const int hi = rng.Chance(0.7) ? top : lo + 1;
-      if (!AddShaft(lo, hi, false, end_m)) return false;
+      const int hi = rng.Chance(0.7) ? main_top : lo + 1;
+      if (!AddShaft(lo, hi, StairUse::kMain, end_m)) return false;
       lo = hi;
     }
-    return true;
+    return lo == top || AddShaft(lo, top, StairUse::kAttic, end_m);
   }
 
   /// Cells of one strip of one level; `voids` are left open in it.

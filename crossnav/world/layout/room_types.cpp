@@ -150,6 +150,10 @@ std::string_view NameOf(RoomType type) {
       return "balcony";
     case kVoid:
       return "void";
+    case kMezzanine:
+      return "mezzanine";
+    case kMeeting:
+      return "meeting room";
   }
   return "?";
 }
