@@ -8,6 +8,7 @@
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/furniture/furnish.h"
 #include "crossnav/world/furniture/furniture_pack.h"
+#include "crossnav/world/furniture/lived_in.h"
 #include "crossnav/world/house/house_file.h"
 #include "crossnav/world/house/house_gate.h"
 #include "crossnav/world/layout/edition.h"
@@ -32,6 +33,9 @@ Result<void> CheckParams(const HouseParams& params) {
   if (params.edition < 1 || params.edition > kEditions) {
     return Fail(ErrorCode::kInvalid, fmt::format("edition must be 1 to {}", kEditions),
                 "world.edition");
+  }
+  if (params.building == Building::kOffice && params.edition == 1) {
+    return Fail(ErrorCode::kInvalid, "offices are of edition 2: add --edition 2", "world.building");
   }
   if (params.floors < 0 || params.floors > 4) {
     return Fail(ErrorCode::kInvalid, "floors must be 1 to 4, or 0 to draw", "world.floors");
@@ -58,6 +62,10 @@ HouseParams Settled(HouseParams params) {
   const double area_m2 = std::exp(rng.Uniform(std::log(60.0), std::log(240.0)));
   if (params.floors == 0) params.floors = floors;
   if (params.area_m2 == 0) params.area_m2 = area_m2;
+  if (params.building == Building::kDrawn) {
+    const bool is_office = Draws(EditionOf(params.edition).office_chance, rng);
+    params.building = is_office ? Building::kOffice : Building::kHome;
+  }
   return params;
 }
 
@@ -123,6 +131,10 @@ Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
   if (!plan) return plan;
   plan->id = SceneIdOf(params);
   Furnish(*plan, source, rng);
+  const Edition& edition = EditionOf(params.edition);
+  if (edition.number == 1) return plan;
+  LiveIn(*plan, {edition.clutter_chance, edition.small_goal_chance, edition.hidden_goal_chance},
+         source, rng);
   return plan;
 }
 

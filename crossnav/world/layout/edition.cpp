@@ -9,7 +9,7 @@ namespace {
 Edition Second() {
   Edition e;
   e.number = 2;
-  e.max_area_m2 = 1000;
+
   e.has_wide_stairs = true;
   e.attic_chance = 0.35;
   e.door_m = {0.65, 0.95};

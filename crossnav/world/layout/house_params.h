@@ -17,7 +17,7 @@ struct HouseParams {
   int edition = 1;  ///< of the generator (edition.h)
   Building building = Building::kDrawn;
   int floors = 0;      ///< 1 to 4; 0 = drawn from the seed (2 most often)
-  double area_m2 = 0;  ///< of one floor, 60 to 400 (edition 2: to 1000); 0 = drawn from the seed
+  double area_m2 = 0;  ///< of one floor, 60 to 400; 0 = drawn from the seed
   bool has_textures = true;
   bool has_lights = true;  ///< light of windows and lamps, baked into vertex colours
   bool is_scan = false;    ///< holes, noise and floating fragments, as in a real scan

@@ -7,6 +7,8 @@
 #include "crossnav/world/layout/edition.h"
 #include "crossnav/world/layout/house_shapes.h"
 #include "crossnav/world/layout/layout.h"
+#include "crossnav/world/layout/mezzanine.h"
+#include "crossnav/world/layout/open_plan.h"
 #include "crossnav/world/layout/plan_turn.h"
 #include "crossnav/world/layout/room_types.h"
 #include "crossnav/world/plan/plan_walls.h"
@@ -47,6 +49,7 @@ struct Draft {
   }
 
   LevelRole RoleOf(int level) const {
+    if (params.building == Building::kOffice) return LevelRole::kOffice;
     if (level < ground) return LevelRole::kBasement;
     if (plan.levels.size() == 1) return LevelRole::kOnly;
     return level == ground ? LevelRole::kGround : LevelRole::kUpper;
@@ -63,14 +66,35 @@ struct Draft {
     std::vector<int> rooms;
     for (std::size_t i = 0; i < cells.cells.size(); ++i) {
       rooms.push_back(AddRoom(types[i], level, {cells.cells[i].rect}));
-      if (types[i] != RoomType::kVoid) continue;
-      const Rect& open = cells.cells[i].rect;
-      plan.voids.emplace_back(level, open);
-      for (Room& below : plan.rooms) {  // the same cell of the level below loses its ceiling
-        if (below.level == level - 1 && below.rects[0] == open) below.has_ceiling = false;
-      }
+      if (types[i] == RoomType::kVoid) AddVoid(rooms.back());
     }
     rooms_of_level.push_back(rooms);
+    if (!Draws(edition.open_plan_chance, rng)) return;
+    std::vector<int> joinable;  // a room across the corridor's end may be sunken
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      if (!cells.cells[i].is_end_room) joinable.push_back(rooms[i]);
+    }
+    OpenLevel(plan, joinable, hall_of_level.back(), rng);
+  }
+
+  void AddVoid(int room) {
+    const auto at = static_cast<std::size_t>(room);
+    const int level = plan.rooms[at].level;
+    const Rect open = plan.rooms[at].rects[0];
+    VoidPlace place{room, -1, open.y0 >= layout.corridor_y1 - 1e-6,
+                    plan.levels[static_cast<std::size_t>(level)].floor_m -
+                        plan.levels[static_cast<std::size_t>(level) - 1].ceiling_m};
+    for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
+      Room& below = plan.rooms[i];  // the same cell of the level below loses its ceiling
+      if (below.level != level - 1 || !(below.rects[0] == open)) continue;
+      below.has_ceiling = false;
+      place.below_room = static_cast<int>(i);
+    }
+    if (Draws(edition.mezzanine_chance, rng)) {
+      const Mezzanine made = AddMezzanine(plan, place, rng);
+      if (made.room >= 0 && !made.has_own_stair) mezzanines.push_back(made.room);
+    }
+    plan.voids.emplace_back(level, plan.rooms[at].rects[0]);
   }
 
   void AddStairs() {
@@ -153,6 +177,7 @@ struct Draft {
 
   /// A door or passage somewhere along the wall of two rooms.
   bool Connect(int from, int to) {
+    if (IsOpenBetween(plan, from, to)) return true;
     Wall* wall =
         from == hall_of_level[LevelOf(to)] ? FindCorridorWall(to) : FindWall(plan, from, to);
     if (!wall) return false;
@@ -194,6 +219,9 @@ struct Draft {
                            ? hall_of_level[k]
                            : rooms_of_level[k][static_cast<std::size_t>(cells[i].parent)];
       is_good = Connect(from, rooms_of_level[k][i]) && is_good;
+    }
+    for (const int room : mezzanines) {
+      if (LevelOf(room) == k) is_good = Connect(hall_of_level[k], room) && is_good;
     }
     if (level != ground) return;
     Opening front;
@@ -300,6 +328,7 @@ struct Draft {
   }
 
   std::vector<std::pair<int, int>> balconies;
+  std::vector<int> mezzanines = {};  ///< entered from the hall
   const Edition& edition = EditionOf(params.edition);
 };
 
@@ -313,7 +342,10 @@ Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng) {
   lp.area_m2 = params.area_m2;
   lp.slab_m = 0.01 * rng.Int(20, 30);
   lp.has_basement = lp.levels >= 2 && rng.Chance(0.3);
-  lp.has_attic = lp.levels >= (lp.has_basement ? 3 : 2) && Draws(edition.attic_chance, rng);
+  lp.is_office = params.building == Building::kOffice;
+  if (lp.is_office) lp.has_basement = false;
+  lp.has_attic =
+      !lp.is_office && lp.levels >= (lp.has_basement ? 3 : 2) && Draws(edition.attic_chance, rng);
   Draft draft{params, rng, {}, {}, lp.has_basement ? 1 : 0, {}, {}, true, {}};
   draft.DrawLevels(lp.levels, lp.slab_m, lp);
   auto layout = DrawLayout(lp, rng);
@@ -335,7 +367,7 @@ Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng) {
   draft.AddWindows();
   RailVoids(draft.plan, rng.Int(0, 2));
   if (edition.round_chance > 0) RoundRooms(draft.plan, edition.round_chance, rng);
-  if (Draws(edition.sloping_chance, rng)) {
+  if (!lp.is_office && Draws(edition.sloping_chance, rng)) {
     SlopeTopLevel(draft.plan, draft.layout.depth_m, rng);
   }
   if (!draft.is_good) return Fail(ErrorCode::kInvalid, "a door finds no place");

@@ -12,6 +12,7 @@ namespace {
 constexpr double kMinCell_m = 2.0;     // chosen: narrower is a cupboard
 constexpr double kMinStrip_m = 2.5;    // chosen: depth of a usable room
 constexpr double kDeepCell_m = 5.2;    // chosen: deeper cells are divided
+constexpr double kOfficeCell_m = 2.9;  // chosen: a desk and a shelf
 constexpr double kUsefulRest_m = 1.6;  // chosen: depth behind a shaft that still makes a room
 
 struct Interval {
@@ -32,9 +33,8 @@ std::vector<Interval> Free(double end, std::vector<Interval> taken) {
   return free;
 }
 
-/// Widths that fill `total` with cells between kMinCell_m and what suits the depth.
-std::vector<double> Slice(double total, double depth, bool wants_small, Rng& rng) {
-  const double most = std::clamp(24 / depth, 3.4, 6.5);
+/// Widths that fill `total` with cells between kMinCell_m and `most`.
+std::vector<double> Slice(double total, double most, bool wants_small, Rng& rng) {
   std::vector<double> widths;
   double left = total;
   if (wants_small && left > 2 * kMinCell_m + 0.6) {
@@ -42,7 +42,8 @@ std::vector<double> Slice(double total, double depth, bool wants_small, Rng& rng
     left -= widths.back();
   }
   while (left > most) {
-    const double w = std::min(rng.Uniform(0.6 * most, most), left - kMinCell_m);
+    const double least = std::max(0.6 * most, kMinCell_m);
+    const double w = std::min(rng.Uniform(least, most), left - kMinCell_m);
     widths.push_back(w);
     left -= w;
   }
@@ -138,7 +139,10 @@ struct Drawing {
       if (!AddShaft(lo, hi, StairUse::kMain, end_m)) return false;
       lo = hi;
     }
-    return lo == top || AddShaft(lo, top, StairUse::kAttic, end_m);
+    if (lo < top && !AddShaft(lo, top, StairUse::kAttic, end_m)) return false;
+    // The second stair of an office is an escape: one does without it where it finds no place.
+    if (params.is_office && top > 0) AddShaft(0, top, StairUse::kMain, end_m);
+    return true;
   }
 
   /// Cells of one strip of one level; `voids` are left open in it.
@@ -158,9 +162,10 @@ struct Drawing {
       out.cells.push_back({v, -1, false, true});
     }
     bool wants_small = rng.Chance(0.75);
+    const double most = params.is_office ? kOfficeCell_m : std::clamp(24 / depth, 3.4, 6.5);
     for (const Interval& in : Free(end_m, taken)) {
       double x = in.lo;
-      for (double w : Slice(in.hi - in.lo, depth, wants_small, rng)) {
+      for (double w : Slice(in.hi - in.lo, most, wants_small, rng)) {
         AddCell(out, rect, x, x + w, depth);
         x += w;
       }
@@ -203,6 +208,7 @@ struct Drawing {
   bool Draw() {
     const double aspect = rng.Uniform(1.15, 1.75);
     house.width_m = std::sqrt(params.area_m2 * aspect);
+    if (params.is_office) house.width_m = params.area_m2 / rng.Uniform(8.2, 9.4);
     house.depth_m = params.area_m2 / house.width_m;
     const double corridor = rng.Uniform(1.35, params.area_m2 > 110 ? 2.0 : 1.55);
     const double rest = house.depth_m - corridor;
@@ -218,7 +224,8 @@ struct Drawing {
     std::vector<double> ends;
     double shortest = house.width_m;
     for (int level = 0; level < params.levels; ++level) {
-      const bool has_end_room = params.area_m2 > 75 && rng.Chance(0.6);
+      const bool has_end_room =
+          params.area_m2 > 75 && (rng.Chance(0.6) || (params.is_office && level == 0));
       const double room = has_end_room ? rng.Uniform(3.6, std::min(6.0, 0.38 * house.width_m)) : 0;
       ends.push_back(house.width_m - std::max(0.0, room));
       shortest = std::min(shortest, ends.back());

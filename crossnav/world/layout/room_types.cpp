@@ -29,6 +29,10 @@ std::vector<RoomType> Programme(LevelRole role, Rng& rng) {
     case LevelRole::kBasement:
       rest = {kGarage, kStorage, kLiving, kOffice, kStorage, kBedroom, kStorage, kStorage, kWc};
       break;
+    case LevelRole::kOffice:
+      rest = {kLiving, kMeeting, kOffice, kOffice,  kKitchen, kOffice, kOffice, kMeeting,
+              kOffice, kOffice,  kOffice, kStorage, kOffice,  kOffice, kOffice, kWc};
+      break;
   }
   return rest;
 }
