@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "crossnav/sim/navmesh.h"
@@ -40,15 +41,12 @@ Result<void> CheckParams(const HouseParams& params) {
   if (params.floors < 0 || params.floors > 4) {
     return Fail(ErrorCode::kInvalid, "floors must be 1 to 4, or 0 to draw", "world.floors");
   }
-  const double most_m2 = EditionOf(params.edition).max_area_m2;
-  if (params.area_m2 != 0 && !(params.area_m2 >= 60 && params.area_m2 <= most_m2)) {
-    return Fail(ErrorCode::kInvalid,
-                fmt::format("area must be 60 to {} m2 in edition {}, or 0 to draw", most_m2,
-                            params.edition),
-                "world.area_m2");
+  if (params.area_m2 != 0 && !(params.area_m2 >= 60 && params.area_m2 <= 400)) {
+    return Fail(ErrorCode::kInvalid, "area must be 60 to 400 m2, or 0 to draw", "world.area_m2");
   }
-  if (params.max_attempts < 1) {
-    return Fail(ErrorCode::kInvalid, "at least one attempt", "world.max_attempts");
+  if (params.max_attempts < 0) {
+    return Fail(ErrorCode::kInvalid, "at least one attempt, or 0 for the edition's",
+                "world.max_attempts");
   }
   return {};
 }
@@ -91,12 +89,36 @@ sim::Scene AsAsked(sim::Scene scene, const HouseParams& params) {
   return scene;
 }
 
+/// Takes furniture out of rooms that it blocks, the last placed half first.
+Result<void> ClearRooms(HousePlan& plan) {
+  constexpr int kRounds = 6;  // chosen: large buildings have a few such rooms
+  for (int round = 0; round < kRounds; ++round) {
+    const auto navmesh = sim::NavMesh::Build(BuildHouse(plan), {});
+    if (!navmesh) return tl::unexpected(navmesh.error());
+    const auto room = BlockedRoom(plan, *navmesh);
+    if (!room) return {};
+    const auto is_in_room = [&](const Placement& p) { return p.room == *room; };
+    auto surplus =
+        (std::count_if(plan.furniture.begin(), plan.furniture.end(), is_in_room) + 1) / 2;
+    if (surplus == 0) return {};  // the room itself is at fault: the gate says so
+    for (auto i = plan.furniture.size(); i-- > 0 && surplus > 0;) {
+      if (!is_in_room(plan.furniture[i])) continue;
+      plan.furniture.erase(plan.furniture.begin() + static_cast<std::ptrdiff_t>(i));
+      --surplus;
+    }
+  }
+  return {};
+}
+
 /// One plan: drawn, built, checked, lit, written. kIo where the disk refuses, else what the plan
 /// lacks.
 Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::path& out_dir,
                             const FurniturePack* pack) {
-  const auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
+  auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
   if (!plan) return tl::unexpected(plan.error());
+  if (params.edition > 1) {
+    if (auto ok = ClearRooms(*plan); !ok) return tl::unexpected(ok.error());
+  }
   auto [clean, glowing] = BuildHouseWithLights(*plan, {params.has_textures, params.seed});
   const sim::Scene checked = AsAsked(clean, params);
   const auto navmesh = sim::NavMesh::Build(checked, {});
@@ -138,11 +160,16 @@ Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
   return plan;
 }
 
+int AttemptsFor(const HouseParams& params) {
+  return params.max_attempts > 0 ? params.max_attempts : EditionOf(params.edition).max_attempts;
+}
+
 Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out_dir,
                                   const FurniturePack* pack) {
   if (auto ok = CheckParams(params); !ok) return tl::unexpected(ok.error());
   std::map<std::string, int> refusals;
-  for (int attempt = 0; attempt < params.max_attempts; ++attempt) {
+  const int attempts = AttemptsFor(params);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     auto report = Attempt(params, attempt, out_dir, pack);
     if (report) {
       report->attempts = attempt + 1;
@@ -156,10 +183,9 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
   for (const auto& [what, count] : refusals) {
     reasons += fmt::format("{}{} ({}x)", reasons.empty() ? "" : ", ", what, count);
   }
-  return Fail(
-      ErrorCode::kInvalid,
-      fmt::format("no house passed the checks in {} attempts: {}", params.max_attempts, reasons),
-      fmt::format("seed {}", params.seed));
+  return Fail(ErrorCode::kInvalid,
+              fmt::format("no house passed the checks in {} attempts: {}", attempts, reasons),
+              fmt::format("seed {}", params.seed));
 }
 
 }  // namespace crossnav::world

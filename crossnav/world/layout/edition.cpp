@@ -9,6 +9,7 @@ namespace {
 Edition Second() {
   Edition e;
   e.number = 2;
+  e.max_attempts = 40;
 
   e.has_wide_stairs = true;
   e.attic_chance = 0.35;

@@ -16,7 +16,7 @@ struct Range {
 
 struct Edition {
   int number = 1;
-  double max_area_m2 = 400;       ///< of one floor
+  int max_attempts = 12;  ///< plans tried; chosen: more than half of them pass (`world stats`)
   bool has_wide_stairs = false;   ///< stairs of every steepness, with half turns of winders
   double attic_chance = 0;        ///< that a stair of its own leads to the top level
   Range door_m{0.80, 0.95};       ///< clear width

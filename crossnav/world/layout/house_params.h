@@ -21,7 +21,7 @@ struct HouseParams {
   bool has_textures = true;
   bool has_lights = true;  ///< light of windows and lamps, baked into vertex colours
   bool is_scan = false;    ///< holes, noise and floating fragments, as in a real scan
-  int max_attempts = 12;   ///< plans tried; chosen: more than half of them pass (`world stats`)
+  int max_attempts = 0;    ///< plans tried; 0 = as many as the edition says
 };
 
 }  // namespace crossnav::world

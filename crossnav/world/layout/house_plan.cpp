@@ -132,7 +132,10 @@ struct Draft {
 
   void OpenStairwell(int room, const Shaft& shaft) {
     const int level = plan.rooms[static_cast<std::size_t>(room)].level;
-    Wall* wall = FindWall(plan, room, hall_of_level[static_cast<std::size_t>(level)]);
+    // The longest wall may be one to an open stair beside it, which is part of the hall.
+    Wall* wall = edition.number > 1
+                     ? FindCorridorWall(room)
+                     : FindWall(plan, room, hall_of_level[static_cast<std::size_t>(level)]);
     if (!wall) {
       is_good = false;
       return;
