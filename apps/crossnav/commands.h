@@ -30,8 +30,10 @@ Result<bench::RunConfig> LoadConfig(const CommonOptions& options,
 
 struct WorldOptions {
   std::uint64_t seed = 1;
+  int edition = 1;            ///< of the generator
   int count = 1, floors = 2;  ///< floors 0 = drawn from the seed
   double area_m2 = 0;         ///< of one floor; 0 = drawn from the seed
+  world::Building building = world::Building::kDrawn;
   std::string out;
   std::string furniture;      ///< pack folder, "none", or empty = the default place
   std::string contact_sheet;  ///< .png; empty = none
@@ -41,6 +43,8 @@ struct WorldOptions {
   world::HouseParams ParamsOf(int i) const {
     world::HouseParams params;
     params.seed = seed + static_cast<std::uint64_t>(i);
+    params.edition = edition;
+    params.building = building;
     params.floors = floors;
     params.area_m2 = area_m2;
     params.is_scan = scan;

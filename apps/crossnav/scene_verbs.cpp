@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <map>
+
+#include "crossnav/world/layout/edition.h"
 #include "verbs.h"
 
 namespace crossnav::app {
@@ -12,6 +15,15 @@ void AddHouses(CLI::App* verb, WorldOptions& world) {
       ->check(CLI::Range(0, 4));
   verb->add_option("--area", world.area_m2, "Area of a floor [m2], 60 to 400; default: by the seed")
       ->check(CLI::Range(60.0, 400.0));
+  verb->add_option("--edition", world.edition,
+                   "Edition of the generator: 1, of which the suites are made, or 2, which builds "
+                   "what others build; default: 1")
+      ->check(CLI::Range(1, world::kEditions));
+  verb->add_option("--building", world.building,
+                   "home, or office: corridors with many small rooms (edition 2); default: by the "
+                   "seed")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, world::Building>{
+          {"home", world::Building::kHome}, {"office", world::Building::kOffice}}));
   verb->add_option("--furniture", world.furniture,
                    "Furniture pack, or none for simple shapes; default: the one that assets import "
                    "made, where there is one")

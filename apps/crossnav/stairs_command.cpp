@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -157,10 +158,30 @@ Result<void> TryFalse(const bench::RunConfig& config, bench::FalseEntrance kind,
 /// up to this many a wanted attempt.
 constexpr int kSeedsPerAttempt = 4;  // chosen: most worlds have one
 
+/// A kind of stair by its name.
+struct StairMaker {
+  std::string name;
+  std::function<bench::StairWorld(std::uint64_t seed)> make;
+};
+
+std::vector<StairMaker> StairMakers() {
+  std::vector<StairMaker> makers;
+  for (const auto kind : bench::kStairKinds) {
+    makers.push_back({std::string(world::NameOf(kind)),
+                      [kind](std::uint64_t seed) { return bench::MakeStairWorld(kind, seed); }});
+  }
+  for (const auto& variant : bench::kStairVariants) {
+    makers.push_back({std::string(variant.name), [&variant](std::uint64_t seed) {
+                        return bench::MakeStairWorld(variant, seed);
+                      }});
+  }
+  return makers;
+}
+
 /// Both directions of one kind, in the same worlds.
 Result<std::vector<Row>> TryKind(const StairsOptions& options, const bench::RunConfig& config,
-                                 world::StairKind kind, Console& console) {
-  const std::string name(world::NameOf(kind));
+                                 const StairMaker& maker, Console& console) {
+  const std::string& name = maker.name;
   std::vector<Row> rows(2);
   rows[0].way = "up";
   rows[1].way = "down";
@@ -171,7 +192,7 @@ Result<std::vector<Row>> TryKind(const StairsOptions& options, const bench::RunC
     if (i == kSeedsPerAttempt * options.count) return tl::unexpected(last);
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
     console.Progress(fmt::format("{}: {} of {}", name, rows[1].attempts + 1, options.count));
-    const auto site = bench::BuildStairSite(kind, seed, config);
+    const auto site = bench::BuildStairSite(maker.make(seed), config);
     if (!site) return tl::unexpected(site.error());
     for (Row& row : rows) {
       if (!is_short(row)) continue;
@@ -212,8 +233,7 @@ bool IsWanted(const StairsOptions& options, std::string_view kind) {
 
 std::vector<std::string> StairTrialKinds() {
   std::vector<std::string> names;
-  names.reserve(std::size(bench::kStairKinds) + std::size(bench::kFalseEntrances));
-  for (const auto kind : bench::kStairKinds) names.emplace_back(world::NameOf(kind));
+  for (const StairMaker& maker : StairMakers()) names.push_back(maker.name);
   for (const auto kind : bench::kFalseEntrances) names.emplace_back(bench::NameOf(kind));
   return names;
 }
@@ -225,9 +245,9 @@ Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& comm
   if (auto ok = bench::CheckOutputFolder(options.keep, "--keep"); !ok) return ok;
   config->eval.action_budget = options.budget;
   Tables tables;
-  for (const auto kind : bench::kStairKinds) {
-    if (!IsWanted(options, world::NameOf(kind))) continue;
-    auto rows = TryKind(options, *config, kind, console);
+  for (const StairMaker& maker : StairMakers()) {
+    if (!IsWanted(options, maker.name)) continue;
+    auto rows = TryKind(options, *config, maker, console);
     if (!rows) return tl::unexpected(rows.error());
     for (Row& row : *rows) tables.stairs.push_back(std::move(row));
   }

@@ -136,7 +136,7 @@ Result<void> WorldStats(const WorldOptions& options, const CommonOptions& /*comm
       totals.wall_s.push_back(wall.count());
       Add(*house, totals);
     } else {
-      totals.plans += params.max_attempts;
+      totals.plans += world::AttemptsFor(params);
       totals.failed.push_back(house.error().Message());
     }
     std::error_code ignored;

@@ -201,6 +201,47 @@ FalseWorld Slope(Rng& rng) {
   return made;
 }
 
+/// Boxes from the front to the wall behind them, each higher than the one before.
+world::ObjectModel Terrace(std::string name, const std::vector<Vector2d>& depth_and_top,
+                           double half_m) {
+  world::ModelBuilder made(std::move(name));
+  made.Colour({130, 104, 84});
+  double y = 0;
+  for (const Vector2d& box : depth_and_top) y += box.x();
+  for (const Vector2d& box : depth_and_top) {
+    made.mesh.AddBox({-half_m, y - box.x(), 0}, {half_m, y, box.y()});
+    y -= box.x();
+  }
+  return made.Finish();
+}
+
+FalseWorld PlaceAtWall(world::ObjectModel model, Rng& rng) {
+  FalseWorld made = TwoRooms();
+  const Vector3d p(rng.Uniform(1.5, 4.5), 0.08, 0);
+  made.p_seen_world = p + Vector3d(0, model.Size().y() + 0.15, 0.1);
+  Place(made, std::move(model), p, 0);
+  return made;
+}
+
+/// One low seat with its back to a wall: a step that leads nowhere.
+FalseWorld Seat(Rng& rng) {
+  const double seat_m = rng.Uniform(0.22, 0.45), back_m = rng.Uniform(0.55, 0.95);
+  return PlaceAtWall(Terrace("couch", {{rng.Uniform(0.4, 0.6), seat_m}, {0.18, back_m}},
+                             0.5 * rng.Uniform(0.7, 2.0)),
+                     rng);
+}
+
+/// Two or three pieces behind each other, each within reach of the one before.
+FalseWorld Stack(Rng& rng) {
+  std::vector<Vector2d> boxes;
+  double top_m = 0;
+  for (int i = rng.Int(2, 3); i > 0; --i) {
+    top_m += rng.Uniform(0.20, 0.36);
+    boxes.emplace_back(rng.Uniform(0.25, 0.5), top_m);
+  }
+  return PlaceAtWall(Terrace("chest of drawers", boxes, 0.5 * rng.Uniform(0.5, 1.2)), rng);
+}
+
 }  // namespace
 
 std::string_view NameOf(FalseEntrance kind) {
@@ -217,6 +258,10 @@ std::string_view NameOf(FalseEntrance kind) {
       return "shelf like steps";
     case FalseEntrance::kSlope:
       return "slope to nowhere";
+    case FalseEntrance::kSeat:
+      return "seat beside a wall";
+    case FalseEntrance::kStack:
+      return "stack of low furniture";
   }
   return "?";
 }
@@ -242,6 +287,12 @@ FalseWorld MakeFalseWorld(FalseEntrance kind, std::uint64_t seed) {
       break;
     case FalseEntrance::kSlope:
       made = Slope(rng);
+      break;
+    case FalseEntrance::kSeat:
+      made = Seat(rng);
+      break;
+    case FalseEntrance::kStack:
+      made = Stack(rng);
       break;
   }
   made.plan.id = "00001-False";

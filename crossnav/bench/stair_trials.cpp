@@ -92,9 +92,8 @@ std::optional<FalseStart> StartedStair(const trace::StepTrace& step) {
 
 }  // namespace
 
-Result<StairSite> BuildStairSite(world::StairKind kind, std::uint64_t seed,
-                                 const RunConfig& config) {
-  StairSite site{MakeStairWorld(kind, seed), nullptr};
+Result<StairSite> BuildStairSite(StairWorld world, const RunConfig& config) {
+  StairSite site{std::move(world), nullptr};
   auto context = SceneContext::Of(world::BuildHouse(site.world.plan), config);
   if (!context) return tl::unexpected(context.error());
   site.context = std::move(*context);

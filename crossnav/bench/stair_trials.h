@@ -22,8 +22,11 @@ struct StairSite {
   StairWorld world;
   std::unique_ptr<SceneContext> context;
 };
-Result<StairSite> BuildStairSite(world::StairKind kind, std::uint64_t seed,
-                                 const RunConfig& config);
+Result<StairSite> BuildStairSite(StairWorld world, const RunConfig& config);
+inline Result<StairSite> BuildStairSite(world::StairKind kind, std::uint64_t seed,
+                                        const RunConfig& config) {
+  return BuildStairSite(MakeStairWorld(kind, seed), config);
+}
 
 struct StairAttempt {
   Episode episode;       ///< start and goal, for whoever plays it again

@@ -54,6 +54,18 @@ StairParams DrawParams(StairKind kind, Rng& rng) {
   return params;
 }
 
+StairParams DrawParams(const StairVariant& variant, Rng& rng) {
+  StairParams params = DrawParams(variant.kind, rng);
+  const world::Storeys storeys{params.rise_m, params.rise_m, params.slab_m};
+  const auto risers = world::RisersFor(storeys, variant.range.riser_m.Draw(rng), {0.1, 0.295});
+  CROSSNAV_CHECK(risers.has_value(), "no number of risers for a stair");
+  params.risers = *risers;
+  params.tread_m = variant.range.tread_m.Draw(rng);
+  params.width_m = variant.range.width_m.Draw(rng);
+  params.landing_m = variant.landing_m;
+  return params;
+}
+
 void AddGoal(HousePlan& plan, world::ObjectModel model, const Vector3d& p_world, int room) {
   plan.furniture.push_back({std::move(model), world::StandAt(p_world, 0), room});
 }
@@ -70,8 +82,8 @@ void OpenStairwell(HousePlan& plan, int stairwell, int hall, double x0, double x
   CROSSNAV_CHECK(world::AddOpening(*wall, opening), "a stairwell's opening finds no place");
 }
 
-StairWorld MakeStoreys(StairKind kind, Rng& rng) {
-  const StairParams params = DrawParams(kind, rng);
+StairWorld MakeStoreys(const StairParams& params, Rng& rng) {
+  const StairKind kind = params.kind;
   const StairBlock block = world::MakeStairBlock(params);
   const world::Rect hall{-kBeside_m, -kHall_m, block.width_m + kBeside_m, 0};
   const world::Rect shaft{0, 0, block.width_m, block.depth_m};
@@ -137,15 +149,27 @@ StairWorld MakeSplitLevel(Rng& rng) {
   return made;
 }
 
+std::string IdOf(std::string_view kind, std::uint64_t seed) {
+  std::string name(kind);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  const std::string number = std::to_string(seed % 100000);
+  return std::string(5 - number.size(), '0') + number + "-" + name;
+}
+
 }  // namespace
 
 StairWorld MakeStairWorld(StairKind kind, std::uint64_t seed) {
   Rng rng(seed, static_cast<std::uint64_t>(kind));
-  StairWorld made = kind == StairKind::kSplitLevel ? MakeSplitLevel(rng) : MakeStoreys(kind, rng);
-  std::string name(world::NameOf(kind));
-  std::replace(name.begin(), name.end(), ' ', '_');
-  std::string number = std::to_string(seed % 100000);
-  made.plan.id = std::string(5 - number.size(), '0') + number + "-" + name;
+  const bool is_split = kind == StairKind::kSplitLevel;
+  StairWorld made = is_split ? MakeSplitLevel(rng) : MakeStoreys(DrawParams(kind, rng), rng);
+  made.plan.id = IdOf(world::NameOf(kind), seed);
+  return made;
+}
+
+StairWorld MakeStairWorld(const StairVariant& variant, std::uint64_t seed) {
+  Rng rng(seed, HashString(variant.name));
+  StairWorld made = MakeStoreys(DrawParams(variant, rng), rng);
+  made.plan.id = IdOf(variant.name, seed);
   return made;
 }
 

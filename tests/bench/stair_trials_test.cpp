@@ -21,11 +21,11 @@ std::string PlainName(std::string_view name) {
   return plain;
 }
 
-class EveryStairKind : public testing::TestWithParam<world::StairKind> {};
-
-TEST_P(EveryStairKind, JoinsTwoFloorsWithAGoalOnEach) {
+/// The worlds of two seeds, whichever way a kind of stair is named.
+template <class Kind>
+void ExpectTwoFloorsWithAGoalOnEach(const Kind& kind) {
   for (const std::uint64_t seed : {1, 2}) {
-    const auto site = BuildStairSite(GetParam(), seed, test::SmallConfig());
+    const auto site = BuildStairSite(MakeStairWorld(kind, seed), test::SmallConfig());
     ASSERT_TRUE(site) << site.error().Message();
     const StairWorld& world = site->world;
     EXPECT_NEAR(world.p_foot_world.z(), world.lower_m, 1e-6);
@@ -43,6 +43,21 @@ TEST_P(EveryStairKind, JoinsTwoFloorsWithAGoalOnEach) {
     }
   }
 }
+
+class EveryStairKind : public testing::TestWithParam<world::StairKind> {};
+
+TEST_P(EveryStairKind, JoinsTwoFloorsWithAGoalOnEach) {
+  ExpectTwoFloorsWithAGoalOnEach(GetParam());
+}
+
+class EveryStairVariant : public testing::TestWithParam<StairVariant> {};
+
+TEST_P(EveryStairVariant, JoinsTwoFloorsWithAGoalOnEach) {
+  ExpectTwoFloorsWithAGoalOnEach(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryStairVariant, testing::ValuesIn(kStairVariants),
+                         [](const auto& kind) { return PlainName(kind.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(All, EveryStairKind, testing::ValuesIn(kStairKinds),
                          [](const auto& kind) { return PlainName(world::NameOf(kind.param)); });

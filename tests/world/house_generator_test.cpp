@@ -12,6 +12,7 @@
 #include "crossnav/world/house/house_gate.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/shell/architecture.h"
+#include "crossnav/world/stairs/stairs.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
@@ -52,6 +53,98 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
   const auto c = GenerateHouse(params, dir.path() / "c");
   ASSERT_TRUE(c.has_value());
   EXPECT_NE(test::ReadText(a->folder / file), test::ReadText(c->folder / "House10.glb"));
+}
+
+/// What was drawn before there were editions: named benchmarks are made of it.
+TEST(HouseGenerator, EditionOneDrawsTheHousesThatItAlwaysDrew) {
+  struct Known {
+    std::uint64_t seed;
+    int floors;
+    double area_m2;
+    std::uint64_t mesh_hash;
+  };
+  for (const Known& known :
+       {Known{1, 2, 80, 0x3bf35855d18c7fc7}, Known{2, 2, 80, 0x9ede2a0255252839},
+        Known{3, 1, 70, 0xb94ca1170ca41d18}}) {
+    const test::TempFolder dir;
+    HouseParams params;
+    params.seed = known.seed;
+    params.floors = known.floors;
+    params.area_m2 = known.area_m2;
+    const auto house = GenerateHouse(params, dir.path());
+    ASSERT_TRUE(house) << house.error().Message();
+    const auto scene = sim::LoadScene(house->folder);
+    ASSERT_TRUE(scene) << scene.error().Message();
+    EXPECT_EQ(scene->mesh_hash, known.mesh_hash) << "seed " << known.seed;
+    params.edition = 2;
+    params.has_lights = false;
+    const auto other = GenerateHouse(params, dir.path() / "second");
+    ASSERT_TRUE(other) << other.error().Message();
+    EXPECT_NE(sim::LoadScene(other->folder)->mesh_hash, known.mesh_hash);
+  }
+}
+
+TEST(HouseGenerator, EditionTwoHasWhatOthersBuild) {
+  std::map<std::string, int> seen;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    HouseParams params;
+    params.seed = seed;
+    params.edition = 2;
+    params.floors = 3;
+    params.area_m2 = 150;
+    const auto plan = DrawFurnishedPlan(params, 0);
+    if (!plan) continue;  // the generator would draw another one
+    for (const Stair& stair : plan->stairs) {
+      ++seen[std::string(NameOf(stair.kind))];
+      if (stair.riser_m > 0.22) ++seen["high riser"];
+      const Vector2d tread = stair.treads[0].polygon[2] - stair.treads[0].polygon[0];
+      if (tread.cwiseAbs().minCoeff() < 0.2) ++seen["narrow tread"];
+    }
+    for (const Wall& wall : plan->walls) {
+      for (const Opening& o : wall.openings) {
+        if (o.kind == OpeningKind::kWindow) continue;
+        if (o.width_m < 0.7) ++seen["narrow door"];
+        if (o.kind == OpeningKind::kDoorAjar && o.ajar_deg < 60) ++seen["leaf half open"];
+        if (o.threshold_m > 0) ++seen["threshold"];
+      }
+    }
+    for (const Block& block : plan->blocks) ++seen[block.name];
+    for (const Room& room : plan->rooms) {
+      ++seen[room.name];
+      if (room.open_group >= 0) ++seen["open plan"];
+    }
+    for (const Placement& p : plan->furniture) {
+      const Box3 box = BoxAt(p.model, p.T_world_object);
+      if (p.model.name.find("plant") != std::string::npos && box.max.z() - box.min.z() < 0.41) {
+        ++seen["small plant"];
+      }
+    }
+  }
+  for (const char* what : {"attic", "half turn of winders", "winder", "high riser", "narrow tread",
+                           "narrow door", "leaf half open", "threshold", "wall", "column",
+                           "ceiling", "mezzanine", "open plan", "small plant"}) {
+    EXPECT_GT(seen[what], 0) << what;
+  }
+}
+
+TEST(HouseGenerator, AnOfficeIsACorridorOfManyRooms) {
+  HouseParams params;
+  params.edition = 2;
+  params.building = Building::kOffice;
+  params.floors = 4;
+  params.area_m2 = 250;
+  params.has_lights = false;
+  params.has_textures = false;
+  const test::TempFolder dir;
+  const auto office = GenerateHouse(params, dir.path());
+  ASSERT_TRUE(office) << office.error().Message();
+  int rooms = 0;
+  for (const auto& [name, count] : office->rooms) rooms += count;
+  EXPECT_GT(rooms, 70);
+  EXPECT_GT(office->rooms.at("office"), 30);
+  EXPECT_EQ(office->floors, 4);
+  params.edition = 1;
+  EXPECT_EQ(GenerateHouse(params, dir.path()).error().where, "world.building");
 }
 
 /// A pack of one lamp of one colour.
@@ -134,15 +227,19 @@ TEST(HouseGenerator, RefusesImpossibleWishes) {
   HouseParams params;
   params.floors = 5;
   EXPECT_EQ(GenerateHouse(params, dir.path()).error().where, "world.floors");
+  params.edition = 3;
+  EXPECT_EQ(GenerateHouse(params, dir.path()).error().where, "world.edition");
+  params.edition = 1;
   params.floors = 2;
   params.area_m2 = 30;
   EXPECT_EQ(GenerateHouse(params, dir.path()).error().where, "world.area_m2");
 }
 
 TEST(HouseGenerator, FurnitureKeepsDoorsFree) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     HouseParams params;
     params.seed = seed;
+    params.edition = seed <= 4 ? 1 : 2;
     params.floors = 1;
     params.area_m2 = 100;
     const auto plan = DrawFurnishedPlan(params, 0);

@@ -97,6 +97,19 @@ TEST_P(EveryStair, IsWalkedWhereItIsSteepestAndNarrowest) {
   ExpectWalkable(MakeShaft(params));
 }
 
+// The second edition of the generator builds them (layout/stair_draw.h).
+TEST_P(EveryStair, IsWalkedWithTheTreadsOfAnAttic) {
+  StairParams params;
+  params.kind = GetParam().kind;
+  params.body = GetParam().body;
+  params.rise_m = 2.61;
+  params.risers = 9;  // 29 cm, just below the climb limit
+  params.tread_m = 0.15;
+  params.width_m = params.kind == StairKind::kSpiral ? 0.9 : 0.65;
+  params.slab_m = 0.22;
+  ExpectWalkable(MakeShaft(params));
+}
+
 TEST_P(EveryStair, StacksOverThreeFloors) {
   StairParams params;
   params.kind = GetParam().kind;
@@ -121,12 +134,16 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryStair,
                                          Case{StairKind::kU, StairBody::kOpenRisers},
                                          Case{StairKind::kWinder, StairBody::kSolid},
                                          Case{StairKind::kSpiral, StairBody::kOpenRisers},
-                                         Case{StairKind::kDouble, StairBody::kClosed}),
+                                         Case{StairKind::kDouble, StairBody::kClosed},
+                                         Case{StairKind::kHalfWinder, StairBody::kSolid},
+                                         Case{StairKind::kHalfWinder, StairBody::kOpenRisers},
+                                         Case{StairKind::kAttic, StairBody::kOpenRisers}),
                          NameOfCase);
 
 TEST(Stairs, RisersAndTreadsAreWhatWasAskedFor) {
-  for (StairKind kind : {StairKind::kStraight, StairKind::kStraightLanding, StairKind::kU,
-                         StairKind::kL, StairKind::kWinder}) {
+  for (StairKind kind :
+       {StairKind::kStraight, StairKind::kStraightLanding, StairKind::kU, StairKind::kL,
+        StairKind::kWinder, StairKind::kHalfWinder, StairKind::kAttic}) {
     StairParams params;
     params.kind = kind;
     const Stair stair = MakeStairBlock(params).stair;
@@ -136,6 +153,19 @@ TEST(Stairs, RisersAndTreadsAreWhatWasAskedFor) {
       EXPECT_NEAR(tread.top_m - z, 0.175, 1e-9) << NameOf(kind);
       z = tread.top_m;
     }
+  }
+}
+
+TEST(Stairs, ALandingIsAsLongAsWasAskedFor) {
+  for (StairKind kind : {StairKind::kStraightLanding, StairKind::kU}) {
+    StairParams params;
+    params.kind = kind;
+    const StairBlock usual = MakeStairBlock(params);
+    params.landing_m = 2.0;
+    const StairBlock deep = MakeStairBlock(params);
+    const double by_m = deep.width_m + deep.depth_m - usual.width_m - usual.depth_m;
+    EXPECT_GT(by_m, 0.9) << NameOf(kind);
+    ExpectWalkable(MakeShaft(params));
   }
 }
 

@@ -8,28 +8,13 @@
 
 #include "crossnav/world/furniture/groups.h"
 #include "crossnav/world/furniture/room_rules.h"
+#include "crossnav/world/furniture/room_space.h"
 
 namespace crossnav::world {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kOffWall_m = 0.08;  // half a wall and its skirting
-constexpr int kTries = 40;           // chosen: per piece
-constexpr double kDoorHead_m = 2.1;
-
-Box3 Solid(const Rect& r, double z0, double z1) {
-  Box3 b;
-  b.Add({r.x0, r.y0, z0});
-  b.Add({r.x1, r.y1, z1});
-  return b;
-}
-
-/// More than the tolerance, which is smaller for thin things: a picture would fit anywhere.
-bool Overlap(const Box3& a, const Box3& b) {
-  const Vector3d shared = a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min);
-  const double thinnest = std::min((a.max - a.min).minCoeff(), (b.max - b.min).minCoeff());
-  return shared.minCoeff() > std::min(kOverlapTolerance_m, 0.3 * thinnest);
-}
+constexpr int kTries = 40;  // chosen: per piece
 
 /// Rugs lie under everything.
 bool IsFlat(const Box3& b) {
@@ -53,25 +38,6 @@ std::array<Side, 4> SidesOf(const Rect& r) {
           Side{{r.x1, r.y0}, {0, 1}, r.Depth(), kPi / 2}};
 }
 
-/// What is to stay free before a window or a door, from above.
-Rect ZoneOf(const Wall& wall, const Opening& o) {
-  const Vector2d d = (wall.b - wall.a).normalized(), n(-d.y(), d.x());
-  const bool is_window = o.kind == OpeningKind::kWindow;
-  const bool has_leaf = o.kind == OpeningKind::kDoorOpen || o.kind == OpeningKind::kDoorAjar;
-  const double half = 0.5 * o.width_m + (is_window ? 0.0 : 0.1);
-  const double reach = is_window ? 0.25 : (has_leaf ? o.width_m + 0.15 : 0.85);
-  const Vector2d c = wall.a + d * o.center_m;
-  Rect r{c.x(), c.y(), c.x(), c.y()};
-  for (double s : {-1.0, 1.0}) {
-    for (double t : {-1.0, 1.0}) {
-      const Vector2d p = c + s * half * d + t * reach * n;
-      r = {std::min(r.x0, p.x()), std::min(r.y0, p.y()), std::max(r.x1, p.x()),
-           std::max(r.y1, p.y())};
-    }
-  }
-  return r;
-}
-
 class RoomFiller {
  public:
   RoomFiller(HousePlan& plan, int room, const FurnitureSource& source, Rng& rng)
@@ -80,12 +46,11 @@ class RoomFiller {
         room_(plan.rooms[static_cast<std::size_t>(room)]),
         source_(source),
         rng_(rng) {
-    const Level& level = plan.levels[static_cast<std::size_t>(room_.level)];
-    floor_m_ = level.floor_m + room_.offset_m;
-    ceiling_m_ = level.ceiling_m;
-    inner_ = room_.rects[0].Grown(-kOffWall_m);
-    AddOpenings();
-    AddStairs();
+    RoomSpace space = SpaceOf(plan, room);
+    floor_m_ = space.floor_m;
+    ceiling_m_ = space.ceiling_m;
+    inner_ = space.inner;
+    keep_out_ = std::move(space.keep_out);
   }
 
   void Fill() {
@@ -102,46 +67,6 @@ class RoomFiller {
   }
 
  private:
-  void AddOpenings() {
-    for (const Wall& wall : plan_.walls) {
-      if (wall.level != room_.level) continue;
-      const double z = plan_.levels[static_cast<std::size_t>(wall.level)].floor_m;
-      for (const Opening& o : wall.openings) {
-        const bool is_window = o.kind == OpeningKind::kWindow;
-        keep_out_.push_back(Solid(ZoneOf(wall, o), is_window ? z + o.sill_m : z - 2,
-                                  is_window ? z + o.head_m : z + kDoorHead_m));
-      }
-    }
-  }
-
-  void KeepOut(const Rect& r) {
-    keep_out_.push_back(Solid(r, floor_m_ - 2, floor_m_ + kDoorHead_m));
-  }
-
-  void AddStairs() {
-    for (const Rect& v : plan_.VoidsOf(room_.level)) KeepOut(v.Grown(0.12));
-    for (const Stair& stair : plan_.stairs) {
-      if (stair.lower_level == room_.level) {
-        for (const Rect& r : stair.footprint) KeepOut(r.Grown(0.1));
-      }
-      const auto zone = [&](const std::vector<Edge>& edges) {
-        for (const Edge& e : edges) {
-          KeepOut(Rect{std::min(e.a.x(), e.b.x()), std::min(e.a.y(), e.b.y()),
-                       std::max(e.a.x(), e.b.x()), std::max(e.a.y(), e.b.y())}
-                      .Grown(0.8));
-        }
-      };
-      if (stair.lower_level == room_.level) zone(stair.departures);
-      if (stair.upper_level == room_.level) zone(stair.arrivals);
-    }
-    for (const Railing& r : plan_.railings) {
-      if (std::abs(r.a.z() - floor_m_) > 0.5) continue;
-      KeepOut(Rect{std::min(r.a.x(), r.b.x()), std::min(r.a.y(), r.b.y()),
-                   std::max(r.a.x(), r.b.x()), std::max(r.a.y(), r.b.y())}
-                  .Grown(0.05));
-    }
-  }
-
   bool HasWallBehind(const Vector2d& p, double yaw_rad) const {
     const Vector2d back(std::sin(yaw_rad), -std::cos(yaw_rad));  // -y of the group
     const Vector2d q = p + 0.1 * back;

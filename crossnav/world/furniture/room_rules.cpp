@@ -102,6 +102,16 @@ constexpr Rule kBalconyRules[] = {
     {"balcony group", kWall, 0.5},
     {"potted plant", kCorner, 0.4},
 };
+constexpr Rule kMezzanineRules[] = {
+    {"desk group", kWall, 0.3},
+    {"armchair", kWall, 0.5},
+    {"bookcase", kWall, 0.4},
+    {"potted plant", kCorner, 0.6},
+};
+constexpr Rule kMeetingRules[] = {
+    {"dining group", kMiddle},      {"tv group", kWall, 0.5},     {"bookcase", kWall, 0.4},
+    {"potted plant", kCorner, 0.5}, {"picture", kOnWall, 0.6, 2}, {"ceiling lamp", kCeiling, 0.9},
+};
 
 }  // namespace
 
@@ -129,6 +139,10 @@ std::span<const Rule> RulesOf(RoomType type) {
       return kHallRules;
     case RoomType::kBalcony:
       return kBalconyRules;
+    case RoomType::kMezzanine:
+      return kMezzanineRules;
+    case RoomType::kMeeting:
+      return kMeetingRules;
     default:
       return {};
   }

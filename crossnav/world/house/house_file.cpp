@@ -71,6 +71,7 @@ std::string HouseText(const HousePlan& plan, const HouseParams& params, const Fu
                 {"furniture_pack", pack ? Json(pack->hash()) : Json(nullptr)},
                 {"rooms", std::move(rooms)},
                 {"credits", pack ? CreditsJson(plan, *pack) : Json::array()}};
+  if (params.edition != 1) house["edition"] = params.edition;  // edition 1 keeps its bytes
   return house.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

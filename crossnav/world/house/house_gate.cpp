@@ -51,18 +51,34 @@ Probe ProbeRoom(const Room& room, double z_m, const sim::NavMesh& navmesh,
   return probe;
 }
 
-Result<void> CheckRooms(const HousePlan& plan, const sim::NavMesh& navmesh) {
+/// A room that cannot be used, and why.
+struct Blocked {
+  int room = -1;
+  std::string what;
+};
+
+std::optional<Blocked> FindBlocked(const HousePlan& plan, const sim::NavMesh& navmesh) {
   std::optional<Vector3d> start;  // in the first room, the hall of the lowest level
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
     const Room& room = plan.rooms[i];
     if (room.type == RoomType::kVoid) continue;
     const double z_m = plan.levels[static_cast<std::size_t>(room.level)].floor_m + room.offset_m;
     const Probe probe = ProbeRoom(room, z_m, navmesh, &start);
-    const std::string where = fmt::format("{} {} on level {}", room.name, i, room.level);
-    if (probe.walkable == 0) return Refuse("no walkable ground in a room", where);
-    if (probe.reached < kReachableShare * probe.walkable) return Refuse("a room is cut off", where);
+    const int index = static_cast<int>(i);
+    if (probe.walkable == 0) return Blocked{index, "no walkable ground in a room"};
+    if (probe.reached < kReachableShare * probe.walkable) {
+      return Blocked{index, "a room is cut off"};
+    }
   }
-  return {};
+  return std::nullopt;
+}
+
+Result<void> CheckRooms(const HousePlan& plan, const sim::NavMesh& navmesh) {
+  const auto blocked = FindBlocked(plan, navmesh);
+  if (!blocked) return {};
+  const Room& room = plan.rooms[static_cast<std::size_t>(blocked->room)];
+  return Refuse(blocked->what,
+                fmt::format("{} {} on level {}", room.name, blocked->room, room.level));
 }
 
 /// Every floor of the navmesh reaches every other.
@@ -100,6 +116,11 @@ Result<void> CheckFurniture(const HousePlan& plan) {
 }
 
 }  // namespace
+
+std::optional<int> BlockedRoom(const HousePlan& plan, const sim::NavMesh& navmesh) {
+  const auto blocked = FindBlocked(plan, navmesh);
+  return blocked ? std::optional(blocked->room) : std::nullopt;
+}
 
 Result<void> CheckHouse(const HousePlan& plan, const sim::Scene& scene,
                         const sim::NavMesh& navmesh) {

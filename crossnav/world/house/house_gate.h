@@ -2,6 +2,8 @@
 // The quality gate of generated houses: what a house must have before it is written.
 #pragma once
 
+#include <optional>
+
 #include "crossnav/core/result.h"
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/plan/plan.h"
@@ -12,6 +14,9 @@ inline constexpr std::uintmax_t kMaxSceneBytes = 40'000'000;
 
 /// Error with the first reason: floors that are not connected, a room that cannot be reached or is
 /// mostly cut off, fewer than five of the six categories, furniture in furniture or in a doorway.
+/// Index of the first room without walkable ground or mostly cut off, or nullopt.
+std::optional<int> BlockedRoom(const HousePlan& plan, const sim::NavMesh& navmesh);
+
 Result<void> CheckHouse(const HousePlan& plan, const sim::Scene& scene,
                         const sim::NavMesh& navmesh);
 

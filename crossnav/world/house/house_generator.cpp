@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/world/furniture/furnish.h"
 #include "crossnav/world/furniture/furniture_pack.h"
+#include "crossnav/world/furniture/lived_in.h"
 #include "crossnav/world/house/house_file.h"
 #include "crossnav/world/house/house_gate.h"
+#include "crossnav/world/layout/edition.h"
 #include "crossnav/world/layout/house_plan.h"
 #include "crossnav/world/mesh/subdivide.h"
 #include "crossnav/world/scene/glb_writer.h"
@@ -28,14 +31,22 @@ constexpr double kLitEdge_m = 0.5;    // chosen: fine enough for the shadow of a
 constexpr double kLitArea_m2 = 0.03;  // chosen: skirtings and frames need no finer light
 
 Result<void> CheckParams(const HouseParams& params) {
+  if (params.edition < 1 || params.edition > kEditions) {
+    return Fail(ErrorCode::kInvalid, fmt::format("edition must be 1 to {}", kEditions),
+                "world.edition");
+  }
+  if (params.building == Building::kOffice && params.edition == 1) {
+    return Fail(ErrorCode::kInvalid, "offices are of edition 2: add --edition 2", "world.building");
+  }
   if (params.floors < 0 || params.floors > 4) {
     return Fail(ErrorCode::kInvalid, "floors must be 1 to 4, or 0 to draw", "world.floors");
   }
   if (params.area_m2 != 0 && !(params.area_m2 >= 60 && params.area_m2 <= 400)) {
     return Fail(ErrorCode::kInvalid, "area must be 60 to 400 m2, or 0 to draw", "world.area_m2");
   }
-  if (params.max_attempts < 1) {
-    return Fail(ErrorCode::kInvalid, "at least one attempt", "world.max_attempts");
+  if (params.max_attempts < 0) {
+    return Fail(ErrorCode::kInvalid, "at least one attempt, or 0 for the edition's",
+                "world.max_attempts");
   }
   return {};
 }
@@ -49,6 +60,10 @@ HouseParams Settled(HouseParams params) {
   const double area_m2 = std::exp(rng.Uniform(std::log(60.0), std::log(240.0)));
   if (params.floors == 0) params.floors = floors;
   if (params.area_m2 == 0) params.area_m2 = area_m2;
+  if (params.building == Building::kDrawn) {
+    const bool is_office = Draws(EditionOf(params.edition).office_chance, rng);
+    params.building = is_office ? Building::kOffice : Building::kHome;
+  }
   return params;
 }
 
@@ -74,12 +89,36 @@ sim::Scene AsAsked(sim::Scene scene, const HouseParams& params) {
   return scene;
 }
 
+/// Takes furniture out of rooms that it blocks, the last placed half first.
+Result<void> ClearRooms(HousePlan& plan) {
+  constexpr int kRounds = 6;  // chosen: large buildings have a few such rooms
+  for (int round = 0; round < kRounds; ++round) {
+    const auto navmesh = sim::NavMesh::Build(BuildHouse(plan), {});
+    if (!navmesh) return tl::unexpected(navmesh.error());
+    const auto room = BlockedRoom(plan, *navmesh);
+    if (!room) return {};
+    const auto is_in_room = [&](const Placement& p) { return p.room == *room; };
+    auto surplus =
+        (std::count_if(plan.furniture.begin(), plan.furniture.end(), is_in_room) + 1) / 2;
+    if (surplus == 0) return {};  // the room itself is at fault: the gate says so
+    for (auto i = plan.furniture.size(); i-- > 0 && surplus > 0;) {
+      if (!is_in_room(plan.furniture[i])) continue;
+      plan.furniture.erase(plan.furniture.begin() + static_cast<std::ptrdiff_t>(i));
+      --surplus;
+    }
+  }
+  return {};
+}
+
 /// One plan: drawn, built, checked, lit, written. kIo where the disk refuses, else what the plan
 /// lacks.
 Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::path& out_dir,
                             const FurniturePack* pack) {
-  const auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
+  auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
   if (!plan) return tl::unexpected(plan.error());
+  if (params.edition > 1) {
+    if (auto ok = ClearRooms(*plan); !ok) return tl::unexpected(ok.error());
+  }
   auto [clean, glowing] = BuildHouseWithLights(*plan, {params.has_textures, params.seed});
   const sim::Scene checked = AsAsked(clean, params);
   const auto navmesh = sim::NavMesh::Build(checked, {});
@@ -114,14 +153,23 @@ Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
   if (!plan) return plan;
   plan->id = SceneIdOf(params);
   Furnish(*plan, source, rng);
+  const Edition& edition = EditionOf(params.edition);
+  if (edition.number == 1) return plan;
+  LiveIn(*plan, {edition.clutter_chance, edition.small_goal_chance, edition.hidden_goal_chance},
+         source, rng);
   return plan;
+}
+
+int AttemptsFor(const HouseParams& params) {
+  return params.max_attempts > 0 ? params.max_attempts : EditionOf(params.edition).max_attempts;
 }
 
 Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out_dir,
                                   const FurniturePack* pack) {
   if (auto ok = CheckParams(params); !ok) return tl::unexpected(ok.error());
   std::map<std::string, int> refusals;
-  for (int attempt = 0; attempt < params.max_attempts; ++attempt) {
+  const int attempts = AttemptsFor(params);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     auto report = Attempt(params, attempt, out_dir, pack);
     if (report) {
       report->attempts = attempt + 1;
@@ -135,10 +183,9 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const fs::path& out
   for (const auto& [what, count] : refusals) {
     reasons += fmt::format("{}{} ({}x)", reasons.empty() ? "" : ", ", what, count);
   }
-  return Fail(
-      ErrorCode::kInvalid,
-      fmt::format("no house passed the checks in {} attempts: {}", params.max_attempts, reasons),
-      fmt::format("seed {}", params.seed));
+  return Fail(ErrorCode::kInvalid,
+              fmt::format("no house passed the checks in {} attempts: {}", attempts, reasons),
+              fmt::format("seed {}", params.seed));
 }
 
 }  // namespace crossnav::world

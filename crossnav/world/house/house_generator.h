@@ -28,7 +28,7 @@ struct HouseReport {
   std::map<std::string, int> refusals;   ///< reasons of the attempts that did not pass
 };
 
-/// Writes `<out_dir>/<id>/...` and returns what it is; kInvalid after params.max_attempts attempts.
+/// Writes `<out_dir>/<id>/...` and returns what it is; kInvalid after AttemptsFor(params) attempts.
 /// Furnished from `pack` where there is one, otherwise with the parametric shapes.
 Result<HouseReport> GenerateHouse(const HouseParams& params, const std::filesystem::path& out_dir,
                                   const FurniturePack* pack = nullptr);
@@ -36,6 +36,9 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const std::filesyst
 /// The furnished plan of one attempt, for tests and pictures.
 Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
                                     const FurnitureSource& source = {});
+
+/// How many plans are tried.
+int AttemptsFor(const HouseParams& params);
 
 /// "00017-House17".
 std::string SceneIdOf(const HouseParams& params);

@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/world/layout/edition.h"
+#include "crossnav/world/layout/house_shapes.h"
 #include "crossnav/world/layout/layout.h"
+#include "crossnav/world/layout/mezzanine.h"
+#include "crossnav/world/layout/open_plan.h"
 #include "crossnav/world/layout/plan_turn.h"
 #include "crossnav/world/layout/room_types.h"
 #include "crossnav/world/plan/plan_walls.h"
@@ -45,6 +49,7 @@ struct Draft {
   }
 
   LevelRole RoleOf(int level) const {
+    if (params.building == Building::kOffice) return LevelRole::kOffice;
     if (level < ground) return LevelRole::kBasement;
     if (plan.levels.size() == 1) return LevelRole::kOnly;
     return level == ground ? LevelRole::kGround : LevelRole::kUpper;
@@ -61,14 +66,35 @@ struct Draft {
     std::vector<int> rooms;
     for (std::size_t i = 0; i < cells.cells.size(); ++i) {
       rooms.push_back(AddRoom(types[i], level, {cells.cells[i].rect}));
-      if (types[i] != RoomType::kVoid) continue;
-      const Rect& open = cells.cells[i].rect;
-      plan.voids.emplace_back(level, open);
-      for (Room& below : plan.rooms) {  // the same cell of the level below loses its ceiling
-        if (below.level == level - 1 && below.rects[0] == open) below.has_ceiling = false;
-      }
+      if (types[i] == RoomType::kVoid) AddVoid(rooms.back());
     }
     rooms_of_level.push_back(rooms);
+    if (!Draws(edition.open_plan_chance, rng)) return;
+    std::vector<int> joinable;  // a room across the corridor's end may be sunken
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      if (!cells.cells[i].is_end_room) joinable.push_back(rooms[i]);
+    }
+    OpenLevel(plan, joinable, hall_of_level.back(), rng);
+  }
+
+  void AddVoid(int room) {
+    const auto at = static_cast<std::size_t>(room);
+    const int level = plan.rooms[at].level;
+    const Rect open = plan.rooms[at].rects[0];
+    VoidPlace place{room, -1, open.y0 >= layout.corridor_y1 - 1e-6,
+                    plan.levels[static_cast<std::size_t>(level)].floor_m -
+                        plan.levels[static_cast<std::size_t>(level) - 1].ceiling_m};
+    for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
+      Room& below = plan.rooms[i];  // the same cell of the level below loses its ceiling
+      if (below.level != level - 1 || !(below.rects[0] == open)) continue;
+      below.has_ceiling = false;
+      place.below_room = static_cast<int>(i);
+    }
+    if (Draws(edition.mezzanine_chance, rng)) {
+      const Mezzanine made = AddMezzanine(plan, place, rng);
+      if (made.room >= 0 && !made.has_own_stair) mezzanines.push_back(made.room);
+    }
+    plan.voids.emplace_back(level, plan.rooms[at].rects[0]);
   }
 
   void AddStairs() {
@@ -106,7 +132,10 @@ struct Draft {
 
   void OpenStairwell(int room, const Shaft& shaft) {
     const int level = plan.rooms[static_cast<std::size_t>(room)].level;
-    Wall* wall = FindWall(plan, room, hall_of_level[static_cast<std::size_t>(level)]);
+    // The longest wall may be one to an open stair beside it, which is part of the hall.
+    Wall* wall = edition.number > 1
+                     ? FindCorridorWall(room)
+                     : FindWall(plan, room, hall_of_level[static_cast<std::size_t>(level)]);
     if (!wall) {
       is_good = false;
       return;
@@ -123,7 +152,7 @@ struct Draft {
     const bool has_door = shaft.params.kind == StairKind::kBasement;
     if (level < shaft.hi) {
       const StairBlock b = StairIn(layout, shaft, level, shaft.params.rise_m);
-      open(b.entry_x0, b.entry_x1, false);
+      open(b.entry_x0, b.entry_x1, shaft.params.kind == StairKind::kAttic);
     }
     if (level > shaft.lo) {
       const StairBlock b = StairIn(layout, shaft, level - 1, shaft.params.rise_m);
@@ -151,6 +180,7 @@ struct Draft {
 
   /// A door or passage somewhere along the wall of two rooms.
   bool Connect(int from, int to) {
+    if (IsOpenBetween(plan, from, to)) return true;
     Wall* wall =
         from == hall_of_level[LevelOf(to)] ? FindCorridorWall(to) : FindWall(plan, from, to);
     if (!wall) return false;
@@ -169,7 +199,11 @@ struct Draft {
         o.kind = draw < 0.55   ? OpeningKind::kDoorway
                  : draw < 0.85 ? OpeningKind::kDoorOpen
                                : OpeningKind::kDoorAjar;
-        o.width_m = rng.Uniform(0.8, 0.95);
+        o.width_m = edition.door_m.Draw(rng);
+        if (o.kind == OpeningKind::kDoorAjar && edition.ajar_deg.lo < edition.ajar_deg.hi) {
+          o.ajar_deg = edition.ajar_deg.Draw(rng);
+        }
+        if (Draws(edition.threshold_chance, rng)) o.threshold_m = rng.Uniform(0.015, 0.06);
       }
       o.center_m = rng.Uniform(0.0, length);
       o.hinge_at_a = rng.Chance(0.5);
@@ -188,6 +222,9 @@ struct Draft {
                            ? hall_of_level[k]
                            : rooms_of_level[k][static_cast<std::size_t>(cells[i].parent)];
       is_good = Connect(from, rooms_of_level[k][i]) && is_good;
+    }
+    for (const int room : mezzanines) {
+      if (LevelOf(room) == k) is_good = Connect(hall_of_level[k], room) && is_good;
     }
     if (level != ground) return;
     Opening front;
@@ -294,16 +331,24 @@ struct Draft {
   }
 
   std::vector<std::pair<int, int>> balconies;
+  std::vector<int> mezzanines = {};  ///< entered from the hall
+  const Edition& edition = EditionOf(params.edition);
 };
 
 }  // namespace
 
 Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng) {
+  const Edition& edition = EditionOf(params.edition);
   LayoutParams lp;
+  lp.edition = params.edition;
   lp.levels = params.floors;
   lp.area_m2 = params.area_m2;
   lp.slab_m = 0.01 * rng.Int(20, 30);
   lp.has_basement = lp.levels >= 2 && rng.Chance(0.3);
+  lp.is_office = params.building == Building::kOffice;
+  if (lp.is_office) lp.has_basement = false;
+  lp.has_attic =
+      !lp.is_office && lp.levels >= (lp.has_basement ? 3 : 2) && Draws(edition.attic_chance, rng);
   Draft draft{params, rng, {}, {}, lp.has_basement ? 1 : 0, {}, {}, true, {}};
   draft.DrawLevels(lp.levels, lp.slab_m, lp);
   auto layout = DrawLayout(lp, rng);
@@ -324,6 +369,10 @@ Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng) {
   for (int level = 0; level < lp.levels; ++level) draft.AddDoors(level);
   draft.AddWindows();
   RailVoids(draft.plan, rng.Int(0, 2));
+  if (edition.round_chance > 0) RoundRooms(draft.plan, edition.round_chance, rng);
+  if (!lp.is_office && Draws(edition.sloping_chance, rng)) {
+    SlopeTopLevel(draft.plan, draft.layout.depth_m, rng);
+  }
   if (!draft.is_good) return Fail(ErrorCode::kInvalid, "a door finds no place");
   TurnPlan(draft.plan, rng.Int(0, 3));
   return std::move(draft.plan);

@@ -18,6 +18,6 @@ Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng);
 std::string_view NameOf(RoomType type);
 
 /// Types for the cells of one level, by size and neighbourhood.
-enum class LevelRole { kOnly, kGround, kUpper, kBasement };
+enum class LevelRole { kOnly, kGround, kUpper, kBasement, kOffice };
 
 }  // namespace crossnav::world

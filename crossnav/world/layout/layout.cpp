@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/world/layout/stair_draw.h"
+
 namespace crossnav::world {
 namespace {
 
 constexpr double kMinCell_m = 2.0;     // chosen: narrower is a cupboard
 constexpr double kMinStrip_m = 2.5;    // chosen: depth of a usable room
 constexpr double kDeepCell_m = 5.2;    // chosen: deeper cells are divided
+constexpr double kOfficeCell_m = 2.9;  // chosen: a desk and a shelf
 constexpr double kUsefulRest_m = 1.6;  // chosen: depth behind a shaft that still makes a room
 
 struct Interval {
@@ -30,9 +33,8 @@ std::vector<Interval> Free(double end, std::vector<Interval> taken) {
   return free;
 }
 
-/// Widths that fill `total` with cells between kMinCell_m and what suits the depth.
-std::vector<double> Slice(double total, double depth, bool wants_small, Rng& rng) {
-  const double most = std::clamp(24 / depth, 3.4, 6.5);
+/// Widths that fill `total` with cells between kMinCell_m and `most`.
+std::vector<double> Slice(double total, double most, bool wants_small, Rng& rng) {
   std::vector<double> widths;
   double left = total;
   if (wants_small && left > 2 * kMinCell_m + 0.6) {
@@ -40,7 +42,8 @@ std::vector<double> Slice(double total, double depth, bool wants_small, Rng& rng
     left -= widths.back();
   }
   while (left > most) {
-    const double w = std::min(rng.Uniform(0.6 * most, most), left - kMinCell_m);
+    const double least = std::max(0.6 * most, kMinCell_m);
+    const double w = std::min(rng.Uniform(least, most), left - kMinCell_m);
     widths.push_back(w);
     left -= w;
   }
@@ -49,42 +52,11 @@ std::vector<double> Slice(double total, double depth, bool wants_small, Rng& rng
   return widths;
 }
 
-/// A stair for storeys `lo`..`hi` whose risers keep to 15..21 cm on all of them.
-std::optional<StairParams> DrawStair(StairKind kind, const LayoutParams& params, int lo, int hi,
-                                     Rng& rng) {
-  double least = 1e9, most = 0;
-  for (int k = lo; k < hi; ++k) {
-    least = std::min(least, params.rises_m[static_cast<std::size_t>(k)]);
-    most = std::max(most, params.rises_m[static_cast<std::size_t>(k)]);
-  }
-  StairParams stair;
-  stair.kind = kind;
-  const int fewest = static_cast<int>(std::ceil(most / 0.21)),
-            highest = static_cast<int>(std::floor(least / 0.15));
-  if (fewest > highest) return std::nullopt;
-  stair.risers =
-      std::clamp(static_cast<int>(std::lround(most / rng.Uniform(0.165, 0.195))), fewest, highest);
-  stair.tread_m = std::clamp(0.63 - 2 * most / stair.risers, 0.24, 0.32);  // Blondel's rule
-  const bool is_spiral = kind == StairKind::kSpiral;
-  stair.width_m = is_spiral ? rng.Uniform(0.8, 1.0) : rng.Uniform(0.8, 1.2);
-  stair.slab_m = params.slab_m;
-  stair.body = static_cast<StairBody>(rng.Int(0, 2));
-  stair.rail_style = rng.Chance(0.5) ? 0 : rng.Int(1, 2);
-  stair.rise_m = most;
-  return stair;
-}
-
-StairKind DrawKind(Rng& rng) {
-  constexpr StairKind kKinds[] = {
-      StairKind::kStraight, StairKind::kStraightLanding, StairKind::kL,      StairKind::kU,
-      StairKind::kU,        StairKind::kWinder,          StairKind::kSpiral, StairKind::kDouble};
-  return kKinds[rng.Below(std::size(kKinds))];
-}
-
 struct Drawing {
   const LayoutParams& params;
   Rng& rng;
   HouseLayout house;
+  const Edition& edition = EditionOf(params.edition);
 
   double StripDepth(bool is_north) const {
     return is_north ? house.depth_m - house.corridor_y1 : house.corridor_y0;
@@ -126,17 +98,28 @@ struct Drawing {
     return false;
   }
 
-  bool AddShaft(int lo, int hi, bool is_basement, double end_m) {
+  Storeys StoreysOf(int lo, int hi) const {
+    Storeys storeys{1e9, 0, params.slab_m};
+    for (int k = lo; k < hi; ++k) {
+      const double rise_m = params.rises_m[static_cast<std::size_t>(k)];
+      storeys.least_m = std::min(storeys.least_m, rise_m);
+      storeys.most_m = std::max(storeys.most_m, rise_m);
+    }
+    return storeys;
+  }
+
+  bool AddShaft(int lo, int hi, StairUse use, double end_m) {
     for (int attempt = 0; attempt < 6; ++attempt) {
       Shaft shaft;
       shaft.lo = lo;
       shaft.hi = hi;
-      const auto kind = is_basement ? StairKind::kBasement : DrawKind(rng);
-      const auto stair = DrawStair(kind, params, lo, hi, rng);
+      const auto kind = DrawStairKind(edition, use, rng);
+      const auto stair = DrawStair(edition, kind, StoreysOf(lo, hi), rng);
       if (!stair) return false;
       shaft.params = *stair;
       const bool is_straight = kind == StairKind::kStraight || kind == StairKind::kStraightLanding;
-      shaft.is_enclosed = is_basement || (is_straight && rng.Chance(0.3));
+      shaft.is_enclosed = use == StairUse::kCellar || (is_straight && rng.Chance(0.3)) ||
+                          (use == StairUse::kAttic && rng.Chance(0.6));
       shaft.params.has_right_rail = !shaft.is_enclosed;
       if (PlaceShaft(shaft, end_m)) return true;
     }
@@ -145,17 +128,20 @@ struct Drawing {
 
   bool AddShafts(double end_m) {
     int lo = 0;
-    const int top = params.levels - 1;
+    const int top = params.levels - 1, main_top = params.has_attic ? top - 1 : top;
     if (params.has_basement && top >= 1) {
-      if (!AddShaft(0, 1, true, end_m)) return false;
+      if (!AddShaft(0, 1, StairUse::kCellar, end_m)) return false;
       lo = 1;
     }
-    while (lo < top) {
+    while (lo < main_top) {
       // Mostly one shaft all the way up; sometimes the next storey has its stair elsewhere.
-      const int hi = rng.Chance(0.7) ? top : lo + 1;
-      if (!AddShaft(lo, hi, false, end_m)) return false;
+      const int hi = rng.Chance(0.7) ? main_top : lo + 1;
+      if (!AddShaft(lo, hi, StairUse::kMain, end_m)) return false;
       lo = hi;
     }
+    if (lo < top && !AddShaft(lo, top, StairUse::kAttic, end_m)) return false;
+    // The second stair of an office is an escape: one does without it where it finds no place.
+    if (params.is_office && top > 0) AddShaft(0, top, StairUse::kMain, end_m);
     return true;
   }
 
@@ -176,9 +162,10 @@ struct Drawing {
       out.cells.push_back({v, -1, false, true});
     }
     bool wants_small = rng.Chance(0.75);
+    const double most = params.is_office ? kOfficeCell_m : std::clamp(24 / depth, 3.4, 6.5);
     for (const Interval& in : Free(end_m, taken)) {
       double x = in.lo;
-      for (double w : Slice(in.hi - in.lo, depth, wants_small, rng)) {
+      for (double w : Slice(in.hi - in.lo, most, wants_small, rng)) {
         AddCell(out, rect, x, x + w, depth);
         x += w;
       }
@@ -221,6 +208,7 @@ struct Drawing {
   bool Draw() {
     const double aspect = rng.Uniform(1.15, 1.75);
     house.width_m = std::sqrt(params.area_m2 * aspect);
+    if (params.is_office) house.width_m = params.area_m2 / rng.Uniform(8.2, 9.4);
     house.depth_m = params.area_m2 / house.width_m;
     const double corridor = rng.Uniform(1.35, params.area_m2 > 110 ? 2.0 : 1.55);
     const double rest = house.depth_m - corridor;
@@ -236,7 +224,8 @@ struct Drawing {
     std::vector<double> ends;
     double shortest = house.width_m;
     for (int level = 0; level < params.levels; ++level) {
-      const bool has_end_room = params.area_m2 > 75 && rng.Chance(0.6);
+      const bool has_end_room =
+          params.area_m2 > 75 && (rng.Chance(0.6) || (params.is_office && level == 0));
       const double room = has_end_room ? rng.Uniform(3.6, std::min(6.0, 0.38 * house.width_m)) : 0;
       ends.push_back(house.width_m - std::max(0.0, room));
       shortest = std::min(shortest, ends.back());

@@ -31,6 +31,7 @@ struct Cell {
 
 struct LevelLayout {
   Rect corridor;
+  std::vector<Rect> more_corridors;  ///< of the same hall, in large buildings
   std::vector<Cell> cells;
 };
 
@@ -42,9 +43,12 @@ struct HouseLayout {
 };
 
 struct LayoutParams {
+  int edition = 1;
+  bool is_office = false;
   int levels = 2;
   double area_m2 = 90;
   bool has_basement = false;
+  bool has_attic = false;       ///< a stair of its own leads to the top level
   std::vector<double> rises_m;  ///< floor to floor, one per storey
   double slab_m = 0.25;
 };

@@ -25,6 +25,9 @@ void TurnPlan(HousePlan& plan, int quarter_turns) {
       r.a.head<2>() = point(r.a.head<2>());
       r.b.head<2>() = point(r.b.head<2>());
     }
+    for (Block& block : plan.blocks) {
+      for (Vector3d& p : block.bottom) p.head<2>() = point(p.head<2>());
+    }
     for (Stair& stair : plan.stairs) stair = Moved(std::move(stair), Vector3d::Zero(), 1);
   }
 }

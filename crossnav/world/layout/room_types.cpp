@@ -29,6 +29,10 @@ std::vector<RoomType> Programme(LevelRole role, Rng& rng) {
     case LevelRole::kBasement:
       rest = {kGarage, kStorage, kLiving, kOffice, kStorage, kBedroom, kStorage, kStorage, kWc};
       break;
+    case LevelRole::kOffice:
+      rest = {kLiving, kMeeting, kOffice, kOffice,  kKitchen, kOffice, kOffice, kMeeting,
+              kOffice, kOffice,  kOffice, kStorage, kOffice,  kOffice, kOffice, kWc};
+      break;
   }
   return rest;
 }
@@ -150,6 +154,10 @@ std::string_view NameOf(RoomType type) {
       return "balcony";
     case kVoid:
       return "void";
+    case kMezzanine:
+      return "mezzanine";
+    case kMeeting:
+      return "meeting room";
   }
   return "?";
 }

@@ -38,7 +38,9 @@ enum class RoomType {
   kStorage,
   kGarage,
   kBalcony,
-  kVoid  ///< open to the room below
+  kVoid,       ///< open to the room below
+  kMezzanine,  ///< open to a void beside it
+  kMeeting
 };
 
 struct Room {
@@ -49,6 +51,7 @@ struct Room {
   SurfaceFinish floor, wall, ceiling;
   bool has_ceiling = true;
   double offset_m = 0;  ///< of its floor against the level's; below 0 = sunken
+  int open_group = -1;  ///< no walls between rooms of one group; -1 = none
 };
 
 enum class OpeningKind { kPassage, kDoorway, kDoorOpen, kDoorAjar, kDoorClosed, kWindow };
@@ -61,6 +64,8 @@ struct Opening {
   double head_m = 2.05;
   bool hinge_at_a = true;
   bool opens_left = true;  ///< to the left of a -> b
+  double ajar_deg = 75;    ///< of the leaf of kDoorAjar; 0 = closed
+  double threshold_m = 0;  ///< height of a sill to step over
 };
 
 struct Wall {
@@ -72,6 +77,16 @@ struct Wall {
   int room = -1;              ///< index into HousePlan::rooms (region of the semantic text)
   int other_room = -1;        ///< on the other side, -1 = outside
   double base_m = 0;          ///< of its foot against the level's floor
+};
+
+/// A convex prism of the shell: the filling of a round corner, a column, the wedge below a sloping
+/// roof.
+struct Block {
+  std::string name;  ///< raw semantic name: "wall", "column", "ceiling"
+  int room = -1;
+  std::vector<Vector3d> bottom;  ///< world, counter-clockwise seen from above
+  double top_m = 0;              ///< world height of its flat upper side
+  SurfaceFinish finish;
 };
 
 /// Handrail with balusters from `a` to `b` (points on the ground or on treads).
@@ -100,7 +115,9 @@ enum class StairKind {
   kSpiral,
   kSplitLevel,
   kDouble,
-  kBasement
+  kBasement,
+  kHalfWinder,
+  kAttic
 };
 enum class StairBody { kSolid, kClosed, kOpenRisers };
 
@@ -138,6 +155,7 @@ struct HousePlan {
   std::vector<Stair> stairs;
   std::vector<Railing> railings;
   std::vector<std::pair<int, Rect>> voids;  ///< (level, rect) besides those of the stairs
+  std::vector<Block> blocks;
   std::vector<Placement> furniture;
 
   /// Everything cut out of the floor of `level`.

@@ -9,16 +9,19 @@ namespace {
 
 constexpr double kProbe_m = 0.01;
 
-bool IsHall(RoomType type) {
-  return type == RoomType::kHall || type == RoomType::kStairwell;
+/// Rooms that are open to a void beside them.
+bool IsOpenToVoid(RoomType type) {
+  return type == RoomType::kHall || type == RoomType::kStairwell || type == RoomType::kMezzanine;
 }
 
 bool NeedsWall(const HousePlan& plan, int a, int b) {
   if (a == b) return false;
   const auto type = [&](int room) { return plan.rooms[static_cast<std::size_t>(room)].type; };
   if (a < 0 || b < 0) return type(std::max(a, b)) != RoomType::kBalcony;
-  if (type(a) == RoomType::kVoid) return !IsHall(type(b));
-  if (type(b) == RoomType::kVoid) return !IsHall(type(a));
+  const int group = plan.rooms[static_cast<std::size_t>(a)].open_group;
+  if (group >= 0 && group == plan.rooms[static_cast<std::size_t>(b)].open_group) return false;
+  if (type(a) == RoomType::kVoid) return !IsOpenToVoid(type(b));
+  if (type(b) == RoomType::kVoid) return !IsOpenToVoid(type(a));
   return true;
 }
 

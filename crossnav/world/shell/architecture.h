@@ -13,6 +13,7 @@ namespace crossnav::world {
 void BuildFloorsAndCeilings(const HousePlan& plan, SceneBuilder& scene);
 void BuildWalls(const HousePlan& plan, SceneBuilder& scene);
 void BuildStairs(const HousePlan& plan, SceneBuilder& scene);
+void BuildBlocks(const HousePlan& plan, SceneBuilder& scene);
 void BuildRailing(const Railing& railing, SceneBuilder& scene);
 
 struct BuildOptions {

@@ -12,6 +12,7 @@ namespace {
 constexpr Rgb8 kFrameWhite{236, 234, 228};
 constexpr Rgb8 kGlass{178, 205, 226};
 constexpr Rgb8 kLeaf{206, 190, 164};
+constexpr Rgb8 kSill{150, 118, 84};
 constexpr Rgb8 kHandle{120, 120, 124};
 constexpr double kFrame_m = 0.05;     // chosen: width of a door's jamb
 constexpr double kSkirting_m = 0.08;  // chosen
@@ -66,7 +67,7 @@ void AddDoorFrame(const Opening& o, const WallFrame& f, SceneBuilder& scene) {
 
 void AddDoorLeaf(const Opening& o, const WallFrame& f, SceneBuilder& scene) {
   const double angle = o.kind == OpeningKind::kDoorClosed ? 0.0
-                       : o.kind == OpeningKind::kDoorAjar ? DegToRad(75)
+                       : o.kind == OpeningKind::kDoorAjar ? DegToRad(o.ajar_deg)
                                                           : DegToRad(92);
   const double side = o.opens_left ? 1 : -1;
   const double hinge_x = o.center_m + (o.hinge_at_a ? -0.5 : 0.5) * o.width_m;
@@ -80,6 +81,12 @@ void AddDoorLeaf(const Opening& o, const WallFrame& f, SceneBuilder& scene) {
   scene.mesh.AddBox({o.width_m - 0.18, -0.06, 1.0}, {o.width_m - 0.06, -0.04, 1.03});
   scene.mesh.AddBox({o.width_m - 0.18, 0.04, 1.0}, {o.width_m - 0.06, 0.06, 1.03});
   scene.mesh.T_world_part = T_wall;
+}
+
+void AddThreshold(const Opening& o, const WallFrame& f, SceneBuilder& scene) {
+  const double half = 0.5 * o.width_m, h = f.half_m + 0.02;
+  scene.mesh.material = scene.Material(kSill);
+  scene.mesh.AddBox({o.center_m - half, -h, -0.01}, {o.center_m + half, h, o.threshold_m});
 }
 
 void AddWindow(const Opening& o, SceneBuilder& scene) {
@@ -118,6 +125,10 @@ void AddOpening(const Wall& wall, const Opening& o, const WallFrame& f, SceneBui
   }
   scene.BeginInstance("door frame", region);
   AddDoorFrame(o, f, scene);
+  if (o.threshold_m > 0) {
+    scene.BeginInstance("threshold", region);
+    AddThreshold(o, f, scene);
+  }
   if (o.kind == OpeningKind::kDoorway) return;
   scene.BeginInstance("door", region);
   AddDoorLeaf(o, f, scene);

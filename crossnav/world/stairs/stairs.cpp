@@ -98,6 +98,10 @@ std::string_view NameOf(StairKind kind) {
       return "two flights side by side";
     case StairKind::kBasement:
       return "basement";
+    case StairKind::kHalfWinder:
+      return "half turn of winders";
+    case StairKind::kAttic:
+      return "attic";
   }
   return "?";
 }

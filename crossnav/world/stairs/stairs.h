@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stairs with a house's dimensions: risers 15 to 21 cm, treads 24 to 32 cm, 0.8 to 1.2 m wide. Each
-// kind is made in a frame of its own and moved into the house by quarter turns. Metres, z up.
+// Stairs of any dimensions (layout/stair_draw.h draws those of houses). Each kind is made in a
+// frame of its own and moved into the house by quarter turns. Metres, z up.
 #pragma once
 
 #include <string_view>
@@ -16,6 +16,7 @@ struct StairParams {
   int risers = 16;
   double tread_m = 0.28;
   double width_m = 1.0;
+  double landing_m = 0;        ///< length of a landing; 0 = about as long as the flight is wide
   double slab_m = 0.3;         ///< ceiling to floor above, decides where headroom ends
   double approach_m = 0.3;     ///< free ground before the first riser of L, U, winder and spiral
   bool has_left_rail = false;  ///< straight flights, seen when climbing; false where a wall stands
@@ -40,7 +41,8 @@ StairBlock MakeStairBlock(const StairParams& params);
 Stair MakeStraightStair(const StairParams& params, int landing_after = 0);
 
 StairBlock MakeUStair(const StairParams& params);
-StairBlock MakeLStair(const StairParams& params);  ///< with winders where the kind says so
+StairBlock MakeHalfWinderStair(const StairParams& params);  ///< a U whose half turn has treads
+StairBlock MakeLStair(const StairParams& params);           ///< with winders where the kind says so
 StairBlock MakeSpiralStair(const StairParams& params);
 
 /// Steps between floors of one storey, like a straight flight without a void.

@@ -23,10 +23,11 @@ Stair MakeStraightStair(const StairParams& params, int landing_after) {
   const int treads = params.risers - 1;  // the upper floor is the last step
   const double half = 0.5 * params.width_m;
   const int under_ceiling = TreadsUnderCeiling(params);
+  const double landing_m = params.landing_m > 0 ? params.landing_m : kLanding_m;
   double x = 0, void_x0 = 0;
   for (int i = 0; i < treads; ++i) {
     if (i == under_ceiling) void_x0 = x;
-    const double run_m = i + 1 == landing_after ? kLanding_m : params.tread_m;
+    const double run_m = i + 1 == landing_after ? landing_m : params.tread_m;
     stair.treads.push_back({Strip(x, x + run_m, half), (i + 1) * stair.riser_m});
     x += run_m;
   }
@@ -118,6 +119,8 @@ StairBlock MakeStairBlock(const StairParams& params) {
       return MakeLStair(params);
     case StairKind::kU:
       return MakeUStair(params);
+    case StairKind::kHalfWinder:
+      return MakeHalfWinderStair(params);
     case StairKind::kSpiral:
       return MakeSpiralStair(params);
     case StairKind::kDouble:

@@ -35,7 +35,8 @@ StairBlock MakeUStair(const StairParams& params) {
   const int first = (params.risers + 1) / 2, second = params.risers - first;  // risers per flight
   const double x1 = kWall_m + w, x2 = x1 + kGap_m, x3 = x2 + w;
   const double y0 = params.approach_m, y_landing = y0 + (first - 1) * t;
-  const double y_exit = y_landing - (second - 1) * t, y_end = y_landing + std::max(w, 0.9);
+  const double y_exit = y_landing - (second - 1) * t,
+               y_end = y_landing + (params.landing_m > 0 ? params.landing_m : std::max(w, 0.9));
   for (int i = 0; i + 1 < first; ++i) {
     stair.treads.push_back({Quad(kIntoWall_m, y0 + i * t, x1, y0 + (i + 1) * t), (i + 1) * r});
   }

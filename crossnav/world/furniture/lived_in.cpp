@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/furniture/lived_in.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "crossnav/world/furniture/room_space.h"
+
+namespace crossnav::world {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// One room with what stands in it.
+class Dweller {
+ public:
+  Dweller(HousePlan& plan, int room, const FurnitureSource& source, Rng& rng)
+      : plan_(plan), room_(room), space_(SpaceOf(plan, room)), source_(source), rng_(rng) {
+    for (const Placement& p : plan.furniture) {
+      if (p.room == room) bodies_.push_back(BoxAt(p.model, p.T_world_object));
+    }
+  }
+
+  void Litter() {
+    static constexpr std::string_view kThings[] = {"book",  "box",       "basket", "bowl", "vase",
+                                                   "stool", "trash can", "book",   "box"};
+    const Rect& in = space_.inner;
+    const int count = rng_.Int(1, 2 + static_cast<int>(in.Area() / 5));
+    for (int i = 0; i < count; ++i) {
+      const auto model = source_.Make(kThings[rng_.Below(std::size(kThings))], rng_);
+      const Vector3d p(rng_.Uniform(in.x0, in.x1), rng_.Uniform(in.y0, in.y1), space_.floor_m);
+      const double yaw_rad = rng_.Uniform(0, 2 * kPi);
+      if (model) TryPut(*model, StandAt(p, yaw_rad));
+    }
+  }
+
+  void AddSmallPlants(double chance) {
+    constexpr double kLow_m = 0.3, kHigh_m = 1.3;  // chosen: tops within reach
+    const std::size_t count = plan_.furniture.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Placement& below = plan_.furniture[i];
+      const double top_m = below.model.top_m;
+      const bool is_basin = below.model.name == "bathtub" || below.model.name == "toilet" ||
+                            below.model.name == "shower" || below.model.name == "washbasin";
+      if (below.room != room_ || top_m < kLow_m || top_m > kHigh_m || is_basin) continue;
+      if (!rng_.Chance(chance)) continue;
+      auto plant = source_.Make("potted plant", rng_);
+      if (!plant) continue;
+      Scale(*plant, rng_.Uniform(0.2, 0.4) / plant->Size().z());
+      Pose T = below.T_world_object;
+      const Vector3d size = below.model.Size();
+      T.translate(Vector3d(rng_.Uniform(-0.3, 0.3) * size.x(), rng_.Uniform(-0.25, 0.25) * size.y(),
+                           top_m + 0.001));
+      TryPut(*plant, T);
+    }
+  }
+
+  void HideGoals(double chance) {
+    const auto& categories = sim::DefaultCategories();
+    const std::size_t count = plan_.furniture.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Placement& goal = plan_.furniture[i];
+      const auto category = categories.find(goal.model.name);
+      if (goal.room != room_ || category == categories.end() || category->second.empty()) continue;
+      if (rng_.Chance(chance)) HideOne(i);
+    }
+  }
+
+ private:
+  static void Scale(ObjectModel& model, double factor) {
+    for (auto& v : model.mesh.vertices) v *= static_cast<float>(factor);
+    model.top_m = -1;
+  }
+
+  /// Something on the floor close before the object, or beside it.
+  void HideOne(std::size_t index) {
+    static constexpr std::string_view kBefore[] = {"box", "basket", "stool", "ottoman",
+                                                   "chest of drawers"};
+    const Box3 goal = BoxAt(plan_.furniture[index].model, plan_.furniture[index].T_world_object);
+    if (goal.min.z() > space_.floor_m + 0.1) return;
+    const auto model = source_.Make(kBefore[rng_.Below(std::size(kBefore))], rng_);
+    const int first = rng_.Int(0, 3);
+    if (!model) return;
+    const Vector3d half = 0.5 * (model->Size() + (goal.max - goal.min));
+    for (int side = 0; side < 4; ++side) {
+      const double yaw_rad = 0.5 * kPi * ((first + side) % 4);
+      const Vector3d way(std::sin(yaw_rad), -std::cos(yaw_rad), 0);
+      const double reach_m =
+          std::abs(way.x()) * half.x() + std::abs(way.y()) * half.y() + rng_.Uniform(0.05, 0.25);
+      const Vector3d p(goal.Center().x() + reach_m * way.x(), goal.Center().y() + reach_m * way.y(),
+                       space_.floor_m);
+      if (TryPut(*model, StandAt(p, 0))) return;
+    }
+  }
+
+  bool TryPut(const ObjectModel& model, const Pose& T_world) {
+    const Box3 box = BoxAt(model, T_world);
+    const Rect& in = space_.inner;
+    const bool is_inside = box.min.x() >= in.x0 && box.max.x() <= in.x1 && box.min.y() >= in.y0 &&
+                           box.max.y() <= in.y1 && box.max.z() <= space_.ceiling_m;
+    const auto meets = [&](const Box3& b) {
+      return (box.max.cwiseMin(b.max) - box.min.cwiseMax(b.min)).minCoeff() > 1e-4;
+    };
+    if (!is_inside || std::any_of(bodies_.begin(), bodies_.end(), meets) ||
+        std::any_of(space_.keep_out.begin(), space_.keep_out.end(), meets)) {
+      return false;
+    }
+    bodies_.push_back(box);
+    plan_.furniture.push_back({model, T_world, room_});
+    return true;
+  }
+
+  HousePlan& plan_;
+  int room_;
+  RoomSpace space_;
+  const FurnitureSource& source_;
+  Rng& rng_;
+  std::vector<Box3> bodies_;
+};
+
+}  // namespace
+
+void LiveIn(HousePlan& plan, const LivedIn& chances, const FurnitureSource& source, Rng& rng) {
+  for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
+    if (plan.rooms[i].type == RoomType::kVoid) continue;
+    Dweller dweller(plan, static_cast<int>(i), source, rng);
+    dweller.HideGoals(chances.hidden_goal_chance);
+    dweller.AddSmallPlants(chances.small_goal_chance);
+    if (rng.Chance(chances.clutter_chance)) dweller.Litter();
+  }
+}
+
+}  // namespace crossnav::world
