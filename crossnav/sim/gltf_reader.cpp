@@ -275,9 +275,9 @@ class Reader {
     }
     const bool is_float = colour->component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
     colour->normalized = !is_float;  // integer colours always are, whatever the file says
-    const auto convert = [this](float x) {
-      return options_.raw_vertex_colours ? ToByte(x) : LinearToSrgb(x);
-    };
+    const bool is_name = options_.raw_vertex_colours &&
+                         colour->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    const auto convert = [is_name](float x) { return is_name ? ToByte(x) : LinearToSrgb(x); };
     model_.mesh.vertex_colours.resize(base, {255, 255, 255});
     for (std::size_t i = 0; i < count; ++i) {
       model_.mesh.vertex_colours.push_back({convert(colour->Float(i, 0)),

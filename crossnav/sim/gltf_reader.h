@@ -33,8 +33,8 @@ struct GltfModel {
 };
 
 struct GltfOptions {
-  /// COLOR_0 is linear light and becomes sRGB; true keeps its bytes (the colours of a semantic mesh
-  /// are names, not light).
+  /// COLOR_0 is linear light and becomes sRGB; true keeps its numbers, but for those of 16 bits
+  /// (the colours of a semantic mesh are names; files that hold them as light have 16 bits).
   bool raw_vertex_colours = false;
 };
 

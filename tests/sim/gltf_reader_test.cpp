@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "glb_maker.h"
 #include "support/png_bytes.h"
 
@@ -101,13 +103,15 @@ TEST(GltfReader, LinearBaseColourBecomesSrgb) {
   EXPECT_TRUE(unlit.materials[unlit.mesh.triangle_material[0]].is_unlit);
 }
 
-TEST(GltfReader, RawVertexColoursKeepTheirBytesInEveryComponentType) {
+TEST(GltfReader, RawVertexColoursKeepTheirNumbersAndThoseOf16BitsAreLinearLight) {
   const std::vector<std::uint8_t> bytes{0x59, 0x3A, 0x3A, 255,  0x59, 0x3A,
                                         0x3A, 255,  0x59, 0x3A, 0x3A, 255};
   std::vector<std::uint16_t> shorts;
   std::vector<float> floats;
   for (const std::uint8_t b : bytes) {
-    shorts.push_back(static_cast<std::uint16_t>(b * 257));
+    const double s = b / 255.0;
+    shorts.push_back(static_cast<std::uint16_t>(
+        std::lround(65535 * (s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4)))));
     floats.push_back(static_cast<float>(b) / 255);
   }
   for (int kind = 0; kind < 3; ++kind) {
