@@ -66,6 +66,7 @@ ADAPTERS = {
     "Highway": (r"^hwy/", ["crossnav/memory/row_kernels.cpp", "crossnav/geometry/end_rows.cpp",
                             "crossnav/geometry/*_lanes.cpp", "crossnav/sim/*_lanes.cpp"]),
     "libjpeg": (r"^jpeglib", ["crossnav/sim/image_codec.cpp", "crossnav/trace/preview.cpp"]),
+    "Basis Universal": (r"^transcoder/", ["crossnav/sim/basis_image.cpp"]),
     "libpng": (r"^png", ["crossnav/core/png_image.cpp"]),
     "xxHash": (r"^xxhash", ["crossnav/sim/scene.cpp", "crossnav/sim/navmesh*.cpp",
                             "crossnav/store/*.cpp", "crossnav/world/furniture/furniture_pack.cpp",

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MIT
 # Installs what the build and the tests need, from the distribution's own packages.
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
-#                                    slurm
+#                                    slurm, hm3d
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
 # it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
 # installed where the distribution has it (Debian 13). The lint group comes with clang-tidy, pinned
-# in scripts/clang-tidy.txt, beside OpenVINO.
+# in scripts/clang-tidy.txt, beside OpenVINO. The hm3d group is Basis Universal, whose textures HM3D
+# ships: compiled from the sources in a crate that scripts/basis/Cargo.lock pins, beside OpenVINO too.
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -24,6 +25,7 @@ declare -A PACKAGES=(
   [fuzz]="clang libclang-rt-dev"
   [docs]="doxygen"
   [slurm]="slurm-wlm munge"
+  [hm3d]="g++ libzstd-dev"
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }
@@ -137,6 +139,45 @@ install_clang_tidy() {
   touch "$home/complete"
 }
 
+# Transcoder and encoder (of tests) as static libraries, where CMake looks.
+install_basis() {
+  local here data home work
+  here="$(cd "$(dirname "${BASH_SOURCE[0]}")/basis" && pwd)"
+  data="${XDG_DATA_HOME:-$HOME/.local/share}/crossnav"
+  home="$data/basis-universal-$(sed -n 's/^basis-universal-sys = "=\([0-9.]*\)"/\1/p' "$here/Cargo.toml")"
+  [[ -e $home/libbasisu_encoder.a ]] && return 0
+  say "compiling Basis Universal into $home"
+  mkdir -p "$data"
+  work=$(mktemp -d "$data/setup.XXXXXX")
+  if ! build_basis "$work" "$here" >"$work/log" 2>&1; then
+    tail -n 5 "$work/log" >&2
+    rm -rf "$work"
+    say "Basis Universal cannot be had; see above. Without it HM3D's scenes load untextured"
+    exit 1
+  fi
+  rm -rf "$home"
+  mv "$work/home" "$home"
+  rm -rf "$work"
+}
+
+# build_basis WORK MANIFEST_FOLDER: zstd is the system's, as the library has only one.
+build_basis() {
+  local source=$1/crates/basis-universal-sys/vendor/basis_universal file
+  cargo vendor --locked --manifest-path "$2/Cargo.toml" "$1/crates" || return 1
+  mkdir -p "$1/home/include" "$1/transcoder" "$1/encoder" || return 1
+  local flags=(-std=c++17 -O2 -fPIC -fno-strict-aliasing -ffp-contract=off -w -DBASISU_SUPPORT_SSE=0
+    -DBASISU_SUPPORT_OPENCL=0 -DBASISD_SUPPORT_KTX2_ZSTD=1)
+  for file in "$source"/transcoder/*.cpp; do
+    g++ "${flags[@]}" -c "$file" -o "$1/transcoder/$(basename "$file").o" || return 1
+  done
+  for file in "$source"/encoder/*.cpp; do
+    g++ "${flags[@]}" -c "$file" -o "$1/encoder/$(basename "$file").o" || return 1
+  done
+  ar rcs "$1/home/libbasisu_transcoder.a" "$1"/transcoder/*.o || return 1
+  ar rcs "$1/home/libbasisu_encoder.a" "$1"/encoder/*.o || return 1
+  (cd "$source" && cp --parents {transcoder,encoder,zstd}/*.h LICENSE "$1/home/include")
+}
+
 main() {
   [[ ${CROSSNAV_SKIP_SETUP:-} == 1 ]] && return 0
   local group
@@ -149,6 +190,7 @@ main() {
     read -r -a list <<<"${PACKAGES[$group]}"
     wanted+=("${list[@]}")
   done
+  if [[ " $* " == *" hm3d "* ]] && ! command -v cargo >/dev/null; then wanted+=(cargo); fi
   check_system
   mapfile -t missing < <(missing_of "${wanted[@]}")
   [[ ${#missing[@]} -eq 0 ]] || install_packages
@@ -157,6 +199,7 @@ main() {
     install_openvino
   fi
   [[ " $* " != *" lint "* ]] || install_clang_tidy
+  [[ " $* " != *" hm3d "* ]] || install_basis
   return 0
 }
 

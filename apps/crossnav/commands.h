@@ -176,7 +176,11 @@ struct SuiteOptions {
   std::string variant = "full", keep_replays = "none";
   int jobs = 1;
   bool partial = false, force = false, page = false;  ///< as in ReportOptions
+  std::vector<std::string> to;                        ///< of SuiteExport: form and folder
 };
+/// A suite that is there, in the form of another simulator.
+Result<void> SuiteExport(const SuiteOptions& options, const CommonOptions& common,
+                         Console& console);
 /// Makes the suite, unless it is there.
 Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& common, Console& console);
 /// The same, and runs it to its end.

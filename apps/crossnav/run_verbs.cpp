@@ -113,7 +113,14 @@ void AddSuites(CLI::App& app, Options& o) {
   CLI::App* report = AddVerb(*suite, o, "report", "From nothing to a report over all its runs",
                              "crossnav suite report crossnav-mfmon-1-mini --jobs 4",
                              [&o](Console& c) { return SuiteReport(o.suite, o.common, c); });
-  for (CLI::App* verb : {make, run, report}) {
+  CLI::App* exported = AddVerb(*suite, o, "export", "A suite as Habitat loads it",
+                               "crossnav suite export crossnav-mfmon-1-mini --to habitat exported",
+                               [&o](Console& c) { return SuiteExport(o.suite, o.common, c); });
+  exported->add_option("--to", o.suite.to, "Form (habitat) and folder to write to")
+      ->required()
+      ->type_name("FORM DIR")
+      ->expected(2);
+  for (CLI::App* verb : {make, run, report, exported}) {
     verb->add_option("NAME", o.suite.name,
                      "crossnav-mfmon-1, crossnav-mfmon-1-mini or crossnav-mfmon-1-val, with -pack "
                      "behind it for furniture of a pack; crossnav-mfmon-2, or one of its tracks: "

@@ -4,6 +4,7 @@
 
 #include "crossnav/bench/episodes.h"
 #include "crossnav/bench/gzip_file.h"
+#include "crossnav/bench/habitat_episodes.h"
 #include "crossnav/bench/habitat_frame.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/categories.h"
@@ -51,6 +52,22 @@ Json EpisodeJson(const Episode& episode) {
   return json;
 }
 
+/// The same episode with what only we read under "info".
+Json HabitatEpisodeJson(const Episode& episode) {
+  Json json = EpisodeJson(episode);
+  Json info;
+  for (const char* key : {"goals", "floors", "start_floor", "cross_floor_required",
+                          "first_transition_stage", "certificate", "track"}) {
+    if (!json.contains(key)) continue;
+    info[key] = std::move(json[key]);
+    json.erase(key);
+  }
+  json["scene_dataset_config"] = kSceneDatasetConfig;
+  json["goals"] = Json::array();
+  json["info"] = std::move(info);
+  return json;
+}
+
 /// Yaw at which an agent at `from` faces `to`.
 double YawTowards(const Vector3d& from, const Vector3d& to) {
   return std::atan2(to.y() - from.y(), to.x() - from.x());
@@ -72,6 +89,25 @@ Json GoalJson(const GoalObject& goal) {
   return json;
 }
 
+Json FileJson(const EpisodeFile& file, Json (*episode_json)(const Episode&)) {
+  Json goals_by_category = Json::object();
+  for (const auto& [key, goals] : file.goals_by_category) {
+    Json list = Json::array();
+    for (const GoalObject& goal : goals) list.push_back(GoalJson(goal));
+    goals_by_category[key] = std::move(list);
+  }
+  Json episodes = Json::array();
+  for (const Episode& episode : file.episodes) episodes.push_back(episode_json(episode));
+  Json ids = Json::object();
+  for (std::size_t i = 0; i < kCategories.size(); ++i) ids[std::string(kCategories[i])] = i;
+  Json json = {{"goals_by_category", std::move(goals_by_category)},
+               {"episodes", std::move(episodes)},
+               {"category_to_task_category_id", ids},
+               {"category_to_scene_annotation_category_id", ids}};
+  if (file.certificate_edition > 1) json["certificate_edition"] = file.certificate_edition;
+  return json;
+}
+
 }  // namespace
 
 std::string ContentId(const Episode& episode) {
@@ -86,21 +122,17 @@ std::string ContentId(const Episode& episode) {
 }
 
 Result<void> WriteEpisodes(const std::filesystem::path& path, const EpisodeFile& file) {
-  Json goals_by_category = Json::object();
-  for (const auto& [key, goals] : file.goals_by_category) {
-    Json list = Json::array();
-    for (const GoalObject& goal : goals) list.push_back(GoalJson(goal));
-    goals_by_category[key] = std::move(list);
+  return WriteTextFile(path, FileJson(file, EpisodeJson).dump() + "\n");
+}
+
+Result<void> WriteHabitatEpisodes(const std::filesystem::path& path, const EpisodeFile& file) {
+  Json json = FileJson(file, HabitatEpisodeJson);
+  for (auto& [key, goals] : json["goals_by_category"].items()) {
+    for (Json& goal : goals) {
+      goal.erase("confirmable");
+      for (Json& viewpoint : goal["view_points"]) viewpoint["iou"] = 1.0;
+    }
   }
-  Json episodes = Json::array();
-  for (const Episode& episode : file.episodes) episodes.push_back(EpisodeJson(episode));
-  Json ids = Json::object();
-  for (std::size_t i = 0; i < kCategories.size(); ++i) ids[std::string(kCategories[i])] = i;
-  Json json = {{"goals_by_category", std::move(goals_by_category)},
-               {"episodes", std::move(episodes)},
-               {"category_to_task_category_id", ids},
-               {"category_to_scene_annotation_category_id", ids}};
-  if (file.certificate_edition > 1) json["certificate_edition"] = file.certificate_edition;
   return WriteTextFile(path, json.dump() + "\n");
 }
 

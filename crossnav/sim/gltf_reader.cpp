@@ -10,7 +10,9 @@
 #include <Eigen/Geometry>
 
 #include "crossnav/core/read_file.h"
+#include "crossnav/sim/basis_image.h"
 #include "crossnav/sim/gltf_accessor.h"
+#include "crossnav/sim/gltf_colour.h"
 #include "crossnav/sim/image_codec.h"
 
 namespace crossnav::sim {
@@ -22,15 +24,6 @@ constexpr int kMaxNodeDepth = 64;  // chosen: deeper is a cycle or an attack
 // bytes.
 constexpr std::size_t kMaxElements = 400'000'000;
 constexpr std::size_t kFreeElements = 2'000'000;  // chosen: a furnished house
-
-std::uint8_t ToByte(double unit) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0, 1.0) * 255));
-}
-
-std::uint8_t LinearToSrgb(double linear) {
-  if (!(linear > 0)) return 0;
-  return ToByte(linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
-}
 
 /// One pass over a parsed file; holds what the steps share.
 class Reader {
@@ -92,31 +85,38 @@ class Reader {
     return std::span(bytes).subspan(view.byteOffset, view.byteLength);
   }
 
+  /// Image of a texture: the Basis one of an extension, if this build can read it or there is no
+  /// other. -1 = none that exists.
+  int ImageOf(const tinygltf::Texture& texture) const {
+    int image = texture.source;
+    for (const char* basis : {"GOOGLE_texture_basis", "KHR_texture_basisu"}) {
+      const auto found = texture.extensions.find(basis);
+      if (found == texture.extensions.end() || !found->second.Has("source")) continue;
+      const tinygltf::Value& source = found->second.Get("source");
+      if (source.IsInt() && (HasBasisTranscoder() || image < 0)) image = source.GetNumberAsInt();
+    }
+    return image < static_cast<int>(gltf_.images.size()) ? image : -1;
+  }
+
   /// Index of the decoded texture, or -1 with a note where the image cannot be used.
   int TextureOf(int gltf_texture) {
     if (gltf_texture < 0 || gltf_texture >= static_cast<int>(gltf_.textures.size())) return -1;
-    const tinygltf::Texture& texture = gltf_.textures[static_cast<std::size_t>(gltf_texture)];
-    for (const char* basis : {"GOOGLE_texture_basis", "KHR_texture_basisu"}) {
-      if (texture.extensions.count(basis) != 0 && texture.source < 0) {
-        Note(std::string(basis) + " images are not decoded; flat colours are used instead");
-        return -1;
-      }
-    }
-    if (texture.source < 0 || texture.source >= static_cast<int>(gltf_.images.size())) return -1;
-    const auto source = static_cast<std::size_t>(texture.source);
+    const int image = ImageOf(gltf_.textures[static_cast<std::size_t>(gltf_texture)]);
+    if (image < 0) return -1;
+    const auto source = static_cast<std::size_t>(image);
     if (image_texture_.size() < gltf_.images.size()) {
       image_texture_.assign(gltf_.images.size(), kUnread);
     }
     if (image_texture_[source] != kUnread) return image_texture_[source];
-    const tinygltf::Image& image = gltf_.images[source];
-    auto decoded = DecodeImage(BytesOf(image), where_ + ": image " + std::to_string(source));
+    const auto bytes = BytesOf(gltf_.images[source]);
+    auto decoded = DecodeImage(bytes, where_ + ": image " + std::to_string(source));
     if (decoded) {
       model_.textures.push_back(std::move(*decoded));
       return image_texture_[source] = static_cast<int>(model_.textures.size()) - 1;
     }
-    const bool basis = image.mimeType == "image/x-basis" || image.mimeType == "image/ktx2";
-    Note(basis ? "Basis images are not decoded; flat colours are used instead"
-               : decoded.error().Message() + "; the flat colour is used instead");
+    const bool one_for_all = IsBasisImage(bytes) && !HasBasisTranscoder();
+    Note((one_for_all ? decoded.error().what : decoded.error().Message()) +
+         "; the flat colour is used instead");
     return image_texture_[source] = -1;
   }
 
@@ -275,9 +275,9 @@ class Reader {
     }
     const bool is_float = colour->component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
     colour->normalized = !is_float;  // integer colours always are, whatever the file says
-    const auto convert = [this](float x) {
-      return options_.raw_vertex_colours ? ToByte(x) : LinearToSrgb(x);
-    };
+    const bool is_name = options_.raw_vertex_colours &&
+                         colour->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    const auto convert = [is_name](float x) { return is_name ? ToByte(x) : LinearToSrgb(x); };
     model_.mesh.vertex_colours.resize(base, {255, 255, 255});
     for (std::size_t i = 0; i < count; ++i) {
       model_.mesh.vertex_colours.push_back({convert(colour->Float(i, 0)),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Binary glTF 2.0 -> one triangle mesh with all node transforms applied, in the FILE's own frame
-// and units (scene.cpp turns it into the world frame). Reads PNG and JPEG images; Basis images
-// (GOOGLE_texture_basis, KHR_texture_basisu) are left out with a note and the material's flat
-// colour is used. HM3D stores its Basis images bottom row first: a converter to PNG must flip them.
+// and units (scene.cpp turns it into the world frame). Reads PNG and JPEG images, and
+// Basis images (GOOGLE_texture_basis, KHR_texture_basisu) where the build has their transcoder;
+// else they are left out with a note and the material's flat colour is used.
 // Every accessor is checked against its buffer before it is read; any bytes are safe to pass.
 #pragma once
 
@@ -33,8 +33,8 @@ struct GltfModel {
 };
 
 struct GltfOptions {
-  /// COLOR_0 is linear light and becomes sRGB; true keeps its bytes (the colours of a semantic mesh
-  /// are names, not light).
+  /// COLOR_0 is linear light and becomes sRGB; true keeps its numbers, but for those of 16 bits
+  /// (the colours of a semantic mesh are names; files that hold them as light have 16 bits).
   bool raw_vertex_colours = false;
 };
 

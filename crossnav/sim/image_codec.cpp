@@ -8,12 +8,12 @@
 #include <jpeglib.h>
 
 #include "crossnav/core/png_image.h"
+#include "crossnav/sim/basis_image.h"
 
 namespace crossnav::sim {
 namespace {
 
-constexpr std::int64_t kMaxPixels = 1LL << 26;  // chosen: 8192 x 8192, four times HM3D's largest
-constexpr int kMaxScans = 100;                  // chosen: progressive JPEGs have about ten
+constexpr int kMaxScans = 100;  // chosen: progressive JPEGs have about ten
 
 Texture FromRgba(const Image<Rgba8>& rgba) {
   Texture texture;
@@ -53,7 +53,8 @@ bool ReadJpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, std::span<const 
   jpeg_mem_src(&jpeg, const_cast<unsigned char*>(bytes.data()),
                static_cast<unsigned long>(bytes.size()));
   jpeg_read_header(&jpeg, TRUE);
-  if (static_cast<std::int64_t>(jpeg.image_width) * jpeg.image_height > kMaxPixels) return false;
+  if (static_cast<std::int64_t>(jpeg.image_width) * jpeg.image_height > kMaxImagePixels)
+    return false;
   jpeg.out_color_space = JCS_RGB;
   jpeg_start_decompress(&jpeg);
   rgb = RgbImage(static_cast<int>(jpeg.output_width), static_cast<int>(jpeg.output_height));
@@ -90,8 +91,13 @@ Result<Texture> DecodeImage(std::span<const std::uint8_t> bytes, const std::stri
     if (!rgba) return tl::unexpected(rgba.error());
     return FromRgba(*rgba);
   }
+  if (IsBasisImage(bytes)) {
+    const auto rgba = DecodeBasisImage(bytes, where);
+    if (!rgba) return tl::unexpected(rgba.error());
+    return FromRgba(*rgba);
+  }
   if (bytes.size() > 3 && bytes[0] == 0xFF && bytes[1] == 0xD8) return DecodeJpeg(bytes, where);
-  return Fail(ErrorCode::kUnsupported, "image is neither PNG nor JPEG", where);
+  return Fail(ErrorCode::kUnsupported, "image is neither PNG nor JPEG nor Basis", where);
 }
 
 }  // namespace crossnav::sim

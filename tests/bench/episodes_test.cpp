@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/bench/episodes.h"
+#include "crossnav/bench/habitat_episodes.h"
 
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <set>
 
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/habitat_frame.h"
@@ -291,6 +296,38 @@ TEST(Episodes, SceneNameIsTheFolder) {
   EXPECT_EQ(SceneName("hm3d/val/00800-A/A.basis.glb"), "00800-A");
   EXPECT_EQ(SceneName("00800-A"), "00800-A");
   EXPECT_EQ(SceneName("val/00800-A"), "00800-A");
+}
+
+TEST(HabitatEpisodes, HoldOnlyKeysThatHabitatLabKnowsAndKeepOursUnderInfo) {
+  const crossnav::test::TempFolder dir;
+  EpisodeFile file;
+  Episode episode;
+  episode.episode_id = "00001-A-1";
+  episode.scene_id = "00001-A/A.glb";
+  episode.goals = {"sofa", "bed"};
+  episode.certificate = {{0}, {1}};
+  episode.cross_floor_required = true;
+  episode.first_transition_stage = 2;
+  file.episodes = {episode};
+  file.goals_by_category["A.glb_sofa"] = {{7, "couch", "sofa", {1, 2, 3}, {{1, 1, 0}}}};
+  const auto path = dir.path() / "habitat.json";
+  ASSERT_TRUE(WriteHabitatEpisodes(path, file));
+  const auto json = nlohmann::json::parse(ReadTextFile(path).value());
+  const std::set<std::string> known{"episode_id",
+                                    "scene_id",
+                                    "scene_dataset_config",
+                                    "start_position",
+                                    "start_rotation",
+                                    "object_category",
+                                    "goals",
+                                    "info"};
+  const auto& written = json["episodes"][0];
+  for (const auto& [key, value] : written.items()) EXPECT_TRUE(known.contains(key)) << key;
+  EXPECT_EQ(written["object_category"], "sofa");
+  EXPECT_EQ(written["info"]["goals"], nlohmann::json({"sofa", "bed"}));
+  EXPECT_EQ(written["info"]["certificate"], nlohmann::json({{0}, {1}}));
+  EXPECT_EQ(written["scene_dataset_config"], "crossnav.scene_dataset_config.json");
+  EXPECT_EQ(json["goals_by_category"]["A.glb_sofa"][0]["view_points"][0]["iou"], 1.0);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 
+#include "crossnav/core/write_file.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/shell/scene_builder.h"
 #include "support/temp_folder.h"
@@ -32,6 +33,21 @@ sim::Scene TwoBoxes() {
   scene.mesh.material = scene.Material({200, 100, 50});
   scene.mesh.AddBox({8, 5, 0}, {9, 7, 1});
   return scene.Finish("00042-Boxes");
+}
+
+TEST(SceneWriter, SemanticColoursAsLightAreTheSameNamesToTheReader) {
+  const test::TempFolder dir;
+  const sim::Scene scene = TwoBoxes();
+  const auto folder = WriteScene(scene, dir.path());
+  ASSERT_TRUE(folder.has_value());
+  const auto before = sim::LoadScene(*folder);
+  const std::string linear = EncodeSemanticGlb(scene, SemanticColours::kLinear);
+  EXPECT_NE(linear, EncodeSemanticGlb(scene));
+  ASSERT_TRUE(WriteFileAtomically(*folder / "Boxes.semantic.glb", linear));
+  const auto after = sim::LoadScene(*folder);
+  ASSERT_TRUE(after.has_value()) << after.error().Message();
+  EXPECT_EQ(after->mesh.triangle_instance, before->mesh.triangle_instance);
+  EXPECT_EQ(after->mesh_hash, before->mesh_hash);
 }
 
 TEST(SceneWriter, WhatIsWrittenIsWhatTheReaderGives) {

@@ -216,9 +216,20 @@ struct SemanticPart {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-Json SemanticPrimitive(const SemanticPart& part, Buffers& buffers) {
+int AddLinear(const std::vector<std::array<std::uint8_t, 4>>& bytes, Buffers& buffers) {
+  std::vector<std::array<std::uint16_t, 4>> colours;
+  for (const auto& c : bytes) {
+    colours.push_back({Linear16(c[0]), Linear16(c[1]), Linear16(c[2]), 65535});
+  }
+  return buffers.AddAccessor(colours, kUnsignedShort, "VEC4", kArrayBuffer);
+}
+
+Json SemanticPrimitive(const SemanticPart& part, SemanticColours kind, Buffers& buffers) {
   Json attributes = {{"POSITION", buffers.AddPositions(part.points_file)}};
-  attributes["COLOR_0"] = buffers.AddAccessor(part.colours, kUnsignedByte, "VEC4", kArrayBuffer);
+  attributes["COLOR_0"] =
+      kind == SemanticColours::kLinear
+          ? AddLinear(part.colours, buffers)
+          : buffers.AddAccessor(part.colours, kUnsignedByte, "VEC4", kArrayBuffer);
   buffers.accessors.back()["normalized"] = true;
   const int indices = buffers.AddIndices(part.triangles, part.points_file.size());
   return {
@@ -248,7 +259,7 @@ std::string EncodeRenderGlb(const sim::Scene& scene) {
   return Finish(std::move(root), std::move(buffers));
 }
 
-std::string EncodeSemanticGlb(const sim::Scene& scene) {
+std::string EncodeSemanticGlb(const sim::Scene& scene, SemanticColours colours) {
   const auto& mesh = scene.mesh;
   Buffers buffers;
   Json primitives = Json::array();
@@ -258,7 +269,7 @@ std::string EncodeSemanticGlb(const sim::Scene& scene) {
   std::vector<std::int32_t> instance_of(mesh.vertices.size(), -1);
   const auto flush = [&] {
     if (part.triangles.empty()) return;
-    primitives.push_back(SemanticPrimitive(part, buffers));
+    primitives.push_back(SemanticPrimitive(part, colours, buffers));
     part = {};
     std::fill(instance_of.begin(), instance_of.end(), -1);
   };

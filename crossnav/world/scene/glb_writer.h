@@ -15,8 +15,13 @@ namespace crossnav::world {
 /// One primitive per material, textures embedded as PNG, vertex colours where the scene has them.
 std::string EncodeRenderGlb(const sim::Scene& scene);
 
+/// How vertex colours name instances: as bytes, which renderers take for linear light, or as 16-bit
+/// linear light, which every renderer turns into the bytes of the semantic text.
+enum class SemanticColours { kBytes, kLinear };
+
 /// One unlit primitive whose vertex colours name the instance (SemanticColour of its id).
-std::string EncodeSemanticGlb(const sim::Scene& scene);
+std::string EncodeSemanticGlb(const sim::Scene& scene,
+                              SemanticColours colours = SemanticColours::kBytes);
 
 /// Colour of an instance in the semantic mesh and text; different ids below 2^24 differ.
 Rgb8 SemanticColour(int instance_id);

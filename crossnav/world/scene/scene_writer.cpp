@@ -91,9 +91,7 @@ Result<void> WriteDatasetConfig(const fs::path& dir) {
   },
   "objects": {},
   "light_setups": {},
-  "scene_instances": {
-    "default_attributes": { "default_lighting": "no_lights" }
-  }
+  "scene_instances": {}
 }
 )";
   return WriteFileAtomically(dir / "crossnav.scene_dataset_config.json", text);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// `crossnav suite export SUITE --to habitat DIR`: a suite as Habitat-Sim and Habitat-Lab load it.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/habitat_episodes.h"
+#include "crossnav/bench/output_path.h"
+#include "crossnav/bench/suite.h"
+#include "crossnav/core/read_file.h"
+#include "crossnav/core/write_file.h"
+#include "crossnav/sim/habitat_navmesh.h"
+#include "crossnav/world/scene/glb_writer.h"
+#include "crossnav/world/scene/scene_writer.h"
+#include "session.h"
+
+namespace crossnav::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One scene: its mesh as it is, its semantics with linear colours, and its navmesh.
+Result<void> ExportScene(const fs::path& from, const fs::path& to,
+                         const sim::NavMeshSettings& settings) {
+  const auto scene = sim::LoadScene(from);
+  if (!scene) return tl::unexpected(scene.error());
+  const std::string stem = scene->id.substr(scene->id.find('-') + 1);
+  const auto mesh = ReadFile(from / (stem + ".glb"));
+  if (!mesh) return tl::unexpected(mesh.error());
+  const auto navmesh = sim::EncodeHabitatNavMesh(*scene, settings);
+  if (!navmesh) return tl::unexpected(navmesh.error());
+  std::error_code error;
+  fs::create_directories(to, error);
+  if (error) return Fail(ErrorCode::kIo, error.message(), to.string());
+  const auto write = [&](const char* ending, const std::string& bytes) {
+    return WriteFileAtomically(to / (stem + ending), bytes);
+  };
+  if (auto ok = write(".navmesh", *navmesh); !ok) return ok;
+  if (auto ok = write(".semantic.txt", world::SemanticText(*scene)); !ok) return ok;
+  if (auto ok =
+          write(".semantic.glb", world::EncodeSemanticGlb(*scene, world::SemanticColours::kLinear));
+      !ok) {
+    return ok;
+  }
+  return write(".glb", *mesh);
+}
+
+}  // namespace
+
+Result<void> SuiteExport(const SuiteOptions& options, const CommonOptions& /*common*/,
+                         Console& console) {
+  const fs::path out(options.to.at(1));
+  if (options.to.front() != "habitat") {
+    return Fail(ErrorCode::kInvalid, "is no form to export to; there is habitat", "--to");
+  }
+  if (auto ok = bench::CheckOutputFolder(out, "--to"); !ok) return ok;
+  const fs::path suite = fs::path(options.out) / options.name;
+  const auto manifest = bench::ReadManifest(suite / "manifest.json");
+  if (!manifest) {
+    return Fail(
+        manifest.error().code,
+        manifest.error().what + "; make the suite first: crossnav suite make " + options.name,
+        manifest.error().where);
+  }
+  const auto file = bench::ReadEpisodes(suite / "episodes.json.gz");
+  if (!file) return tl::unexpected(file.error());
+  const bench::RunConfig config;  // a suite does not depend on settings
+  int done = 0;
+  for (const auto& [scene, hash] : manifest->meshes) {
+    console.Progress(fmt::format("scene {} of {}", ++done, manifest->meshes.size()));
+    if (auto ok = ExportScene(suite / "scenes" / scene, out / "scenes" / scene, config.navmesh);
+        !ok) {
+      return ok;
+    }
+  }
+  if (auto ok = world::WriteDatasetConfig(out / "scenes"); !ok) return ok;
+  const fs::path episodes = out / "episodes.json.gz";
+  if (auto ok = bench::WriteHabitatEpisodes(episodes, *file); !ok) return ok;
+  console.EndProgress();
+  console.Print(fmt::format("{}: {} scenes, {} episodes for Habitat\n", out.string(),
+                            manifest->meshes.size(), file->episodes.size()));
+  console.Document(nlohmann::ordered_json({{"folder", out.string()},
+                                           {"scenes", manifest->meshes.size()},
+                                           {"episodes", file->episodes.size()}}));
+  return {};
+}
+
+}  // namespace crossnav::app

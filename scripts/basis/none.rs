@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+// Cargo wants a target; there is nothing of ours to compile.
