@@ -88,6 +88,7 @@ ADAPTERS = {
                                       "crossnav/bench/result_json.cpp",
                                       "crossnav/bench/suite.cpp",
                                       "crossnav/bench/viewpoint_cache.cpp",
+                                      "crossnav/homes/building_file.cpp",
                                       "crossnav/homes/objects_file.cpp",
                                       "crossnav/world/furniture/furniture_pack.cpp",
                                       "crossnav/world/scene/glb_writer.cpp",

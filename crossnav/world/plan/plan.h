@@ -139,6 +139,7 @@ struct HousePlan {
   std::vector<Railing> railings;
   std::vector<std::pair<int, Rect>> voids;  ///< (level, rect) besides those of the stairs
   std::vector<Placement> furniture;
+  std::vector<Box3> taken;  ///< furniture keeps out, besides openings, stairs and railings
 
   /// Everything cut out of the floor of `level`.
   std::vector<Rect> VoidsOf(int level) const {
