@@ -97,10 +97,10 @@ void AddScene(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 1000));
   views->add_option("--out", o.views.out, "Folder for views.json and the pictures")->required();
   AddFrames(*scene, o);
-  CLI::App* import =
-      AddVerb(*scene, o, "import", "A home, a building or a 3D model becomes a scene in HM3D layout",
-              "crossnav scene import MyHome.sh3d --out scenes",
-              [&o](Console& c) { return SceneImport(o.scene_import, o.common, c); });
+  CLI::App* import = AddVerb(*scene, o, "import",
+                             "A home, a building or a 3D model becomes a scene in HM3D layout",
+                             "crossnav scene import MyHome.sh3d --out scenes",
+                             [&o](Console& c) { return SceneImport(o.scene_import, o.common, c); });
   import
       ->add_option(
           "INPUT", o.scene_import.input,

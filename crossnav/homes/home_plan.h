@@ -64,7 +64,7 @@ struct HomePiece {
   PieceKind kind = PieceKind::kFurniture;
   std::string name, catalog_id;
   std::string raw_name;  ///< semantic name; empty = by the other two
-  std::string model;  ///< entry of the archive; empty = none
+  std::string model;     ///< entry of the archive; empty = none
   int level = 0;
   Vector2d center = Vector2d::Zero();
   double bottom_m = 0;  ///< above the level's floor

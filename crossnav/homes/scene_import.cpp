@@ -257,9 +257,9 @@ Result<ImportReport> ImportScene(const ImportOptions& options) {
   }
   const auto checked = CheckedName(name);
   if (!checked) return tl::unexpected(checked.error());
-  auto built = !options.building.empty()  ? ReadBuilding(options, report)
-               : IsModel(options.input) ? ReadModel(options, report)
-                                        : ReadHome(options, report);
+  auto built = !options.building.empty() ? ReadBuilding(options, report)
+               : IsModel(options.input)  ? ReadModel(options, report)
+                                         : ReadHome(options, report);
   if (!built) return tl::unexpected(built.error());
   built->id = report.scene_id = SceneIdFor(*checked, options.out_dir);
   const auto folder = WriteWholeScene(*built, options.out_dir);
