@@ -91,6 +91,7 @@ ADAPTERS = {
                                       "crossnav/bench/result_line.h",
                                       "crossnav/bench/suite.cpp",
                                       "crossnav/bench/viewpoint_cache.cpp",
+                                      "crossnav/homes/building_file.cpp",
                                       "crossnav/homes/objects_file.cpp",
                                       "crossnav/world/furniture/furniture_pack.cpp",
                                       "crossnav/world/scene/glb_writer.cpp",

@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: MIT
 # Installs what the build and the tests need, from the distribution's own packages.
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
-#                                    slurm, hm3d
+#                                    slurm, hm3d, ifc
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
 # it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
 # installed where the distribution has it (Debian 13). The lint group comes with clang-tidy, pinned
 # in scripts/clang-tidy.txt, beside OpenVINO. The hm3d group is Basis Universal, whose textures HM3D
 # ships: compiled from the sources in a crate that scripts/basis/Cargo.lock pins, beside OpenVINO too.
+# The ifc group is IfcOpenShell, pinned in scripts/ifcopenshell.txt, in a Python environment there, where
+# the program looks for it.
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -26,6 +28,7 @@ declare -A PACKAGES=(
   [docs]="doxygen"
   [slurm]="slurm-wlm munge"
   [hm3d]="g++ libzstd-dev"
+  [ifc]="python3-venv"
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }
@@ -178,6 +181,24 @@ build_basis() {
   (cd "$source" && cp --parents {transcoder,encoder,zstd}/*.h LICENSE "$1/home/include")
 }
 
+# IfcOpenShell in a Python environment of its own, where the program looks.
+install_ifcopenshell() {
+  local pin home
+  pin="$(dirname "${BASH_SOURCE[0]}")/ifcopenshell.txt"
+  home="${XDG_DATA_HOME:-$HOME/.local/share}/crossnav/ifcopenshell"
+  cmp -s "$pin" "$home/complete" && return 0
+  say "fetching IfcOpenShell into $home"
+  rm -rf "$home"
+  mkdir -p "$(dirname "$home")"
+  python3 -m venv "$home"
+  "$home/bin/python" -m pip --disable-pip-version-check install -q --no-input --no-deps \
+    --only-binary=:all: -r "$pin" || {
+    say "IfcOpenShell cannot be had; see above. Without it, scene import reads no .ifc"
+    exit 1
+  }
+  cp "$pin" "$home/complete"
+}
+
 main() {
   [[ ${CROSSNAV_SKIP_SETUP:-} == 1 ]] && return 0
   local group
@@ -200,6 +221,7 @@ main() {
   fi
   [[ " $* " != *" lint "* ]] || install_clang_tidy
   [[ " $* " != *" hm3d "* ]] || install_basis
+  [[ " $* " != *" ifc "* ]] || install_ifcopenshell
   return 0
 }
 

@@ -101,6 +101,9 @@ Result<void> SceneFrames(const FramesOptions& options, const CommonOptions& comm
 
 struct SceneImportOptions {
   std::string input, out, name, home, objects;
+  std::optional<std::uint64_t> furnish;  ///< seed
+  std::string furniture;                 ///< as of WorldOptions
+  int seconds = 15;                      ///< of processor time for a reader of IFC
 };
 Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
                          Console& console);

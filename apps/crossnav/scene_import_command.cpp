@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cctype>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "crossnav/bench/output_path.h"
 #include "crossnav/homes/scene_import.h"
+#include "ifc_import.h"
 
 namespace crossnav::app {
 namespace {
@@ -60,6 +63,12 @@ Json ReportJson(const homes::ImportReport& report) {
           {"notes", report.notes}};
 }
 
+bool IsIfc(const std::string& input) {
+  std::string ending = std::filesystem::path(input).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".ifc";
+}
+
 }  // namespace
 
 Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
@@ -74,6 +83,19 @@ Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions&
   import.home = options.home;
   import.objects = options.objects;
   import.navmesh = config->navmesh;
+  std::optional<world::FurniturePack> pack;
+  if (options.furnish) {
+    auto found = OpenFurniture(options.furniture, console);
+    if (!found) return tl::unexpected(found.error());
+    pack = std::move(*found);
+    import.furnish = options.furnish;
+    import.pack = pack ? &*pack : nullptr;
+  }
+  if (IsIfc(options.input)) {
+    auto building = ReadIfc(options.input, options.seconds);
+    if (!building) return tl::unexpected(building.error());
+    import.building = std::move(*building);
+  }
   const auto report = homes::ImportScene(import);
   if (!report) return tl::unexpected(report.error());
   for (const std::string& note : report->notes) console.Log(report->scene_id + ": " + note);

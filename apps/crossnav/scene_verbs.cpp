@@ -109,20 +109,34 @@ void AddScene(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 1000));
   views->add_option("--out", o.views.out, "Folder for views.json and the pictures")->required();
   AddFrames(*scene, o);
-  CLI::App* import =
-      AddVerb(*scene, o, "import", "A home or a 3D model becomes a scene in HM3D layout",
-              "crossnav scene import MyHome.sh3d --out scenes",
-              [&o](Console& c) { return SceneImport(o.scene_import, o.common, c); });
+  CLI::App* import = AddVerb(*scene, o, "import",
+                             "A home, a building or a 3D model becomes a scene in HM3D layout",
+                             "crossnav scene import MyHome.sh3d --out scenes",
+                             [&o](Console& c) { return SceneImport(o.scene_import, o.common, c); });
   import
       ->add_option(
           "INPUT", o.scene_import.input,
-          "Home of Sweet Home 3D (.sh3d), archive of homes (.jar), or 3D model (.obj, .glb, .gltf)")
+          "Home of Sweet Home 3D (.sh3d), archive of homes (.jar), building (.ifc), or 3D model "
+          "(.obj, .glb, .gltf)")
       ->required();
   import->add_option("--out", o.scene_import.out, "Folder to write the scene to")->required();
   import->add_option("--objects", o.scene_import.objects,
                      "File that names the objects of a 3D model (JSON)");
   import->add_option("--name", o.scene_import.name, "Name of the scene; default: the input's");
   import->add_option("--home", o.scene_import.home, "Which home of an archive that holds several");
+  import
+      ->add_option("--furnish", o.scene_import.furnish,
+                   "Furnish the rooms of a home or building by their names")
+      ->type_name("SEED");
+  import
+      ->add_option("--furniture", o.scene_import.furniture,
+                   "Furniture pack for --furnish, or none for simple shapes; default: the one that "
+                   "assets import made, where there is one")
+      ->type_name("DIR|none");
+  import
+      ->add_option("--seconds", o.scene_import.seconds,
+                   "Processor time that reading an .ifc may take")
+      ->check(CLI::Range(1, 86400));
 }
 
 void AddEpisodes(CLI::App& app, Options& o) {

@@ -17,6 +17,9 @@ class Contents {
   /// kNotFound, kMalformed: no such file, no zip archive.
   static Result<Contents> Open(const std::filesystem::path& file);
 
+  /// Nothing in it, for homes that come without an archive.
+  static Contents Empty() { return Contents(world::ZipReader()); }
+
   struct Xml {
     std::string text, entry;
   };

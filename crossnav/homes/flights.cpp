@@ -93,8 +93,8 @@ Result<bool> IsClimbable(const sim::Scene& scene, const HomePlan& plan, const Fl
 
 Result<Substitutes> FixFlights(const HomePlan& plan, ModelStore& models,
                                const sim::NavMeshSettings& settings,
-                               std::vector<std::string>& notes) {
-  Substitutes substitutes;
+                               std::vector<std::string>& notes, Substitutes given) {
+  Substitutes substitutes = std::move(given);
   for (const Flight& flight : FlightsOf(plan)) {
     std::vector<std::string> ignored;
     const HomePiece& piece = plan.pieces[flight.piece];
@@ -104,7 +104,13 @@ Result<Substitutes> FixFlights(const HomePlan& plan, ModelStore& models,
     if (*climbable) continue;
     std::string why;
     std::optional<world::NamedObj> drawn;
-    if (const auto* model = models.Find(piece.model, why)) drawn = Fitted(*model, piece);
+    const auto own = substitutes.find(flight.piece);
+    if (own != substitutes.end()) {
+      drawn = own->second;
+    } else if (const auto* model = models.Find(piece.model, why)) {
+      drawn = Fitted(*model, piece);
+    }
+    const auto keep = drawn && own != substitutes.end() ? drawn : std::nullopt;
     bool is_fixed = false;
     const double rise_m = flight.top_m - flight.foot_m;
     for (auto& plain : PlainFlights(piece, rise_m, drawn ? &*drawn : nullptr)) {
@@ -119,6 +125,7 @@ Result<Substitutes> FixFlights(const HomePlan& plan, ModelStore& models,
                                 ? "cannot be climbed as drawn and is replaced by a plain flight"
                                 : "cannot be climbed, and no flight in its box leads up"));
     if (!is_fixed) substitutes.erase(flight.piece);
+    if (!is_fixed && keep) substitutes[flight.piece] = *keep;
   }
   return substitutes;
 }

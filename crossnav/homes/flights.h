@@ -30,10 +30,10 @@ Result<bool> IsClimbable(const sim::Scene& scene, const HomePlan& plan, const Fl
 std::vector<world::NamedObj> PlainFlights(const HomePiece& piece, double rise_m,
                                           const world::NamedObj* model);
 
-/// Finds substitutes for the staircases of `plan` that cannot be climbed; `notes` says for which,
-/// and for which none was found.
+/// Finds substitutes for the staircases of `plan` that cannot be climbed, and adds them to `given`;
+/// `notes` says for which, and for which none was found.
 Result<Substitutes> FixFlights(const HomePlan& plan, ModelStore& models,
                                const sim::NavMeshSettings& settings,
-                               std::vector<std::string>& notes);
+                               std::vector<std::string>& notes, Substitutes given = {});
 
 }  // namespace crossnav::homes

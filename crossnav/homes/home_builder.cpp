@@ -40,16 +40,6 @@ class FinishUser {
   std::map<std::string, int> texture_of_;
 };
 
-/// A door that leads from one room into another.
-bool IsInnerDoor(const HomePlan& plan, const HomePiece& piece) {
-  if (piece.kind != PieceKind::kOpening) return false;
-  if (piece.bottom_m > 0.25 || piece.height_m < 1.6) return false;
-  const double middle = (0.5 - 0.5 * (piece.wall_from + piece.wall_to)) * piece.depth_m;
-  const double reach = 0.5 * (piece.wall_to - piece.wall_from) * piece.depth_m + 0.25;
-  return RoomAt(plan, piece.level, OnPlan(piece, 0, middle + reach)) >= 0 &&
-         RoomAt(plan, piece.level, OnPlan(piece, 0, middle - reach)) >= 0;
-}
-
 constexpr double kOwnReach_m = 0.05;    // chosen: the thickness of a handle
 constexpr double kOtherReach_m = 0.45;  // chosen: to step aside from an open leaf
 
@@ -80,6 +70,15 @@ bool IsMarker(const HomePiece& piece) {
 }
 
 }  // namespace
+
+bool IsInnerDoor(const HomePlan& plan, const HomePiece& piece) {
+  if (piece.kind != PieceKind::kOpening) return false;
+  if (piece.bottom_m > 0.25 || piece.height_m < 1.6) return false;
+  const double middle = (0.5 - 0.5 * (piece.wall_from + piece.wall_to)) * piece.depth_m;
+  const double reach = 0.5 * (piece.wall_to - piece.wall_from) * piece.depth_m + 0.25;
+  return RoomAt(plan, piece.level, OnPlan(piece, 0, middle + reach)) >= 0 &&
+         RoomAt(plan, piece.level, OnPlan(piece, 0, middle - reach)) >= 0;
+}
 
 sim::Scene BuildHome(const HomePlan& plan, ModelStore& models, const Substitutes& substitutes,
                      std::vector<std::string>& notes) {
@@ -116,6 +115,9 @@ sim::Scene BuildHome(const HomePlan& plan, ModelStore& models, const Substitutes
     obj.model.name = RawNameOf(piece);
     scene.Place(obj.model, PoseOf(plan, piece),
                 std::max(0, RoomAt(plan, piece.level, piece.center)));
+  }
+  for (const world::Placement& p : plan.furnishing) {
+    scene.Place(p.model, p.T_world_object, std::max(0, p.room));
   }
   for (const auto& [done, count] : doors) {
     notes.push_back(std::to_string(count) + " " + done);

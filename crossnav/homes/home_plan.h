@@ -12,6 +12,7 @@
 #include "crossnav/core/image.h"
 #include "crossnav/core/pose.h"
 #include "crossnav/homes/polygon.h"
+#include "crossnav/world/plan/plan.h"
 
 namespace crossnav::homes {
 
@@ -47,6 +48,8 @@ struct HomeRoom {
   Polygon outline;
   Finish floor, ceiling;
   bool has_floor = true, has_ceiling = true;
+  bool draws_floor = true, draws_ceiling = true;  ///< false = pieces are its floor or ceiling
+  double height_m = 0;                            ///< floor to ceiling; 0 = the level's
 };
 
 /// A leaf of a door or window. Positions are shares of the piece's width and depth.
@@ -60,7 +63,8 @@ enum class PieceKind { kFurniture, kOpening, kStairs };
 struct HomePiece {
   PieceKind kind = PieceKind::kFurniture;
   std::string name, catalog_id;
-  std::string model;  ///< entry of the archive; empty = none
+  std::string raw_name;  ///< semantic name; empty = by the other two
+  std::string model;     ///< entry of the archive; empty = none
   int level = 0;
   Vector2d center = Vector2d::Zero();
   double bottom_m = 0;  ///< above the level's floor
@@ -82,7 +86,8 @@ struct HomePlan {
   std::vector<HomeWall> walls;
   std::vector<HomeRoom> rooms;
   std::vector<HomePiece> pieces;
-  std::vector<std::string> notes;  ///< what was left out, for people
+  std::vector<world::Placement> furnishing;  ///< that was added to the plan
+  std::vector<std::string> notes;            ///< what was left out, for people
 
   double FloorOf(int level) const { return levels[static_cast<std::size_t>(level)].floor_m; }
 };

@@ -155,6 +155,7 @@ std::string RawNameFor(std::string_view name) {
 }
 
 std::string RawNameOf(const HomePiece& piece) {
+  if (!piece.raw_name.empty()) return piece.raw_name;
   if (piece.kind == PieceKind::kStairs) return "stairs";
   const std::string_view id = piece.catalog_id;
   constexpr std::string_view kOwn = "eTeks#";

@@ -68,7 +68,7 @@ void BuildRooms(const HomePlan& plan, const UseFinish& use, world::SceneBuilder&
     const HomeLevel& level = plan.levels[static_cast<std::size_t>(room.level)];
     const std::vector<Polygon> parts = Triangulate(room.outline);
     const int region = static_cast<int>(i);
-    if (room.has_floor) {
+    if (room.has_floor && room.draws_floor) {
       const double low = level.floor_m - kFloorShare * level.slab_m;
       auto pieces = Subtract(parts, Covered(plan, i, &HomeRoom::has_floor));
       pieces = Subtract(std::move(pieces), Cuts(plan, low, level.floor_m));
@@ -76,7 +76,7 @@ void BuildRooms(const HomePlan& plan, const UseFinish& use, world::SceneBuilder&
       use(room.floor, kFloorColour);
       for (const Polygon& piece : pieces) scene.mesh.AddPrism(piece, low, level.floor_m);
     }
-    if (room.has_ceiling) {
+    if (room.has_ceiling && room.draws_ceiling) {
       const double low = level.floor_m + level.height_m;
       const double high = low + (1 - kFloorShare) * SlabAbove(plan, room.level);
       auto pieces = Subtract(parts, Covered(plan, i, &HomeRoom::has_ceiling));

@@ -8,8 +8,10 @@
 #include <cmath>
 
 #include "crossnav/core/read_file.h"
+#include "crossnav/homes/building_home.h"
 #include "crossnav/homes/contents.h"
 #include "crossnav/homes/flights.h"
+#include "crossnav/homes/furnish_home.h"
 #include "crossnav/homes/home_builder.h"
 #include "crossnav/homes/home_xml.h"
 #include "crossnav/homes/mesh_scene.h"
@@ -143,6 +145,22 @@ void MarkReached(ImportReport& report) {
   }
 }
 
+/// The scene of a home, furnished where that is asked for.
+Result<sim::Scene> Finished(const ImportOptions& options, HomePlan& plan, ModelStore& models,
+                            const Substitutes& substitutes, ImportReport& report,
+                            const std::string& where) {
+  std::vector<std::string> ignored;
+  if (options.furnish) {
+    FurnishHome(plan, BuildHome(plan, models, substitutes, ignored), *options.furnish,
+                {options.pack, true}, report.notes);
+  }
+  sim::Scene scene = BuildHome(plan, models, substitutes, report.notes);
+  if (scene.mesh.triangles.empty()) {
+    return Fail(ErrorCode::kInvalid, "draws nothing: no rooms, no walls, no furniture", where);
+  }
+  return scene;
+}
+
 Result<sim::Scene> ReadHome(const ImportOptions& options, ImportReport& report) {
   const auto contents = Contents::Open(options.input);
   if (!contents) return tl::unexpected(contents.error());
@@ -158,11 +176,28 @@ Result<sim::Scene> ReadHome(const ImportOptions& options, ImportReport& report) 
   ModelStore models(*contents);
   const auto substitutes = FixFlights(*plan, models, options.navmesh, report.notes);
   if (!substitutes) return tl::unexpected(substitutes.error());
-  sim::Scene scene = BuildHome(*plan, models, *substitutes, report.notes);
-  if (scene.mesh.triangles.empty()) {
-    return Fail(ErrorCode::kInvalid, "draws nothing: no rooms, no walls, no furniture", where);
-  }
-  return scene;
+  return Finished(options, *plan, models, *substitutes, report, where);
+}
+
+/// A building that the reader of IFC files passed on.
+Result<sim::Scene> ReadBuilding(const ImportOptions& options, ImportReport& report) {
+  const std::string where = options.input.string();
+  const auto building = ParseBuilding(options.building, where);
+  if (!building) return tl::unexpected(building.error());
+  BuildingHome home = MakeHome(*building);
+  const Contents none = Contents::Empty();
+  ModelStore models(none);
+  std::vector<std::string> ignored;
+  MendFloors(home.plan, BuildHome(home.plan, models, home.models, ignored));
+  MendThresholds(home, BuildHome(home.plan, models, home.models, ignored));
+  report.notes = home.plan.notes;
+  report.levels = static_cast<int>(home.plan.levels.size());
+  report.rooms = static_cast<int>(home.plan.rooms.size());
+  report.storeys = StoreysOf(home.plan);
+  const auto substitutes =
+      FixFlights(home.plan, models, options.navmesh, report.notes, std::move(home.models));
+  if (!substitutes) return tl::unexpected(substitutes.error());
+  return Finished(options, home.plan, models, *substitutes, report, where);
 }
 
 bool IsModel(const fs::path& file) {
@@ -222,7 +257,9 @@ Result<ImportReport> ImportScene(const ImportOptions& options) {
   }
   const auto checked = CheckedName(name);
   if (!checked) return tl::unexpected(checked.error());
-  auto built = IsModel(options.input) ? ReadModel(options, report) : ReadHome(options, report);
+  auto built = !options.building.empty() ? ReadBuilding(options, report)
+               : IsModel(options.input)  ? ReadModel(options, report)
+                                         : ReadHome(options, report);
   if (!built) return tl::unexpected(built.error());
   built->id = report.scene_id = SceneIdFor(*checked, options.out_dir);
   const auto folder = WriteWholeScene(*built, options.out_dir);

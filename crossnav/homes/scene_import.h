@@ -7,11 +7,13 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "crossnav/core/result.h"
 #include "crossnav/sim/navmesh.h"
+#include "crossnav/world/furniture/furniture_pack.h"
 
 namespace crossnav::homes {
 
@@ -20,6 +22,9 @@ struct ImportOptions {
   std::string name;               ///< of the scene; empty = the input's
   std::filesystem::path objects;  ///< names the objects of a 3D model
   std::string home;               ///< which home of an archive that holds several
+  std::string building;           ///< what the input holds, as docs/formats/building.md has it
+  std::optional<std::uint64_t> furnish;        ///< seed; nullopt = rooms stay as they are
+  const world::FurniturePack* pack = nullptr;  ///< to furnish from; nullptr = parametric shapes
   sim::NavMeshSettings navmesh;
 };
 

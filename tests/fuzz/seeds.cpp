@@ -22,6 +22,7 @@
 #include "homes/home_maker.h"
 #include "sim/glb_maker.h"
 #include "store/small_world.h"
+#include "support/building_maker.h"
 #include "support/text_file.h"
 #include "trace/sample_episode.h"
 
@@ -121,6 +122,7 @@ void AddHouses(const Seeds& seeds) {
             R"({"format":1,"up":"y","unit_m":0.01,"objects":[{"id":"a","name":"chair","parts":)"
             R"(["Chair*"],"room":1},{"category":"bed","box":{"center":[0,0,0],"size":[1,2,3],)"
             R"("yaw_deg":30}},{"name":"sofa","box":{"min":[0,0,0],"max":[1,1,1]}}]})");
+  seeds.Put("building", "two_rooms.json", crossnav::test::TwoRooms());
   const auto entries = homes::test::TwoStoreyHome();
   seeds.Put("home", "two.sh3d", crossnav::test::Zip(entries));
   seeds.Put("home_xml", "Home.xml", entries.at("Home.xml"));

@@ -51,10 +51,12 @@ class RoomFiller {
     ceiling_m_ = space.ceiling_m;
     inner_ = space.inner;
     keep_out_ = std::move(space.keep_out);
+    keep_out_.insert(keep_out_.end(), plan.taken.begin(), plan.taken.end());
   }
 
-  void Fill() {
+  void Fill(const std::function<bool(std::string_view)>& wants) {
     for (const Rule& rule : RulesOf(room_.type)) {
+      if (!wants(rule.kind)) continue;
       if (room_.rects[0].Area() < rule.min_area_m2) continue;
       for (int i = 0; i < rule.most; ++i) {
         if (!rng_.Chance(rule.chance)) continue;
@@ -273,8 +275,13 @@ class RoomFiller {
 
 void Furnish(HousePlan& plan, const FurnitureSource& source, Rng& rng) {
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
-    RoomFiller(plan, static_cast<int>(i), source, rng).Fill();
+    FurnishRoom(plan, static_cast<int>(i), source, rng, [](std::string_view) { return true; });
   }
+}
+
+void FurnishRoom(HousePlan& plan, int room, const FurnitureSource& source, Rng& rng,
+                 const std::function<bool(std::string_view)>& wants) {
+  RoomFiller(plan, room, source, rng).Fill(wants);
 }
 
 }  // namespace crossnav::world

@@ -4,6 +4,9 @@
 // furniture do not overlap by more than kOverlapTolerance_m.
 #pragma once
 
+#include <functional>
+#include <string_view>
+
 #include "crossnav/core/rng.h"
 #include "crossnav/world/furniture/furniture_source.h"
 #include "crossnav/world/plan/plan.h"
@@ -13,5 +16,9 @@ namespace crossnav::world {
 inline constexpr double kOverlapTolerance_m = 0.03;  // chosen: handles and rims may touch
 
 void Furnish(HousePlan& plan, const FurnitureSource& source, Rng& rng);
+
+/// One room of it, with those pieces only whose kind (of MakeGroup) `wants` takes.
+void FurnishRoom(HousePlan& plan, int room, const FurnitureSource& source, Rng& rng,
+                 const std::function<bool(std::string_view kind)>& wants);
 
 }  // namespace crossnav::world

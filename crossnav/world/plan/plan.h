@@ -157,6 +157,7 @@ struct HousePlan {
   std::vector<std::pair<int, Rect>> voids;  ///< (level, rect) besides those of the stairs
   std::vector<Block> blocks;
   std::vector<Placement> furniture;
+  std::vector<Box3> taken;  ///< furniture keeps out, besides openings, stairs and railings
 
   /// Everything cut out of the floor of `level`.
   std::vector<Rect> VoidsOf(int level) const {

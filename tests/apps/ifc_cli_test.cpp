@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// `scene import` of IFC files through IfcOpenShell (scripts/setup.sh ifc); skipped where it is
+// missing. shared/data/ifc/Duplex.ifc is beside the repository in its workplaces only.
+#include <chrono>
+
+#include "cli_fixture.h"
+
+namespace crossnav::test {
+namespace {
+
+const fs::path kDuplex = fs::path(CROSSNAV_SOURCE_DIR).parent_path() / "shared/data/ifc/Duplex.ifc";
+
+class IfcCli : public Cli {
+ protected:
+  /// A wall, a door, two spaces; `extra` are further lines of data.
+  static std::string SmallIfc(const std::string& extra = "") {
+    return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n"
+           "FILE_NAME('','',(''),(''),'','','');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n"
+           "#1=IFCPROJECT('0000000000000000000001',$,'p',$,$,$,$,(#5),#9);\n"
+           "#2=IFCCARTESIANPOINT((0.,0.,0.));\n#3=IFCAXIS2PLACEMENT3D(#2,$,$);\n"
+           "#5=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,#3,$);\n"
+           "#8=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n#9=IFCUNITASSIGNMENT((#8));\n"
+           "#10=IFCBUILDINGSTOREY('0000000000000000000002',$,'EG',$,$,#11,$,$,.ELEMENT.,0.);\n"
+           "#11=IFCLOCALPLACEMENT($,#3);\n"
+           "#12=IFCRELAGGREGATES('0000000000000000000003',$,$,$,#1,(#10));\n"
+           "#13=IFCRELAGGREGATES('0000000000000000000004',$,$,$,#10,(#30,#31));\n" +
+           Box(20, "IFCWALL('0000000000000000000005',$,'w',$,$,#11,#28,$,$)", 4.1, 0.5, 0.2, 1) +
+           Box(30,
+               "IFCSPACE('0000000000000000000006',$,'1',$,$,#11,#38,'K\\X2\\00FC\\X0\\che',"
+               ".ELEMENT.,.INTERNAL.,$)",
+               2, 2, 4, 4) +
+           Box(40,
+               "IFCSPACE('0000000000000000000007',$,'2',$,$,#11,#48,'Bedroom',"
+               ".ELEMENT.,.INTERNAL.,$)",
+               6.5, 2, 5, 4) +
+           extra + "ENDSEC;\nEND-ISO-10303-21;\n";
+  }
+
+  /// An upright prism of 2.5 m, as item `n` and the eight after it.
+  static std::string Box(int n, const std::string& product, double x, double y, double dx,
+                         double dy) {
+    const auto id = [n](int k) { return "#" + std::to_string(n + k); };
+    const auto real = [](double v) {
+      const std::string text = std::to_string(v);
+      return text.substr(0, text.find('.') + 3);
+    };
+    std::string text = id(0) + "=" + product + ";\n";
+    if (product.rfind("IFCSPACE", 0) == 0 && n == 40) text.replace(1, 2, "31");
+    return text + id(2) + "=IFCCARTESIANPOINT((" + real(x) + "," + real(y) + "));\n" + id(3) +
+           "=IFCAXIS2PLACEMENT2D(" + id(2) + ",$);\n" + id(4) +
+           "=IFCRECTANGLEPROFILEDEF(.AREA.,$," + id(3) + "," + real(dx) + "," + real(dy) + ");\n" +
+           id(5) + "=IFCDIRECTION((0.,0.,1.));\n" + id(6) + "=IFCEXTRUDEDAREASOLID(" + id(4) +
+           ",#3," + id(5) + ",2.5);\n" + id(7) +
+           "=IFCSHAPEREPRESENTATION(#5,'Body','SweptSolid',(" + id(6) + "));\n" + id(8) +
+           "=IFCPRODUCTDEFINITIONSHAPE($,$,(" + id(7) + "));\n";
+  }
+
+  bool HasReader() {
+    WriteText(At("probe.ifc"), SmallIfc());
+    return Run("scene import probe.ifc --out probed").err.find("has no Python package") ==
+           std::string::npos;
+  }
+
+  /// One line, exit status 1, nothing written, in time.
+  void ExpectRefused(const std::string& name, const std::string& bytes) {
+    WriteText(At(name), bytes);
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome outcome = Run("scene import " + name + " --out none --seconds 5");
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(outcome.exit_code, 1) << name << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+    EXPECT_LT(took.count(), 20) << name;
+    EXPECT_FALSE(fs::exists(At("none")));
+  }
+};
+
+TEST_F(IfcCli, WithoutTheReaderOneLineSaysWhatToInstall) {
+  WriteText(At("a.ifc"), SmallIfc());
+  const Outcome none = RunIn(folder_, "scene import a.ifc --out o", "CROSSNAV_PYTHON=no/python");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("scripts/setup.sh ifc"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("CROSSNAV_PYTHON"), std::string::npos) << none.err;
+  EXPECT_EQ(std::count(none.err.begin(), none.err.end(), '\n'), 1) << none.err;
+  ExpectFailure("scene import none.ifc --out o", {"none.ifc"});
+}
+
+TEST_F(IfcCli, RoomsOfAnIfc4FileBecomeFloors) {
+  if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
+  WriteText(At("a.ifc"), SmallIfc());
+  const Outcome done = Run("scene import a.ifc --out o --json --furnish 1 --furniture none");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const Json report = Json::parse(done.out);
+  EXPECT_EQ(report["rooms"], 2);
+  EXPECT_EQ(report["storeys"][0]["name"], "EG");
+  EXPECT_GT(report["area_m2"], 12);
+}
+
+TEST_F(IfcCli, DamagedHugeAndHostileFilesAreRefusedInOneLine) {
+  if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
+  const std::string whole = SmallIfc();
+  ExpectRefused("empty.ifc", "");
+  ExpectRefused("garbage.ifc", std::string(5000, '\x81'));
+  ExpectRefused("cut.ifc", whole.substr(0, whole.size() / 2));
+  ExpectRefused("schema.ifc", std::string(whole).replace(whole.find("IFC4"), 4, "IFC9"));
+  std::string far = whole;
+  for (auto at = far.find("4.10,"); at != far.npos; at = far.find("4.10,", at + 1)) {
+    far.replace(at, 5, "1.E300,");
+  }
+  WriteText(At("far.ifc"), far);
+  EXPECT_LE(Run("scene import far.ifc --out far --seconds 5").exit_code, 1);
+  std::string bomb;  // each item names the one before it twice
+  for (int i = 100; i < 140; ++i) {
+    bomb += "#" + std::to_string(i) + "=IFCBOOLEANRESULT(.UNION.,#" +
+            std::to_string(i == 100 ? 26 : i - 1) + ",#" + std::to_string(i == 100 ? 26 : i - 1) +
+            ");\n";
+  }
+  bomb +=
+      "#150=IFCSHAPEREPRESENTATION(#5,'Body','CSG',(#139));\n"
+      "#151=IFCPRODUCTDEFINITIONSHAPE($,$,(#150));\n"
+      "#152=IFCWALL('0000000000000000000008',$,'b',$,$,#11,#151,$,$);\n";
+  ExpectRefused("bomb.ifc", SmallIfc(bomb));
+}
+
+TEST_F(IfcCli, TheDuplexHasTwoStoreysThatItsStairsJoin) {
+  if (!fs::exists(kDuplex)) GTEST_SKIP() << "no " << kDuplex;
+  if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
+  const Outcome done = Run("scene import '" + kDuplex.string() +
+                           "' --out o --json --furnish 1 --furniture none --seconds 60");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const Json report = Json::parse(done.out);
+  EXPECT_EQ(report["floors"].size(), 2U);
+  EXPECT_EQ(report["connections"].size(), 1U);
+  EXPECT_EQ(report["rooms"], 20);
+  EXPECT_EQ(report["goals"]["bed"], 4);
+  EXPECT_EQ(report["goals"]["toilet"], 4);
+}
+
+}  // namespace
+}  // namespace crossnav::test
