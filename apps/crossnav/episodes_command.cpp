@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Tally {
-  int episodes = 0, cross_floor = 0;
+  int episodes = 0, cross_floor = 0, alternating = 0;
   std::vector<int> first_stage;
 };
 
@@ -26,6 +26,7 @@ Tally Count(const bench::EpisodeFile& file) {
     tally.first_stage.resize(std::max(tally.first_stage.size(), episode.goals.size()));
     if (!episode.cross_floor_required) continue;
     ++tally.cross_floor;
+    tally.alternating += bench::Alternates(episode) ? 1 : 0;
     ++tally.first_stage[static_cast<std::size_t>(episode.first_transition_stage - 1)];
   }
   return tally;
@@ -44,10 +45,10 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   const auto scenes = cache.GetAll(console);
   if (!scenes) return tl::unexpected(scenes.error());
   CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(options.count));
-  const auto file = bench::GenerateEpisodes(
-      *scenes, *config, {options.count, options.cross_floor, options.seed, {}, [&](int done) {
-                           progress.Done(static_cast<std::size_t>(done));
-                         }});
+  bench::GeneratorOptions wishes{options.count, options.cross_floor, options.seed};
+  wishes.alternating_share = options.alternate;
+  wishes.drawn = [&](int done) { progress.Done(static_cast<std::size_t>(done)); };
+  const auto file = bench::GenerateEpisodes(*scenes, *config, wishes);
   if (!file) return tl::unexpected(file.error());
   console.EndProgress();
   if (auto ok = bench::WriteEpisodes(options.out, *file); !ok) return ok;
@@ -58,10 +59,14 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   console.Print(
       fmt::format("{}: {} episodes in {} scenes, {} require a floor change (first at stage {})\n",
                   options.out, tally.episodes, scenes->size(), tally.cross_floor, stages));
+  if (options.alternate > 0) {
+    console.Print(fmt::format("{} of them at every stage\n", tally.alternating));
+  }
   console.Document(Json({{"file", options.out},
                          {"episodes", tally.episodes},
                          {"scenes", scenes->size()},
                          {"cross_floor_required", tally.cross_floor},
+                         {"alternating", tally.alternating},
                          {"first_transition_stage", tally.first_stage}}));
   return {};
 }

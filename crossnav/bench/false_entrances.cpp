@@ -202,13 +202,13 @@ FalseWorld Slope(Rng& rng) {
 }
 
 /// Boxes from the front to the wall behind them, each higher than the one before.
-world::ObjectModel Terrace(std::string name, const std::vector<Vector2d>& depth_and_top,
+world::ObjectModel Terrace(std::string name, const std::vector<world::Vector2d>& depth_and_top,
                            double half_m) {
   world::ModelBuilder made(std::move(name));
   made.Colour({130, 104, 84});
   double y = 0;
-  for (const Vector2d& box : depth_and_top) y += box.x();
-  for (const Vector2d& box : depth_and_top) {
+  for (const world::Vector2d& box : depth_and_top) y += box.x();
+  for (const world::Vector2d& box : depth_and_top) {
     made.mesh.AddBox({-half_m, y - box.x(), 0}, {half_m, y, box.y()});
     y -= box.x();
   }
@@ -233,7 +233,7 @@ FalseWorld Seat(Rng& rng) {
 
 /// Two or three pieces behind each other, each within reach of the one before.
 FalseWorld Stack(Rng& rng) {
-  std::vector<Vector2d> boxes;
+  std::vector<world::Vector2d> boxes;
   double top_m = 0;
   for (int i = rng.Int(2, 3); i > 0; --i) {
     top_m += rng.Uniform(0.20, 0.36);
