@@ -42,7 +42,9 @@ if [[ ! -e $file ]]; then
   fi
   [[ -z $homes ]] || cp -r "$homes"/*/ "$scenes"
   count=$((4 * $(find "$scenes" -mindepth 1 -maxdepth 1 -type d | wc -l)))
-  "$program" episodes generate --scenes "$scenes" --count "$count" --goals 3 \
+  alternate=()
+  [[ $edition == 1 ]] || alternate=(--alternate 0.25)
+  "$program" episodes generate "${alternate[@]}" --scenes "$scenes" --count "$count" --goals 3 \
     --cross-floor 0.5 --seed 7 --out "$file" >&2
 fi
 run=$out/$set_name/$(printf '%s' "full $*" | tr -c 'A-Za-z0-9=.\n' '_')

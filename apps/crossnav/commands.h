@@ -112,6 +112,7 @@ struct EpisodesOptions {
   std::string scenes, file, out;
   int count = 10, goals = 0;
   double cross_floor = 0.3;
+  double alternate = 0;  ///< of those: the share that changes floors at every stage
   std::uint64_t seed = 1;
   bool repeats = false;
   std::string certify;  ///< coverage or detection; empty = as configured

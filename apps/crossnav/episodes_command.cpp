@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Tally {
-  int episodes = 0, cross_floor = 0;
+  int episodes = 0, cross_floor = 0, alternating = 0;
   int goal_objects = 0, not_confirmable = 0;
   std::vector<int> first_stage;
 };
@@ -28,6 +28,7 @@ Tally Count(const bench::EpisodeFile& file) {
     tally.first_stage.resize(std::max(tally.first_stage.size(), episode.goals.size()));
     if (!episode.cross_floor_required) continue;
     ++tally.cross_floor;
+    tally.alternating += bench::Alternates(episode) ? 1 : 0;
     ++tally.first_stage[static_cast<std::size_t>(episode.first_transition_stage - 1)];
   }
   for (const auto& [key, goals] : file.goals_by_category) {
@@ -52,10 +53,10 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   const auto scenes = cache.GetAll(console);
   if (!scenes) return tl::unexpected(scenes.error());
   CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(options.count));
-  auto file = bench::GenerateEpisodes(
-      *scenes, *config, {options.count, options.cross_floor, options.seed, {}, [&](int done) {
-                           progress.Done(static_cast<std::size_t>(done));
-                         }});
+  bench::GeneratorOptions wishes{options.count, options.cross_floor, options.seed};
+  wishes.alternating_share = options.alternate;
+  wishes.drawn = [&](int done) { progress.Done(static_cast<std::size_t>(done)); };
+  auto file = bench::GenerateEpisodes(*scenes, *config, wishes);
   if (!file) return tl::unexpected(file.error());
   console.EndProgress();
   for (bench::Episode& episode : file->episodes) episode.track = options.track;
@@ -71,10 +72,14 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
     console.Print(fmt::format("  {} of {} goal objects are confirmed from nowhere\n",
                               tally.not_confirmable, tally.goal_objects));
   }
+  if (options.alternate > 0) {
+    console.Print(fmt::format("{} of them at every stage\n", tally.alternating));
+  }
   console.Document(Json({{"file", options.out},
                          {"episodes", tally.episodes},
                          {"scenes", scenes->size()},
                          {"cross_floor_required", tally.cross_floor},
+                         {"alternating", tally.alternating},
                          {"first_transition_stage", tally.first_stage},
                          {"certificate_edition", file->certificate_edition},
                          {"goal_objects", tally.goal_objects},

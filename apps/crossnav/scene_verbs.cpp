@@ -154,6 +154,11 @@ void AddEpisodes(CLI::App& app, Options& o) {
   generate
       ->add_option("--cross-floor", o.episodes.cross_floor, "Share that requires a floor change")
       ->check(CLI::Range(0.0, 1.0));
+  generate
+      ->add_option("--alternate", o.episodes.alternate,
+                   "Share of those that requires a floor change at every stage: down, up, down; "
+                   "default: 0")
+      ->check(CLI::Range(0.0, 1.0));
   generate->add_option("--seed", o.episodes.seed, "Seed");
   generate
       ->add_option("--certify", o.episodes.certify,

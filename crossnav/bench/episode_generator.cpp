@@ -75,9 +75,17 @@ std::optional<Episode> TryEpisode(const GeneratorScene& scene, const RunConfig& 
   return episode;
 }
 
-/// What the next episode should be: the stage of the first transition, 0 = none.
+/// An episode for one place in the file.
+struct Wish {
+  int index = 0;
+  int stage = 0;            ///< of the first transition, 0 = none
+  bool is_exact = false;    ///< the counts per stage were asked for
+  bool alternates = false;  ///< every stage requires a floor change; `stage` is 1
+};
+
+/// What the wish asks for, from one scene.
 std::optional<Episode> DrawEpisode(const GeneratorScene& scene, const RunConfig& config,
-                                   int first_transition_stage, Rng& rng) {
+                                   const Wish& wish, Rng& rng) {
   const auto categories = CategoriesOf(*scene.context);
   const int needed = config.dataset.allow_repeats ? 1 : config.dataset.goals;
   if (static_cast<int>(categories.size()) < needed) return std::nullopt;
@@ -86,7 +94,8 @@ std::optional<Episode> DrawEpisode(const GeneratorScene& scene, const RunConfig&
     const auto goals = DrawGoals(categories, config.dataset, rng);
     if (!start) continue;
     auto episode = TryEpisode(scene, config, *start, goals);
-    if (episode && episode->first_transition_stage == first_transition_stage) return episode;
+    if (!episode || episode->first_transition_stage != wish.stage) continue;
+    if (!wish.alternates || Alternates(*episode)) return episode;
   }
   return std::nullopt;
 }
@@ -111,24 +120,19 @@ std::vector<int> PlanTransitions(const RunConfig& config, const GeneratorOptions
   return stages;
 }
 
-/// An episode for one place in the file.
-struct Wish {
-  int index = 0;
-  int stage = 0;          ///< of the first transition, 0 = none
-  bool is_exact = false;  ///< the counts per stage were asked for
-};
-
 /// Tries the scenes in turn, then the other stages of the same kind where that is allowed.
 std::optional<Episode> DrawFromAnyScene(std::span<const GeneratorScene> scenes,
                                         const RunConfig& config, const Wish& wish, Rng& rng) {
-  const auto [index, stage, is_exact] = wish;
-  const int choices = stage == 0 || is_exact ? 1 : config.dataset.goals;
+  const int index = wish.index, stage = wish.stage;
+  const int choices = stage == 0 || wish.is_exact ? 1 : config.dataset.goals;
   for (int shift = 0; shift < choices; ++shift) {
-    const int wanted = stage == 0 ? 0 : 1 + (stage - 1 + shift) % config.dataset.goals;
+    Wish from_scene = wish;
+    const int wanted = from_scene.stage =
+        stage == 0 ? 0 : 1 + (stage - 1 + shift) % config.dataset.goals;
     for (std::size_t s = 0; s < scenes.size(); ++s) {
       const GeneratorScene& scene = scenes[(index + s) % scenes.size()];
       if (wanted > 0 && scene.context->navmesh().Floors().size() < 2) continue;
-      auto episode = DrawEpisode(scene, config, wanted, rng);
+      auto episode = DrawEpisode(scene, config, from_scene, rng);
       if (episode) return episode;
     }
   }
@@ -136,6 +140,18 @@ std::optional<Episode> DrawFromAnyScene(std::span<const GeneratorScene> scenes,
 }
 
 }  // namespace
+
+bool Alternates(const Episode& episode) {
+  std::vector<int> before = {episode.start_floor};
+  for (const std::vector<int>& floors : episode.certificate) {
+    const bool is_shared = std::any_of(floors.begin(), floors.end(), [&](int floor) {
+      return std::find(before.begin(), before.end(), floor) != before.end();
+    });
+    if (is_shared) return false;
+    before = floors;
+  }
+  return true;
+}
 
 void AddGoalObjects(const GeneratorScene& scene, EpisodeFile& file) {
   const std::string prefix = std::filesystem::path(scene.scene_id).filename().string() + "_";
@@ -175,8 +191,15 @@ Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
   for (int i = 0; i < options.count; ++i) {
     std::optional<Episode> episode;
     for (int again = 0; again < 10; ++again) {
-      const Wish wish{i, stages[static_cast<std::size_t>(i)], !options.first_transitions.empty()};
-      episode = DrawFromAnyScene(scenes, config, wish, rng);
+      episode.reset();
+      Wish wish{i, stages[static_cast<std::size_t>(i)], !options.first_transitions.empty(), false};
+      const bool wants_all = wish.stage > 0 && !wish.is_exact && options.alternating_share > 0 &&
+                             rng.Chance(options.alternating_share);
+      if (wants_all) {
+        const Wish all{i, 1, true, true};
+        episode = DrawFromAnyScene(scenes, config, all, rng);
+      }
+      if (!episode) episode = DrawFromAnyScene(scenes, config, wish, rng);
       if (!episode || ids.insert(episode->episode_id).second) break;
     }
     if (!episode) {

@@ -24,6 +24,9 @@ struct GeneratorOptions {
   std::vector<int> first_transitions = {};
   /// Called after each episode with how many there are.
   std::function<void(int done)> drawn = [](int) {};
+  /// Of those that require a floor change: the share in which every stage requires one, as
+  /// down-up-down does; a scene without such goals gives an episode with a single required change.
+  double alternating_share = 0;
 };
 
 struct GeneratorScene {
@@ -41,6 +44,9 @@ Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
 Result<Episode> MakeEpisode(const GeneratorScene& scene, const RunConfig& config,
                             const std::vector<std::string>& goals, int start_floor,
                             std::uint64_t seed);
+
+/// Whether each stage requires another floor than the one before it, from the start on.
+bool Alternates(const Episode& episode);
 
 /// The `goals_by_category` entries of a scene, for all categories it holds.
 void AddGoalObjects(const GeneratorScene& scene, EpisodeFile& file);

@@ -32,6 +32,22 @@ TEST_F(EpisodeGenerator, EveryCertificateHoldsAndTheShareIsMet) {
   EXPECT_EQ(first_stages, (std::set<int>{1, 2, 3}));
 }
 
+TEST_F(EpisodeGenerator, EveryStageOfAnAlternatingEpisodeRequiresAnotherFloor) {
+  const GeneratorScene scene{scene_id_, context_.get()};
+  GeneratorOptions options{6, 1.0, 5};
+  options.alternating_share = 1;
+  const auto file = GenerateEpisodes({&scene, 1}, test::SmallConfig(), options);
+  ASSERT_TRUE(file) << file.error().Message();
+  for (const Episode& episode : file->episodes) {
+    EXPECT_TRUE(Alternates(episode));
+    EXPECT_TRUE(CheckCertificate(*context_, episode, test::SmallConfig()).empty());
+    for (std::size_t k = 0; k < episode.goals.size(); ++k) {  // one floor or the other, in turn
+      const int other = k % 2 == 0 ? 1 - episode.start_floor : episode.start_floor;
+      EXPECT_EQ(episode.certificate[k], std::vector<int>{other});
+    }
+  }
+}
+
 TEST_F(EpisodeGenerator, SaysHowManyEpisodesThereAreAfterEach) {
   const GeneratorScene scene{scene_id_, context_.get()};
   std::vector<int> told;

@@ -27,8 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLitEdge_m = 0.5;    // chosen: fine enough for the shadow of a table
-constexpr double kLitArea_m2 = 0.03;  // chosen: skirtings and frames need no finer light
+constexpr double kLitEdge_m = 0.5;     // chosen: fine enough for the shadow of a table
+constexpr double kFinelyLit_m2 = 250;  // chosen: walkable; half of 40 MB and less
+constexpr double kLitArea_m2 = 0.03;   // chosen: skirtings and frames need no finer light
 
 Result<void> CheckParams(const HouseParams& params) {
   if (params.edition < 1 || params.edition > kEditions) {
@@ -127,7 +128,10 @@ Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::pa
   HouseReport report = Describe(*plan, checked);
   report.area_m2 = navmesh->AreaM2();
   if (params.has_lights) {  // of the house, not of its scan
-    Subdivide(clean.mesh, kLitEdge_m, kLitArea_m2);
+    // Large buildings of edition 2 have coarser light, so that their files stay small.
+    const double coarser =
+        params.edition > 1 ? std::max(1.0, std::sqrt(report.area_m2 / kFinelyLit_m2)) : 1.0;
+    Subdivide(clean.mesh, kLitEdge_m * coarser, kLitArea_m2 * coarser * coarser);
     BakeLight(clean, *plan, LightsOf(*plan), glowing);
   }
   const sim::Scene scene = AsAsked(std::move(clean), params);

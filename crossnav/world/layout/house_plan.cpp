@@ -164,6 +164,17 @@ struct Draft {
     return static_cast<std::size_t>(plan.rooms[static_cast<std::size_t>(room)].level);
   }
 
+  /// The part of the wall, from its `a`, that lies on the edge of its level's corridor.
+  Range AlongCorridor(const Wall& w) const {
+    const Rect near = layout.levels[static_cast<std::size_t>(w.level)].corridor.Grown(0.1);
+    const Vector2d d = (w.b - w.a).normalized();
+    const Rect line{w.a.x(), w.a.y(), w.b.x(), w.b.y()};
+    const Rect shared = line.Shared(near);
+    if (shared.x1 < shared.x0 || shared.y1 < shared.y0) return {};
+    return {d.dot(Vector2d(shared.x0, shared.y0) - w.a),
+            d.dot(Vector2d(shared.x1, shared.y1) - w.a)};
+  }
+
   /// The longest wall of `room` along the corridor; a door into a stair shaft would be no use.
   Wall* FindCorridorWall(int room) {
     const Rect near = layout.levels[LevelOf(room)].corridor.Grown(0.1);
@@ -172,7 +183,10 @@ struct Draft {
     for (Wall& w : plan.walls) {
       const bool is_pair =
           (w.room == room && w.other_room == hall) || (w.room == hall && w.other_room == room);
-      if (!is_pair || !near.Contains(w.a) || !near.Contains(w.b)) continue;
+      // Edition 2 takes a wall that goes on beside an open stair, too.
+      const bool is_along = edition.number > 1 ? AlongCorridor(w).hi - AlongCorridor(w).lo > 1.1
+                                               : near.Contains(w.a) && near.Contains(w.b);
+      if (!is_pair || !is_along) continue;
       if (!best || (w.b - w.a).norm() > (best->b - best->a).norm()) best = &w;
     }
     return best;
@@ -184,7 +198,8 @@ struct Draft {
     Wall* wall =
         from == hall_of_level[LevelOf(to)] ? FindCorridorWall(to) : FindWall(plan, from, to);
     if (!wall) return false;
-    const double length = (wall->b - wall->a).norm();
+    const bool is_clipped = edition.number > 1 && from == hall_of_level[LevelOf(to)];
+    const Range span = is_clipped ? AlongCorridor(*wall) : Range{0, (wall->b - wall->a).norm()};
     const RoomType type = plan.rooms[static_cast<std::size_t>(to)].type;
     const bool is_common =
         type == RoomType::kLiving || type == RoomType::kDining || type == RoomType::kKitchen;
@@ -205,7 +220,10 @@ struct Draft {
         }
         if (Draws(edition.threshold_chance, rng)) o.threshold_m = rng.Uniform(0.015, 0.06);
       }
-      o.center_m = rng.Uniform(0.0, length);
+      o.center_m = span.Draw(rng);
+      const bool is_beside =
+          o.center_m - 0.5 * o.width_m < span.lo || o.center_m + 0.5 * o.width_m > span.hi;
+      if (is_clipped && is_beside) continue;
       o.hinge_at_a = rng.Chance(0.5);
       o.opens_left = (wall->room == to);  // into the room
       if (AddOpening(*wall, o)) return true;

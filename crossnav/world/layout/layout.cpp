@@ -12,7 +12,7 @@ namespace {
 constexpr double kMinCell_m = 2.0;     // chosen: narrower is a cupboard
 constexpr double kMinStrip_m = 2.5;    // chosen: depth of a usable room
 constexpr double kDeepCell_m = 5.2;    // chosen: deeper cells are divided
-constexpr double kOfficeCell_m = 2.9;  // chosen: a desk and a shelf
+constexpr double kOfficeCell_m = 2.6;  // chosen: a desk and a shelf
 constexpr double kUsefulRest_m = 1.6;  // chosen: depth behind a shaft that still makes a room
 
 struct Interval {
@@ -70,6 +70,16 @@ struct Drawing {
       }
     }
     return taken;
+  }
+
+  /// Whether a strip that ends there has a rest beside its shafts that is no cell.
+  bool HasSliver(int level, double end_m) const {
+    for (const bool is_north : {false, true}) {
+      for (const Interval& in : Free(end_m, Taken(is_north, level, level))) {
+        if (in.hi - in.lo < kMinCell_m) return true;
+      }
+    }
+    return false;
   }
 
   /// Puts the shaft somewhere in [0, end_m] where what is left beside it is nothing or a cell.
@@ -231,6 +241,10 @@ struct Drawing {
       shortest = std::min(shortest, ends.back());
     }
     if (!AddShafts(shortest)) return false;
+    for (int level = 0; edition.number > 1 && level < params.levels; ++level) {
+      double& end = ends[static_cast<std::size_t>(level)];
+      if (HasSliver(level, end)) end = shortest;
+    }
     std::optional<Rect> gallery;
     for (int level = 0; level < params.levels; ++level) {
       LevelLayout& out = house.levels[static_cast<std::size_t>(level)];
