@@ -27,9 +27,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLitEdge_m = 0.5;     // chosen: fine enough for the shadow of a table
-constexpr double kFinelyLit_m2 = 250;  // chosen: walkable; half of 40 MB and less
-constexpr double kLitArea_m2 = 0.03;   // chosen: skirtings and frames need no finer light
+constexpr double kLitEdge_m = 0.5;       // chosen: fine enough for the shadow of a table
+constexpr double kFinelyLit_m2 = 250;    // chosen: walkable; half of 40 MB and less
+constexpr double kLeastOffice_m2 = 120;  // chosen: smaller is a flat
+constexpr double kLitArea_m2 = 0.03;     // chosen: skirtings and frames need no finer light
 
 Result<void> CheckParams(const HouseParams& params) {
   if (params.edition < 1 || params.edition > kEditions) {
@@ -62,7 +63,8 @@ HouseParams Settled(HouseParams params) {
   if (params.floors == 0) params.floors = floors;
   if (params.area_m2 == 0) params.area_m2 = area_m2;
   if (params.building == Building::kDrawn) {
-    const bool is_office = Draws(EditionOf(params.edition).office_chance, rng);
+    const bool is_office =
+        params.area_m2 > kLeastOffice_m2 && Draws(EditionOf(params.edition).office_chance, rng);
     params.building = is_office ? Building::kOffice : Building::kHome;
   }
   return params;
