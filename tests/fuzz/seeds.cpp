@@ -189,13 +189,14 @@ void AddResults(const Seeds& seeds) {
   seeds.Put("results", "results.jsonl",
             bench::ToJsonLine(header) + "\n" + bench::ToJsonLine(record) + "\n" +
                 bench::ToJsonLine(failed) + "\n");
-  bench::SuiteManifest manifest{"crossnav-mfmon-1-mini",
-                                1,
-                                "simple shapes",
-                                1,
-                                {1, 0},
-                                "0123456789abcdef",
-                                {{"00001-House", "0123456789abcdef"}}};
+  bench::SuiteManifest manifest;
+  manifest.suite = "crossnav-mfmon-1-mini";
+  manifest.generator_version = 1;
+  manifest.furniture = "simple shapes";
+  manifest.episodes = 1;
+  manifest.first_transitions = {1, 0};
+  manifest.episodes_hash = "0123456789abcdef";
+  manifest.meshes = {{"00001-House", "0123456789abcdef"}};
   (void)bench::WriteManifest(seeds.Path("suite", "suite.json"), manifest);
 }
 
