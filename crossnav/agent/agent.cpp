@@ -158,6 +158,8 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   world.stairs.Import(seen_stairs);
   for (const geometry::StairFlight& flight : world.flights) {
     if (!flight.IsWalked()) continue;
+    for (std::size_t i = 1; i < flight.steps_world.size(); ++i)
+      world.ground.NoteWay(flight.steps_world[i - 1], flight.steps_world[i]);
     for (const Vector3d& p_end : {flight.p_foot_world, flight.p_top_world})
       world.levels_m.push_back(p_end.z());
   }
@@ -197,6 +199,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   world.map.ObserveBody(agent.p_world, config.sensor.camera_height_m);
   clock.Stop("integrate");
   world.UpdateStates();
+  if (world.before_forward) world.ground.NoteWay(world.before_forward->p_world, agent.p_world);
   clock.Stop("classify");
 
   // eq:intra_frame_fusion, eq:supp_feature_fusion.

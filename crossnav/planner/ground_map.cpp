@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "crossnav/core/cells.h"
 
@@ -13,9 +14,10 @@ namespace {
 using geometry::IsSurface;
 using geometry::VoxelState;
 
-constexpr int kBelow = 8;      // voxels of a window below the place it is about
-constexpr int kHeadSlack = 1;  // chosen: a ceiling may start one voxel low
-constexpr int kSeenAir = 2;    // chosen: above a surface; one voxel may be a ray along a wall
+constexpr int kBelow = 8;          // voxels of a window below the place it is about
+constexpr int kHeadSlack = 1;      // chosen: a ceiling may start one voxel low
+constexpr int kSeenAir = 2;        // chosen: above a surface; one voxel may be a ray along a wall
+constexpr double kBridge_m = 0.4;  // chosen: the deepest tread
 constexpr double kFootReach_m = 0.5;  // chosen: an agent is never farther from its floor
 
 int ColumnOf(int x, int y) {
@@ -32,7 +34,11 @@ GroundMap::GroundMap(const geometry::MapConfig& config)
     : voxel_m_(config.voxel_m),
       climb_(CellsFloor(config.max_climb_m, config.voxel_m)),
       height_(std::min(CellsFloor(config.agent_height_m, config.voxel_m), 63 - kBelow)),
-      inflation_(CellsFloor(config.inflation_m, config.voxel_m)) {}
+      inflation_(CellsFloor(config.inflation_m, config.voxel_m)),
+      radius_(std::max(1, CellsFloor(config.agent_radius_m, config.voxel_m))),
+      bridge_(std::max(1, CellsFloor(kBridge_m, config.voxel_m))),
+      diagonal_bridge_(std::max(1, CellsNearest(kBridge_m, config.voxel_m * std::numbers::sqrt2))) {
+}
 
 GroundMap::Tile& GroundMap::TouchTile(int x, int y) {
   constexpr int kMargin = 8;  // tiles of room on each side, so that growing is rare
@@ -76,7 +82,7 @@ void GroundMap::Clear() {
 }
 
 void GroundMap::Touch(int x, int y) {
-  const int reach = std::max(kPlaceReach_vox, inflation_);
+  const int reach = std::max(bridge_, inflation_);
   for (int ty = (y - reach) >> 3; ty <= (y + reach) >> 3; ++ty)
     for (int tx = (x - reach) >> 3; tx <= (x + reach) >> 3; ++tx)
       if (const std::int32_t tile = TileAt(tx * kSide, ty * kSide); tile >= 0)
@@ -120,6 +126,15 @@ void GroundMap::Update(const std::vector<geometry::StateChange>& changes) {
     Set(change.key, is_surface, !is_surface && state != VoxelState::kUnknown);
   }
   if (!changes.empty()) ++revision_;
+}
+
+std::uint64_t GroundMap::ChangedAround(int x, int y, int reach) const {
+  std::uint64_t changed = 0;
+  for (int ty = (y - reach) >> 3; ty <= (y + reach) >> 3; ++ty)
+    for (int tx = (x - reach) >> 3; tx <= (x + reach) >> 3; ++tx)
+      if (const std::int32_t tile = TileAt(tx * kSide, ty * kSide); tile >= 0)
+        changed = std::max(changed, tiles_[static_cast<std::size_t>(tile)].changed_at);
+  return changed;
 }
 
 void GroundMap::Rebuild(const geometry::VoxelMap& map) {
@@ -255,6 +270,13 @@ std::optional<VoxelKey> GroundMap::Bridge(const VoxelKey& key, int dx, int dy, i
   return std::nullopt;
 }
 
+std::optional<int> GroundMap::RiseAt(const VoxelKey& key) const {
+  if (IsBodyBlocked(key.x, key.y, key.z)) return std::nullopt;
+  if (const auto z = StandingNear(key.x, key.y, key.z, climb_)) return *z - key.z;
+  const std::uint64_t front = Surfaces(key.x, key.y, key.z) & Span(0, climb_ - 1);
+  return std::bit_width(front);
+}
+
 Clearance GroundMap::ClearanceOf(const VoxelKey& key) const {
   constexpr std::array<VoxelKey, 4> kAxes = {{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, -1, 0}}};
   bool is_touching = false;
@@ -315,6 +337,27 @@ bool GroundMap::ForgetBlockedAround(const Vector3d& p_world, double radius_m) {
   });
   if (forgotten > 0) ++revision_;
   return forgotten > 0;
+}
+
+void GroundMap::NoteWay(const Vector3d& p_from_world, const Vector3d& p_to_world) {
+  const Vector3d way = p_to_world - p_from_world;
+  if (std::abs(way.z()) < kDoorstep_m) return;
+  const int samples = CellsCeil(2 * way.head<2>().norm(), voxel_m_) + 1;
+  const auto height_of = [this](double z_m) { return CellsNearest(z_m, voxel_m_); };
+  const int lo = height_of(std::min(p_from_world.z(), p_to_world.z())) - 1;
+  const int hi = height_of(std::max(p_from_world.z(), p_to_world.z())) + 1;
+  bool is_new = false;
+  for (int i = 0; i <= samples; ++i) {
+    const VoxelKey at = geometry::KeyOf(p_from_world + way * i / samples, voxel_m_);
+    for (int x = at.x - radius_; x <= at.x + radius_; ++x)
+      for (int y = at.y - radius_; y <= at.y + radius_; ++y) {
+        bool is_new_here = false;
+        for (int z = lo; z <= hi; ++z) is_new_here |= walked_.insert({x, y, z}).second;
+        if (is_new_here) Touch(x, y);
+        is_new = is_new || is_new_here;
+      }
+  }
+  if (is_new) ++revision_;
 }
 
 }  // namespace crossnav::planner

@@ -50,6 +50,10 @@ class GroundMap {
   /// the climb limit, nothing in between that stops the body.
   std::optional<VoxelKey> Bridge(const VoxelKey& key, int dx, int dy, int reach) const;
 
+  /// How much higher the ground of column (x, y) is than a foot at height `key.z`: of the place to
+  /// stand, or where it was not seen, of the front of a step; 0 = nothing seen, nullopt = a wall.
+  std::optional<int> RiseAt(const VoxelKey& key) const;
+
   Clearance ClearanceOf(const VoxelKey& key) const;
 
   /// Distance from the upright axis at `p_world_foot` to the nearest column that stops a body
@@ -64,7 +68,15 @@ class GroundMap {
   bool ForgetBlockedAround(const Vector3d& p_world, double radius_m);
   bool HasBlocked() const { return !blocked_.empty(); }
 
+  /// The body went from one foot position to the other, a step away. Where it rose or fell, the
+  /// rises there are steps from then on, in both directions.
+  void NoteWay(const Vector3d& p_from_world, const Vector3d& p_to_world);
+  bool WasWalked(const VoxelKey& key) const { return walked_.contains(key); }
+
   int climb() const { return climb_; }
+  int radius() const { return radius_; }  ///< of the body, at least 1
+  /// Columns in direction (dx, dy) that the deepest tread may take.
+  int BridgeReach(int dx, int dy) const { return dx != 0 && dy != 0 ? diagonal_bridge_ : bridge_; }
   double voxel_m() const { return voxel_m_; }
   /// Grows with every change of the ground.
   std::uint64_t revision() const { return revision_; }
@@ -73,6 +85,8 @@ class GroundMap {
     const Tile* tile = FindTile(x, y);
     return tile ? tile->changed_at : revision_;
   }
+  /// The same of all columns within `reach` of it.
+  std::uint64_t ChangedAround(int x, int y, int reach) const;
   /// Filled by searches; what it answers depends on the ground alone. One thread at a time.
   GroundPlaces& places() const { return places_; }
 
@@ -111,12 +125,13 @@ class GroundMap {
   bool IsBodyBlocked(int x, int y, int z) const;
 
   double voxel_m_;
-  int climb_, height_, inflation_;
+  int climb_, height_, inflation_, radius_, bridge_, diagonal_bridge_;
   // Window of tiles around those there are: index into `tiles_`, -1 = none.
   std::vector<std::int32_t> index_;
   int first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;  // [tiles]
   std::vector<Tile> tiles_;
   std::set<VoxelKey> blocked_;
+  std::set<VoxelKey> walked_;  // where a body's way rose or fell
   std::uint64_t revision_ = 0;
   mutable GroundPlaces places_;
 };

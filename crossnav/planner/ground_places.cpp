@@ -3,46 +3,65 @@
 
 #include <algorithm>
 
+#include "crossnav/core/cells.h"
 #include "crossnav/planner/ground_map.h"
+#include "crossnav/planner/ground_runs.h"
 
 namespace crossnav::planner {
 namespace {
 
-constexpr int kBridge_vox = kPlaceReach_vox;  // chosen: the deepest tread
-constexpr int kEdge_vox = 2;                  // chosen: less is a doorstep
-
 /// The front of a seat, not a tread: the foot that steps onto it meets the seat behind it, which is
-/// too high. A tread is two columns deep, so that two steps of a stair are never that near.
-bool IsEdge(const GroundMap& ground, const VoxelKey& from, const VoxelKey& to) {
-  if (to.z - from.z < kEdge_vox) return false;
-  const auto is_high = [&](int dx, int dy) {
-    const auto z = ground.StandingNear(to.x + dx, to.y + dy, to.z, ground.climb());
-    return z && *z - from.z > ground.climb();
-  };
-  const int dx = to.x - from.x, dy = to.y - from.y;
-  return is_high(dx, dy) || (dx != 0 && dy != 0 && (is_high(dx, 0) || is_high(0, dy)));
+/// too high, and no flight goes on there.
+bool IsFrontOfSeat(const GroundMap& ground, const VoxelKey& from, const VoxelKey& to,
+                   bool* is_judged_by_run) {
+  if (to.z - from.z < CellsCeil(kDoorstep_m, ground.voxel_m())) return false;
+  if (!IsHighBehind(ground, from, to)) return false;
+  if (ground.WasWalked(from) && ground.WasWalked(to)) return false;
+  *is_judged_by_run = true;
+  return !IsStepOfFlight(ground, from, to);
 }
 
-/// The place that a step from `from` leads to; `side` gets what it meets.
-std::optional<VoxelKey> StepTo(const GroundMap& ground, const VoxelKey& from, int dx, int dy,
-                               Side* side) {
+/// What a step from a place to a side meets, and the place that it leads to.
+struct Step {
+  Side side = Side::kBlocked;
+  std::optional<VoxelKey> to;
+  bool is_judged_by_run = false;
+};
+
+Step StepTo(const GroundMap& ground, const VoxelKey& from, int dx, int dy) {
+  Step step;
   int z = 0;
-  *side = ground.SideOf(from, dx, dy, &z);
-  switch (*side) {
+  step.side = ground.SideOf(from, dx, dy, &z);
+  switch (step.side) {
     case Side::kBlocked:
       break;
     case Side::kGround: {
       const VoxelKey to{from.x + dx, from.y + dy, z};
-      if (!IsEdge(ground, from, to)) return to;
+      if (!IsFrontOfSeat(ground, from, to, &step.is_judged_by_run)) step.to = to;
       break;
     }
     case Side::kUnknown:
-    case Side::kDrop: {
-      const bool is_diagonal = dx != 0 && dy != 0;
-      return ground.Bridge(from, dx, dy, is_diagonal ? kBridge_vox - 1 : kBridge_vox);
-    }
+    case Side::kDrop:
+      step.to = ground.Bridge(from, dx, dy, ground.BridgeReach(dx, dy));
+      break;
   }
-  return std::nullopt;
+  return step;
+}
+
+/// Whether a step down is one that cannot be climbed back, as far as the ground is known.
+bool IsOneWay(const GroundMap& ground, const VoxelKey& from, const VoxelKey& to,
+              bool* is_judged_by_run) {
+  if (from.z - to.z < CellsCeil(kDoorstep_m, ground.voxel_m())) return false;
+  const auto sign = [](int d) { return d > 0 ? 1 : d < 0 ? -1 : 0; };
+  const Step back = StepTo(ground, to, sign(from.x - to.x), sign(from.y - to.y));
+  *is_judged_by_run = *is_judged_by_run || back.is_judged_by_run;
+  return !back.to;
+}
+
+/// Columns around a place that its steps may depend on where a run decided: that of the step back
+/// begins beyond a bridge.
+int JudgedReach_vox(const GroundMap& ground) {
+  return RunReach_vox(ground.voxel_m()) + ground.BridgeReach(1, 0);
 }
 
 }  // namespace
@@ -75,25 +94,37 @@ std::int32_t GroundPlaces::IndexOf(const VoxelKey& key) {
   std::size_t at = geometry::VoxelKeyHash()(key) & mask;
   while (table_[at] >= 0) at = (at + 1) & mask;
   table_[at] = static_cast<std::int32_t>(places_.size());
-  places_.push_back({key, 0, 0, {}, Clearance::kFree});
+  places_.push_back({key, 0, 0, false, {}, Clearance::kFree});
   return table_[at];
 }
 
+bool GroundPlaces::AreStepsKnown(const GroundMap& ground, const Place& place) {
+  const VoxelKey& key = place.key;
+  if (place.steps_until <= ground.ChangedAt(key.x, key.y)) return false;
+  if (!place.is_judged_by_run) return true;
+  return place.steps_until > ground.ChangedAround(key.x, key.y, JudgedReach_vox(ground));
+}
+
 const GroundPlaces::Steps& GroundPlaces::StepsFrom(const GroundMap& ground, std::int32_t place) {
+  if (AreStepsKnown(ground, At(place))) return At(place).steps;
   const VoxelKey from = KeyAt(place);
-  if (At(place).steps_until > ground.ChangedAt(from.x, from.y)) return At(place).steps;
   Steps steps;
+  bool is_judged_by_run = false;
   for (std::size_t i = 0; i < kStepSides.size(); ++i) {
-    Side side = Side::kBlocked;
-    const auto to = StepTo(ground, from, kStepSides[i][0], kStepSides[i][1], &side);
-    steps.to[i] = to ? IndexOf(*to) : -1;
+    const Step step = StepTo(ground, from, kStepSides[i][0], kStepSides[i][1]);
+    is_judged_by_run = is_judged_by_run || step.is_judged_by_run;
     const auto bit = static_cast<std::uint8_t>(1U << i);
-    if (to && side != Side::kGround) steps.bridges |= bit;
-    if (side == Side::kUnknown) steps.unseen |= bit;
+    if (step.side == Side::kUnknown) steps.unseen |= bit;
+    steps.to[i] = step.to ? IndexOf(*step.to) : -1;
+    if (!step.to) continue;
+    if (step.side != Side::kGround) steps.bridges |= bit;
+    if (IsOneWay(ground, from, *step.to, &is_judged_by_run)) steps.one_way |= bit;
   }
-  At(place).steps = steps;
-  At(place).steps_until = ground.revision() + 1;
-  return At(place).steps;
+  Place& asked = At(place);
+  asked.steps = steps;
+  asked.is_judged_by_run = is_judged_by_run;
+  asked.steps_until = ground.revision() + 1;
+  return asked.steps;
 }
 
 Clearance GroundPlaces::RoomAt(const GroundMap& ground, std::int32_t place) {

@@ -16,6 +16,8 @@ using geometry::VoxelKey;
 
 class GroundMap;
 
+inline constexpr double kDoorstep_m = 0.15;  // chosen: a lower rise is never the front of a seat
+
 /// How much room the body has around its axis.
 enum class Clearance : std::uint8_t {
   kFree,   ///< nothing within the inflation radius
@@ -28,15 +30,13 @@ enum class Clearance : std::uint8_t {
 inline constexpr std::array<std::array<int, 2>, 8> kStepSides = {
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
-/// Columns away that what is asked of a place may depend on, the inflation radius apart.
-inline constexpr int kPlaceReach_vox = 4;
-
 class GroundPlaces {
  public:
   struct Steps {
     std::array<std::int32_t, 8> to{};  ///< index of the place; -1 = no way
     std::uint8_t bridges = 0;          ///< bit i: `to[i]` lies beyond ground that was not seen
     std::uint8_t unseen = 0;           ///< bit i: it was not seen what lies there
+    std::uint8_t one_way = 0;          ///< bit i: no way back up from `to[i]` is known
   };
 
   /// -1 where nothing was asked of `key` yet.
@@ -52,11 +52,13 @@ class GroundPlaces {
   struct Place {
     VoxelKey key;
     std::uint64_t steps_until = 0, room_until = 0;  // hold for changes of a revision before that
+    bool is_judged_by_run = false;                  // of a step: farther columns matter
     Steps steps;
     Clearance room = Clearance::kFree;
   };
   Place& At(std::int32_t place) { return places_[static_cast<std::size_t>(place)]; }
   const Place& At(std::int32_t place) const { return places_[static_cast<std::size_t>(place)]; }
+  static bool AreStepsKnown(const GroundMap& ground, const Place& place);
   void Grow();
 
   std::vector<Place> places_;

@@ -52,18 +52,21 @@ void GroundSearch::Expand(std::int32_t from_place) {
   // where one happens to stand.
   const From from{from_place, places.KeyAt(from_place), At(from_place).cost,
                   places.RoomAt(ground_, from_place) == Clearance::kPinch};
-  for (std::size_t i = 0; i < steps.to.size(); ++i)
-    if (steps.to[i] >= 0 && !At(steps.to[i]).is_closed)
-      Relax(from, steps.to[i], (steps.bridges >> i & 1) != 0 ? config_.bridge_cost_factor : 1);
+  for (std::size_t i = 0; i < steps.to.size(); ++i) {
+    if (steps.to[i] < 0 || At(steps.to[i]).is_closed) continue;
+    Relax(from, steps.to[i],
+          {(steps.bridges >> i & 1) != 0 ? config_.bridge_cost_factor : 1,
+           (steps.one_way >> i & 1) != 0 ? config_.one_way_m / ground_.voxel_m() : 0});
+  }
 }
 
-void GroundSearch::Relax(const From& from, std::int32_t to, double factor) {
+void GroundSearch::Relax(const From& from, std::int32_t to, const Price& price) {
   const VoxelKey key = ground_.places().KeyAt(to);
   if (rules_.level && !rules_.level->Contains(key.z - 1)) return;
   const Clearance room = ground_.places().RoomAt(ground_, to);
   if (room == Clearance::kPinch && !from.is_in_pinch) return;
-  const double cost =
-      from.cost + factor * GroundEdgeCost(from.key, key, room, ground_.climb(), config_);
+  const double edge = GroundEdgeCost(from.key, key, room, ground_.climb(), config_);
+  const double cost = from.cost + price.factor * edge + price.added;
   Node& node = At(to);
   if (cost >= node.cost - 1e-12) return;
   node.cost = cost;

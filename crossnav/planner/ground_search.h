@@ -2,7 +2,8 @@
 // Cheapest ways over the ground, on all floors: one Dijkstra from where the agent stands, visited
 // in order of cost, so that "the nearest place for which ..." stops as soon as it is found. An edge
 // costs its length in voxels (eq:supp_astar_edge_cost), more where the body has little room
-// (the paper's price of inflated space) or takes a high step. Lengths and costs in voxels.
+// (the paper's price of inflated space), takes a high step, or leads down where no way back up is
+// known. Lengths and costs in voxels.
 #pragma once
 
 #include <algorithm>
@@ -60,13 +61,19 @@ class GroundSearch {
     bool is_in_pinch;
   };
 
+  /// Of an edge, on top of its own cost.
+  struct Price {
+    double factor = 1;
+    double added = 0;  // [voxels]
+  };
+
   Node& At(std::int32_t place) {
     const auto index = static_cast<std::size_t>(place);
     if (index >= nodes_.size()) nodes_.resize(std::max(index + 1, ground_.places().size()));
     return nodes_[index];
   }
   void Expand(std::int32_t from_place);
-  void Relax(const From& from, std::int32_t to, double factor);
+  void Relax(const From& from, std::int32_t to, const Price& price);
 
   const GroundMap& ground_;
   const PlannerConfig& config_;

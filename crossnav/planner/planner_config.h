@@ -10,6 +10,8 @@ struct PlannerConfig {
   double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
   double high_step_cost = 2;  // chosen: [voxels] a step at the climb limit; stairs have lower ones
   double bridge_cost_factor = 2;  // chosen: as inflated space; over a tread that was not seen
+  double one_way_m = 30;          // chosen: about a storey's exploring, for a step down that is
+                                  // known to have no way back up
   int max_expansions = 400000;    // chosen: several times a 400 m2 two-floor house; 0 = no limit
 };
 
@@ -20,6 +22,7 @@ void Visit(V& visit, PlannerConfig& c) {
   visit("touch_cost_factor", c.touch_cost_factor, 1.0, 1000.0);
   visit("high_step_cost", c.high_step_cost, 0.0, 1000.0);
   visit("bridge_cost_factor", c.bridge_cost_factor, 1.0, 1000.0);
+  visit("one_way_m", c.one_way_m, 0.0, 100000.0);
   visit("max_expansions", c.max_expansions, 0, 2000000000);
 }
 
