@@ -199,7 +199,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   world.map.ObserveBody(agent.p_world, config.sensor.camera_height_m);
   clock.Stop("integrate");
   world.UpdateStates();
-  if (world.before_forward) world.ground.NoteWay(world.before_forward->p_world, agent.p_world);
+  if (world.full.before_forward) world.ground.NoteWay(world.full.before_forward->p_world, agent.p_world);
   clock.Stop("classify");
 
   // eq:intra_frame_fusion, eq:supp_feature_fusion.
