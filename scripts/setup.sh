@@ -168,7 +168,8 @@ build_basis() {
   local source=$1/crates/basis-universal-sys/vendor/basis_universal file
   cargo vendor --locked --manifest-path "$2/Cargo.toml" "$1/crates" || return 1
   mkdir -p "$1/home/include" "$1/transcoder" "$1/encoder" || return 1
-  local flags=(-std=c++17 -O2 -fPIC -fno-strict-aliasing -ffp-contract=off -w -DBASISU_SUPPORT_SSE=0
+  local flags=(-std=c++17 -O2 -fPIC -fno-strict-aliasing -ffp-contract=off -w
+    -ffile-prefix-map="$1/crates/"= -DBASISU_SUPPORT_SSE=0
     -DBASISU_SUPPORT_OPENCL=0 -DBASISD_SUPPORT_KTX2_ZSTD=1)
   for file in "$source"/transcoder/*.cpp; do
     g++ "${flags[@]}" -c "$file" -o "$1/transcoder/$(basename "$file").o" || return 1

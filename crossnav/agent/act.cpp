@@ -5,6 +5,8 @@
 #include <string>
 
 #include "crossnav/agent/claims.h"
+#include "crossnav/agent/hints.h"
+#include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/scan.h"
 #include "crossnav/policy/ground_motion.h"
@@ -18,11 +20,14 @@ namespace {
 
 constexpr double kArrived_m = 0.35;  // chosen: one forward step and a voxel
 constexpr int kLooksAtTarget = 6;    // chosen: half a turn, or less and a pitch
+constexpr double kTouching_m = 0.001;  // chosen: beside a blocked column, not in it
 constexpr int kWobbles = 3;          // chosen: one more than a live POI needs to be stable
 
 /// The next action along the path; nullopt at its end, or where no step helps.
 std::optional<Action> Walk(StepState& now, Route& route) {
-  const auto& motion = now.config.policy.motion;
+  policy::MotionConfig motion = now.config.policy.motion;
+  const planner::GroundRules rules = RulesOf(now);
+  if (rules.may_squeeze) motion.min_clearance_m = kTouching_m;
   if (auto pitch =
           policy::PitchTowards(now.agent, DegToRad(motion.travel_pitch_deg), now.config.action))
     return pitch;
@@ -31,7 +36,7 @@ std::optional<Action> Walk(StepState& now, Route& route) {
                          IsStepClear(now.world.ground, now.agent, motion, now.config.action));
   if (!is_clear) {
     route.motion = MotionAlong(now.world.ground, route.path, now.agent, motion, now.config.planner,
-                               now.config.action);
+                               now.config.action, rules);
     std::reverse(route.motion.begin(), route.motion.end());
   }
   if (route.motion.empty()) return std::nullopt;
@@ -67,8 +72,10 @@ std::optional<Action> ActOnExploration(StepState& now, Pursued& pursued) {
   if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
     if (auto action = Walk(now, pursued.route)) return action;
   }
-  const bool is_hint = pursued.target.kind == CandidateKind::kSighting;
-  End(now, is_hint ? Ending::kReached : Ending::kNotOpened);
+  if (pursued.target.kind != CandidateKind::kSighting)
+    End(now, Ending::kNotOpened);
+  else
+    End(now, NoteLook(now, *pursued.target.poi_id) ? Ending::kReached : Ending::kUndecided);
   return std::nullopt;
 }
 
@@ -113,6 +120,8 @@ std::optional<Action> ActOn(StepState& now, Approach& approach,
   goal.tried_viewpoints.push_back(now.agent.p_world);
   goal.events.push_back("view failed: " + verification.failed_check);
   approach.looks = 0;
+  if (verification.failed_check == "confidence")
+    goal.full.doubtful_m = verification.distance_m;
   if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
     Reject(now, *poi);
     goal.events.push_back("verification failed: " + verification.failed_check);

@@ -60,6 +60,8 @@ std::string_view NameOf(Ending ending) {
   switch (ending) {
     case Ending::kReached:
       return "reached";
+    case Ending::kUndecided:
+      return "undecided";
     case Ending::kGone:
       return "gone";
     case Ending::kSuperseded:
@@ -90,6 +92,7 @@ bool IsSpent(const std::vector<Attempt>& attempts, policy::CandidateKind kind,
         return true;
       case Ending::kGone:
         break;
+      case Ending::kUndecided:
       case Ending::kSuperseded:
       case Ending::kUnreachable:
         ++choices;

@@ -19,6 +19,7 @@ namespace crossnav::agent {
 /// Reason for the end of a pursuit.
 enum class Ending {
   kReached,      ///< arrived, with success
+  kUndecided,    ///< arrived at a hint that another view may decide
   kGone,         ///< the target dissolved: seen, inspected, no frontier any more
   kSuperseded,   ///< a better target was chosen
   kNotOpened,    ///< arrived, and looking at the target changed nothing

@@ -200,6 +200,9 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   clock.Stop("integrate");
   world.UpdateStates();
   if (world.full.before_forward) world.ground.NoteWay(world.full.before_forward->p_world, agent.p_world);
+  if (config.policy.profile == "full")
+    for (const auto& key : world.full.unanswered.Look(obs, agent.p_world, world.map))
+      world.ground.NoteUnanswered(key);
   clock.Stop("classify");
 
   // eq:intra_frame_fusion, eq:supp_feature_fusion.

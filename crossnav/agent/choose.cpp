@@ -84,6 +84,7 @@ void PrepareApproach(StepState& now, int poi_id) {
   if (poi_id != goal.active_live) {
     goal.tried_viewpoints.clear();
     goal.failed_views = 0;
+    goal.full.doubtful_m = 0;
   }
   if (const VisitPlace* visit = std::get_if<VisitPlace>(&PursuitOf(goal.full.activity))) {
     const HistoryPoi& poi = goal.history[static_cast<std::size_t>(visit->place)];

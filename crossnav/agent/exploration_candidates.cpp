@@ -18,10 +18,6 @@ using policy::CandidateKind;
 
 namespace {
 
-bool IsFrontierKind(CandidateKind kind) {
-  return kind == CandidateKind::kTraversableFrontier || kind == CandidateKind::kStairFrontier;
-}
-
 /// Whether the target was tried in vain. A frontier is the same on whatever level it counts.
 bool WasTried(const Situation& now, const Candidate& candidate) {
   const auto& explore = now.config.policy.explore;
@@ -29,7 +25,7 @@ bool WasTried(const Situation& now, const Candidate& candidate) {
     return IsSpent(now.goal.full.attempts, kind, candidate.p_focus_world, explore.same_place_m,
                    explore.max_choices);
   };
-  if (!IsFrontierKind(candidate.kind)) return is_spent(candidate.kind);
+  if (!policy::IsFrontier(candidate.kind)) return is_spent(candidate.kind);
   return is_spent(CandidateKind::kTraversableFrontier) || is_spent(CandidateKind::kStairFrontier);
 }
 

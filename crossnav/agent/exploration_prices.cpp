@@ -48,7 +48,7 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
   const double level_m = found.is_on_level ? 0 : config_.elsewhere_m;
   switch (found.type) {
     case ExplorationClass::kFlight:
-      return {FlightPrice(RiseOf(now_, found.place))};
+      return {FlightPrice(RiseOf(now_, found.place)) + Doubt(found.candidate)};
     case ExplorationClass::kUninspected:
       return {config_.uninspected_m + level_m};
     case ExplorationClass::kHint:
@@ -57,7 +57,7 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
       break;
   }
   const bool is_small = found.candidate.size < config_.min_cluster;
-  Terms terms{level_m + (is_small ? config_.crumb_m : 0),
+  Terms terms{level_m + (is_small ? config_.crumb_m : 0) + Doubt(found.candidate),
               policy::FrontierWorth(now_.world.ground, found.place, relevancy_, config_)};
   // A frontier on the straight line to a hint may be priced by that line.
   const double rest_m = path_m + config_.start_m;
@@ -65,6 +65,17 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
       *found.to_hint_m + config_.sighting_m < terms.class_m + rest_m * (1 / terms.worth - 1))
     terms = {*found.to_hint_m + config_.sighting_m, 1};
   return terms;
+}
+
+/// The edge of a world, a window front or a hedge is one long frontier that opens nowhere.
+double ExplorationPrices::Doubt(const Candidate& candidate) const {
+  const auto& attempts = now_.goal.full.attempts;
+  const auto closed = std::count_if(attempts.begin(), attempts.end(), [&](const Attempt& attempt) {
+    return policy::IsFrontier(attempt.kind) &&
+           (attempt.ending == Ending::kNotOpened || attempt.ending == Ending::kNoProgress) &&
+           (attempt.p_focus_world - candidate.p_focus_world).norm() < config_.doubt_range_m;
+  });
+  return config_.doubt_m * static_cast<double>(closed);
 }
 
 /// Price of a flight to where the goal is likelier or less likely to be. The floor prior applies

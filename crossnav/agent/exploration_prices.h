@@ -46,6 +46,7 @@ class ExplorationPrices {
   };
   Terms TermsOf(const ExplorationCandidate& found, double path_m);
   double FlightPrice(double rise_m);
+  double Doubt(const policy::Candidate& candidate) const;
   bool HasDescent() const;
   double TurningBack(const policy::Candidate& candidate) const;
   double SettingOut(const std::vector<geometry::VoxelKey>& path) const;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/agent/poi_targets.h"
+
 namespace crossnav::agent {
 
 using geometry::VoxelKey;
@@ -11,7 +13,7 @@ using policy::CandidateKind;
 
 namespace {
 
-constexpr double kUnderFoot_m = 0.5;  // chosen: what lies lower is on another storey
+constexpr double kRise = 0.01;  // chosen: of the confidence; less is noise
 
 bool WasApproached(const Situation& now, const policy::LivePoi& poi) {
   return std::any_of(now.goal.full.attempts.begin(), now.goal.full.attempts.end(),
@@ -22,24 +24,87 @@ bool WasApproached(const Situation& now, const policy::LivePoi& poi) {
                      });
 }
 
+const CloseLooks* FindLooks(const std::vector<CloseLooks>& all, int poi_id) {
+  const auto it = std::find_if(all.begin(), all.end(),
+                               [&](const CloseLooks& looks) { return looks.poi_id == poi_id; });
+  return it == all.end() ? nullptr : &*it;
+}
+
+bool WasLookedFrom(const CloseLooks* looks, const Vector3d& p_foot_world) {
+  return looks && std::any_of(looks->p_from_world.begin(), looks->p_from_world.end(),
+                              [&](const Vector3d& p_from_world) {
+                                return (p_from_world - p_foot_world).norm() < policy::kSameView_m;
+                              });
+}
+
 }  // namespace
+
+bool NoteLook(StepState& now, int poi_id) {
+  const policy::LivePoi* poi = now.goal.full.hints.Find(poi_id);
+  if (!poi) return true;
+  std::vector<CloseLooks>& all = now.goal.full.looks;
+  if (!FindLooks(all, poi_id)) all.push_back({poi_id, {}, 0, 0, 0});
+  CloseLooks& looks = *std::find_if(all.begin(), all.end(), [&](const CloseLooks& known) {
+    return known.poi_id == poi_id;
+  });
+  const bool has_risen = poi->confidence > looks.confidence + kRise;
+  looks.without_rise = has_risen ? 0 : looks.without_rise + 1;
+  looks.confidence = poi->confidence;
+  looks.p_from_world.push_back(now.agent.p_world);
+  if (has_risen)
+    looks.distance_m =
+        policy::DistanceToObject(poi->voxels, now.agent.p_world, now.config.sensor.camera_height_m,
+                                 now.config.map.voxel_m);
+  return looks.without_rise >= now.config.policy.approach.max_viewpoints;
+}
 
 Hints::Hints(const Situation& now) : now_(now) {
   const policy::PolicyConfig& config = now.config.policy;
-  for (const policy::LivePoi& poi : now.goal.full.hints.all())
-    if (!poi.is_discarded &&
-        !IsSpent(now.goal.full.attempts, CandidateKind::kSighting, poi.p_center_world,
-                 config.explore.same_place_m, config.explore.max_choices))
-      hints_.push_back({poi,
-                        {now.world.map, poi.voxels, config.approach.range_m, config.approach,
-                         now.config.sensor.camera_height_m},
-                        WasApproached(now, poi)});
+  for (const policy::LivePoi& poi : now.goal.full.hints.all()) {
+    if (poi.is_discarded ||
+        IsSpent(now.goal.full.attempts, CandidateKind::kSighting, poi.p_center_world,
+                config.explore.same_place_m, config.explore.max_choices))
+      continue;
+    const CloseLooks* looks = FindLooks(now.goal.full.looks, poi.id);
+    hints_.push_back({poi, ViewOf(poi, looks), looks, WasApproached(now, poi)});
+  }
+}
+
+policy::ViewTest Hints::ViewWithin(double range_m, const policy::LivePoi& poi) const {
+  return {now_.world.map, poi.voxels, range_m, now_.config.policy.approach,
+          now_.config.sensor.camera_height_m};
+}
+
+bool Hints::IsView(const Hint& hint, const VoxelKey& key) const {
+  return !WasLookedFrom(hint.looks, FootOf(key, now_.config.map.voxel_m)) && hint.view.IsView(key);
+}
+
+/// The nearer view that is due after the last one, if there is one, else any within range.
+policy::ViewTest Hints::ViewOf(const policy::LivePoi& poi, const CloseLooks* looks) const {
+  const double range_m = now_.config.policy.approach.range_m;
+  if (looks && looks->distance_m > 0)
+    for (const double share : kNearerShares) {
+      const double nearer_m = std::min(range_m, share * looks->distance_m);
+      if (HasView({poi, ViewWithin(nearer_m, poi), looks})) return ViewWithin(nearer_m, poi);
+    }
+  return ViewWithin(range_m, poi);
+}
+
+/// Whether there is a view at all; whether a way leads to it is left open.
+bool Hints::HasView(const Hint& hint) const {
+  const VoxelKey &lo = hint.view.lo(), &hi = hint.view.hi();
+  for (int x = lo.x; x <= hi.x; ++x)
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int z = lo.z; z <= hi.z; ++z)
+        if (const VoxelKey key{x, y, z}; now_.world.ground.IsStanding(key) && IsView(hint, key))
+          return true;
+  return false;
 }
 
 std::vector<policy::Candidate> Hints::SeenFrom(const VoxelKey& key) {
   std::vector<policy::Candidate> seen;
   for (Hint& hint : hints_) {
-    if (hint.is_seen || !hint.view.IsView(key)) continue;
+    if (hint.is_seen || !IsView(hint, key)) continue;
     hint.is_seen = true;
     policy::Candidate candidate;
     candidate.kind = CandidateKind::kSighting;
@@ -56,9 +121,8 @@ std::optional<double> Hints::StraightTo(const VoxelKey& key) const {
   std::optional<double> least_m;
   for (const Hint& hint : hints_) {
     const Vector3d d = hint.poi.p_center_world - CenterOf(key, now_.config.map.voxel_m);
-    const bool is_on_storey =
-        d.z() >= -kUnderFoot_m && d.z() <= now_.config.policy.explore.storey_m;
-    if (hint.is_seen || hint.was_approached || !is_on_storey) continue;
+    if (hint.is_seen || hint.was_approached || !IsOnStorey(d.z(), now_.config.policy.explore))
+      continue;
     least_m = std::min(least_m.value_or(1e9), std::hypot(d.x(), d.y()));
   }
   return least_m;

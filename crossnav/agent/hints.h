@@ -11,6 +11,10 @@
 
 namespace crossnav::agent {
 
+/// Records a view of hint `poi_id` from where the agent stands. True where nothing decides about it
+/// any more: neither a nearer view nor one from another side.
+bool NoteLook(StepState& now, int poi_id);
+
 /// The hints of one choice. Keeps references to the situation.
 class Hints {
  public:
@@ -27,9 +31,15 @@ class Hints {
   struct Hint {
     const policy::LivePoi& poi;
     policy::ViewTest view;
+    const CloseLooks* looks = nullptr;  ///< null before the first
     bool was_approached = false;
     bool is_seen = false;
   };
+
+  policy::ViewTest ViewWithin(double range_m, const policy::LivePoi& poi) const;
+  policy::ViewTest ViewOf(const policy::LivePoi& poi, const CloseLooks* looks) const;
+  bool IsView(const Hint& hint, const geometry::VoxelKey& key) const;
+  bool HasView(const Hint& hint) const;
 
   const Situation& now_;
   std::vector<Hint> hints_;

@@ -1,47 +1,91 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/agent/last_resort.h"
 
+#include <array>
+
+#include "crossnav/agent/cut_off.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
 
 namespace crossnav::agent {
+namespace {
+
+bool LookAroundAgain(StepState& now) {
+  if ((now.goal.p_looked_around_world - now.agent.p_world).norm() < 0.5) return false;
+  LookAround(now);
+  now.goal.events.push_back("nothing left: looking around");
+  return true;
+}
+
+bool ForgetBumps(StepState& now) {
+  if (!now.world.ground.HasBlocked()) return false;
+  now.world.ground.ForgetBlocked();
+  now.goal.events.push_back("nothing left: bumps forgotten");
+  return true;
+}
+
+/// Targets that were given up for want of a way are offered again.
+void ForgiveUnreachable(GoalState* goal) {
+  std::erase_if(goal->full.attempts, [](const Attempt& attempt) {
+    return attempt.ending == Ending::kUnreachable || attempt.ending == Ending::kNoProgress;
+  });
+}
+
+bool Squeeze(StepState& now) {
+  const CutOff cut_off = FindCutOff(now);
+  if (cut_off.IsEmpty()) return false;
+  now.goal.full.may_squeeze = true;
+  ForgiveUnreachable(&now.goal);
+  now.goal.events.push_back("cut off: " + Describe(cut_off) + "; narrow gaps are tried");
+  return true;
+}
+
+bool StepOnSeats(StepState& now) {
+  const CutOff cut_off = FindCutOff(now);
+  if (cut_off.IsEmpty()) return false;
+  now.goal.full.may_step_on_seats = true;
+  ForgiveUnreachable(&now.goal);
+  now.goal.events.push_back("cut off: " + Describe(cut_off) + "; rises like seats are tried");
+  return true;
+}
+
+bool AskMemoryAgain(StepState& now) {
+  Config relaxed = now.config;
+  relaxed.query.min_similarity *= 0.8;  // chosen: looser, still a response
+  relaxed.query.min_z_score *= 0.6;
+  now.goal.history = RememberedPlaces(now.world, now.goal, relaxed);
+  if (now.goal.history.empty()) return false;
+  now.goal.events.push_back("nothing left: asking the memory again");
+  return true;
+}
+
+bool TryAllAgain(StepState& now) {
+  GoalState& goal = now.goal;
+  goal.full.attempts.clear();
+  goal.full.looks.clear();
+  goal.live.ForgiveDiscarded();
+  goal.tried_viewpoints.clear();
+  goal.failed_views = 0;
+  now.world.coverage.Clear();
+  goal.full.inspect_range_m *= 0.6;  // chosen: near enough for the smallest category
+  now.world.ground.ForgetBlocked();
+  goal.events.push_back("nothing left: trying once more with relaxed limits");
+  return true;
+}
+
+constexpr std::array kResorts = {LookAroundAgain, ForgetBumps,    Squeeze,
+                                 StepOnSeats,     AskMemoryAgain, TryAllAgain};
+
+}  // namespace
 
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;
-  for (HistoryPoi& poi : goal.history) poi.unreachable_step.reset();
-  while (goal.full.last_resorts < 4) {
-    switch (goal.full.last_resorts++) {
-      case 0:
-        if ((goal.p_looked_around_world - now.agent.p_world).norm() < 0.5) continue;
-        LookAround(now);
-        goal.events.push_back("nothing left: looking around");
-        return true;
-      case 1:
-        if (!now.world.ground.HasBlocked()) continue;
-        now.world.ground.ForgetBlocked();
-        goal.events.push_back("nothing left: bumps forgotten");
-        return true;
-      case 2: {
-        Config relaxed = now.config;
-        relaxed.query.min_similarity *= 0.8;  // chosen: looser, still a response
-        relaxed.query.min_z_score *= 0.6;
-        goal.history = RememberedPlaces(now.world, goal, relaxed);
-        if (goal.history.empty()) continue;
-        goal.events.push_back("nothing left: asking the memory again");
-        return true;
-      }
-      default:
-        goal.full.attempts.clear();
-        goal.live.ForgiveDiscarded();
-        goal.tried_viewpoints.clear();
-        goal.failed_views = 0;
-        now.world.coverage.Clear();
-        goal.full.inspect_range_m *= 0.6;  // chosen: near enough for the smallest category
-        now.world.ground.ForgetBlocked();
-        goal.events.push_back("nothing left: trying once more with relaxed limits");
-        return true;
-    }
+  while (goal.full.last_resorts < kResorts.size()) {
+    if (!kResorts[goal.full.last_resorts++](now)) continue;
+    for (HistoryPoi& poi : goal.history) poi.unreachable_step.reset();
+    return true;
   }
+  goal.events.push_back("all explored; cut off: " + Describe(FindCutOff(now)));
   return false;
 }
 

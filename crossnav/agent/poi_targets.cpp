@@ -18,6 +18,7 @@ using policy::CandidateKind;
 namespace {
 
 constexpr double kSlack_m = 0.1;    // chosen: the agent stops that near to where it was sent
+constexpr double kUnderFoot_m = 0.5;  // chosen: what lies lower is on another storey
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
@@ -35,14 +36,20 @@ bool IsAnyStanding(const planner::GroundMap& ground, const VoxelKey& lo, const V
   return false;
 }
 
+}  // namespace
+
 Vector3d FootOf(const VoxelKey& key, double voxel_m) {
   return CenterOf(key, voxel_m) - Vector3d(0, 0, 0.5 * voxel_m);
 }
 
-}  // namespace
+bool IsOnStorey(double above_foot_m, const policy::ExploreConfig& config) {
+  return above_foot_m >= -kUnderFoot_m && above_foot_m <= config.storey_m;
+}
 
 planner::GroundRules RulesOf(const Situation& now) {
   planner::GroundRules rules;
+  rules.may_squeeze = now.goal.full.may_squeeze;
+  rules.may_step_on_seats = now.goal.full.may_step_on_seats;
   if (now.config.policy.planar) {
     rules.level =
         policy::BandAround(now.world.level_m, now.config.policy.frontier, now.config.map.voxel_m);
@@ -59,6 +66,9 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
                               now.config.sensor.camera_height_m);
   const auto is_wanted = [&](const VoxelKey& key) {
     const Vector3d p_foot = FootOf(key, voxel_m);
+    if (wish.is_on_storey &&
+        !IsOnStorey(wish.p_center_world.z() - p_foot.z(), now.config.policy.explore))
+      return false;
     return IsNewView(wish.p_center_world, p_foot, wish.other_sides, now.config.verify) &&
            view.IsView(key) && !IsNearTried(wish.tried, p_foot);
   };
@@ -79,10 +89,16 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
 std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const policy::LivePoi& poi) {
   const bool is_active = poi.id == now.goal.active_live;
-  return NearestView(now, start,
-                     {poi.voxels, now.config.policy.approach.range_m - kSlack_m,
-                      is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{},
-                      ViewsToAvoid(now, poi), poi.p_center_world});
+  ViewWish wish{poi.voxels, now.config.policy.approach.range_m - kSlack_m,
+                is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{},
+                ViewsToAvoid(now, poi), poi.p_center_world};
+  if (is_active && now.goal.full.doubtful_m > 0)
+    for (const double share : kNearerShares) {
+      ViewWish nearer = wish;
+      nearer.range_m = std::min(wish.range_m, share * now.goal.full.doubtful_m);
+      if (auto target = NearestView(now, start, nearer)) return target;
+    }
+  return NearestView(now, start, wish);
 }
 
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& start) {
@@ -122,7 +138,9 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const HistoryPoi& poi) {
   const double range_m = now.config.policy.approach.range_m;
   for (const double within_m : {range_m - kSlack_m, 2 * range_m})
-    if (auto target = NearestView(now, start, {poi.voxels, within_m})) return target;
+    if (auto target =
+            NearestView(now, start, {poi.voxels, within_m, {}, {}, poi.p_center_world, true}))
+      return target;
   return std::nullopt;
 }
 

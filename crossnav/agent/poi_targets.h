@@ -2,6 +2,7 @@
 // Where to stand to look at an object or at a remembered place, over the ground of all floors.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,16 @@ struct GroundTarget {
 /// What may be walked on: every floor, or the start level alone for the planar variant.
 planner::GroundRules RulesOf(const Situation& now);
 
+/// Foot position of an agent at a place to stand.
+Vector3d FootOf(const geometry::VoxelKey& key, double voxel_m);
+
+/// Whether something that high above an agent's foot is on the storey that the agent stands on.
+bool IsOnStorey(double above_foot_m, const policy::ExploreConfig& config);
+
+/// Ranges of a view that follows one from `distance_m` without enough confidence, as shares of it,
+/// in order of preference: almost three times the pixels, down to a fifth more.
+inline constexpr std::array kNearerShares = {0.6, 0.7, 0.8, 0.9};  // chosen
+
 /// A place to look at something from.
 struct ViewWish {
   const std::vector<geometry::VoxelKey>& object;
@@ -28,6 +39,7 @@ struct ViewWish {
   std::vector<Vector3d> tried{};        ///< places not to offer again
   std::vector<Vector3d> other_sides{};  ///< of `p_center_world` than these cameras', if any
   Vector3d p_center_world = Vector3d::Zero();
+  bool is_on_storey = false;  ///< only from the storey of `p_center_world`
 };
 
 /// The nearest place that fulfils `wish`.

@@ -26,12 +26,16 @@ void NoteBump(StepState& now) {
   const Vector3d p_contact =
       now.agent.p_world + (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead;
   // A bump at a marked place means that the obstacle is wider.
-  for (double aside_m = 0; aside_m <= 2 * voxel_m; aside_m += voxel_m) {
-    const bool is_new = now.world.ground.Block(p_contact + aside_m * left);
-    if (now.world.ground.Block(p_contact - aside_m * left) || is_new) break;
+  bool is_new = false;
+  for (double aside_m = 0; aside_m <= 2 * voxel_m && !is_new; aside_m += voxel_m) {
+    is_new = now.world.ground.Block(p_contact + aside_m * left);
+    is_new = now.world.ground.Block(p_contact - aside_m * left) || is_new;
   }
-  if (Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity)))
+  if (Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity))) {
     pursued->route.motion.clear();
+    // Nothing was learnt: the next step would be the same.
+    if (!is_new) pursued->route.idle_steps += now.config.policy.explore.progress_steps / 2;
+  }
   now.goal.events.push_back("bump");
 }
 

@@ -18,6 +18,7 @@ constexpr double kStray_m = 0.6;           // chosen: two steps off the path
 constexpr std::size_t kStrayPlaces = 30;   // chosen: front of the path that is compared
 constexpr double kProgress_m = 0.1;        // chosen: one voxel
 constexpr int kMaxReplans = 5;             // chosen: longer paths that observations explain
+constexpr double kGapAhead_m = 1.0;        // chosen: a gap that the body had begun to try
 constexpr double kWalledInRadius_m = 1.0;  // chosen: bumps that may wall the agent in
 
 /// Two pursuits in a row made no progress from the same place. An agent that reached the place is
@@ -53,6 +54,18 @@ void NoteFlightTry(StepState& now, const policy::Candidate& target, Ending endin
   attempt.p_from_world = now.agent.p_world;
   attempt.is_up = target.p_focus_world.z() > now.world.level_m;
   policy::NoteTry(target.p_focus_world, attempt, &now.world.flights);
+}
+
+/// The first narrow place of the path is closed: the body tried it in vain, whatever lies behind.
+void CloseGap(StepState& now, const Route& route) {
+  const double voxel_m = now.config.map.voxel_m;
+  for (const VoxelKey& key : route.path) {
+    const Vector3d p_world = CenterOf(key, voxel_m);
+    if ((p_world - now.agent.p_world).head<2>().norm() > kGapAhead_m) return;
+    if (now.world.ground.ClearanceOf(key) != planner::Clearance::kPinch) continue;
+    now.world.ground.Block(p_world);
+    return;
+  }
 }
 
 bool HaveSameTarget(const Pursuit& a, const Pursuit& b, double same_place_m) {
@@ -112,8 +125,9 @@ void End(StepState& now, Ending ending) {
   if (ending != Ending::kSuperseded && ending != Ending::kGone)
     now.goal.events.push_back(std::string(NameOf(pursuit)) + ": " + std::string(NameOf(ending)));
   if (std::holds_alternative<Climb>(pursuit)) NoteFlightTry(now, pursued->target, ending);
+  if (ending == Ending::kNoProgress && now.goal.full.may_squeeze) CloseGap(now, pursued->route);
   pursuit = Idle{};
-  if (IsWalledIn(now) && now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalledInRadius_m))
+  if (!now.goal.full.may_squeeze && IsWalledIn(now) && now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalledInRadius_m))
     now.goal.events.push_back("walled in by bumps: they are forgotten here");
 }
 

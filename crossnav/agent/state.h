@@ -27,6 +27,7 @@
 #include "crossnav/policy/stair_evidence.h"
 #include "crossnav/policy/stair_session.h"
 #include "crossnav/policy/steering.h"
+#include "crossnav/policy/unanswered_ground.h"
 
 namespace crossnav::agent {
 
@@ -35,6 +36,7 @@ struct FullWorld {
   policy::LookedAlong looked_along;           ///< headings of the frames so far, by place
   std::vector<double> looked_around_m;        ///< heights at which a full turn was made
   std::vector<double> levels_with_descent_m;  ///< levels from which stairs down were seen
+  policy::UnansweredGround unanswered;        ///< looked at from near in vain
   std::optional<AgentPose> before_forward;    ///< pose before the last forward step
   int flat_frames = 0;  ///< consecutive frames on flat ground off the exploration level
   double confirmed_similarity = -1;      ///< lowest of a confirmed object and its goal's text
@@ -87,13 +89,28 @@ struct HistoryPoi {
   int looked = 0;                       ///< frames spent looking at it on arrival
 };
 
+/// Views of one hint or live POI whose confidence was too low: the next one is nearer while the
+/// confidence rises, then from another side.
+struct CloseLooks {
+  int poi_id = -1;
+  std::vector<Vector3d> p_from_world;  ///< foot positions of the views so far
+  double confidence = 0;               ///< best after the last view
+  double distance_m = 0;               ///< of the last view that raised it; 0 = none did
+  int without_rise = 0;                ///< views in a row that did not raise the confidence
+};
+
 /// Goal state of policy.profile = full.
 struct FullGoal {
   Activity activity;
   std::vector<Attempt> attempts;  ///< pursuits that ended
   policy::LivePois hints;         ///< sightings too weak for a live POI
+  std::vector<CloseLooks> looks;  ///< at hints
+  double doubtful_m = 0;          ///< distance of the last view of the active live POI that was too
+                                  ///< little for its confidence; 0 = none was
   policy::ClaimTracker claims;    ///< verify.memory = on
-  int last_resorts = 0;           ///< last resorts used up
+  std::size_t last_resorts = 0;   ///< last resorts used up
+  bool may_squeeze = false;       ///< planner rules that last resorts relaxed
+  bool may_step_on_seats = false;
   double inspect_range_m = 0;
   policy::Relevancy relevancy;  ///< scoring = semantic
   int relevancy_step = -1;      ///< step of its last refresh

@@ -224,6 +224,12 @@ bool GroundMap::IsBodyBlocked(int x, int y, int z) const {
 }
 
 Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const {
+  const Side side = SeenSideOf(key, dx, dy, ground_z);
+  if (side != Side::kUnknown || unanswered_.empty()) return side;
+  return unanswered_.contains({key.x + dx, key.y + dy, key.z}) ? Side::kDrop : side;
+}
+
+Side GroundMap::SeenSideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const {
   const int x = key.x + dx, y = key.y + dy;
   const Tile* tile = FindTile(x, y);
   if (tile == nullptr) return Side::kUnknown;
@@ -337,6 +343,15 @@ bool GroundMap::ForgetBlockedAround(const Vector3d& p_world, double radius_m) {
   });
   if (forgotten > 0) ++revision_;
   return forgotten > 0;
+}
+
+void GroundMap::NoteUnanswered(const VoxelKey& key) {
+  bool is_new = false;
+  for (int dz = -climb_; dz <= climb_; ++dz)
+    is_new = unanswered_.insert({key.x, key.y, key.z + dz}).second || is_new;
+  if (!is_new) return;
+  Touch(key.x, key.y);
+  ++revision_;
 }
 
 void GroundMap::NoteWay(const Vector3d& p_from_world, const Vector3d& p_to_world) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <unordered_set>
 #include <vector>
 
 #include "crossnav/geometry/voxel_map.h"
@@ -23,7 +24,7 @@ enum class Side : std::uint8_t {
   kGround,   ///< a place to stand within the climb limit
   kBlocked,  ///< something that stops the body
   kUnknown,  ///< ground may be there: it was not seen yet
-  kDrop,     ///< air, seen deeper than one can step
+  kDrop,     ///< air, seen deeper than one can step; or nothing, however it is looked at
 };
 
 class GroundMap {
@@ -67,6 +68,10 @@ class GroundMap {
   /// Of those within `radius_m`. False if there were none.
   bool ForgetBlockedAround(const Vector3d& p_world, double radius_m);
   bool HasBlocked() const { return !blocked_.empty(); }
+
+  /// The column of `key` gives no answer however it is looked at: what was not seen there, about
+  /// that height, is no ground to be seen.
+  void NoteUnanswered(const VoxelKey& key);
 
   /// The body went from one foot position to the other, a step away. Where it rose or fell, the
   /// rises there are steps from then on, in both directions.
@@ -123,6 +128,8 @@ class GroundMap {
   std::uint64_t Air(int x, int y, int z_lo) const;
   std::uint64_t StandingBits(int x, int y, int z_lo) const;
   bool IsBodyBlocked(int x, int y, int z) const;
+  /// SideOf, as far as surfaces and air tell.
+  Side SeenSideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
 
   double voxel_m_;
   int climb_, height_, inflation_, radius_, bridge_, diagonal_bridge_;
@@ -132,6 +139,7 @@ class GroundMap {
   std::vector<Tile> tiles_;
   std::set<VoxelKey> blocked_;
   std::set<VoxelKey> walked_;  // where a body's way rose or fell
+  std::unordered_set<VoxelKey, geometry::VoxelKeyHash> unanswered_;
   std::uint64_t revision_ = 0;
   mutable GroundPlaces places_;
 };

@@ -25,6 +25,7 @@ bool IsFrontOfSeat(const GroundMap& ground, const VoxelKey& from, const VoxelKey
 struct Step {
   Side side = Side::kBlocked;
   std::optional<VoxelKey> to;
+  bool is_front = false;  ///< of a seat
   bool is_judged_by_run = false;
 };
 
@@ -36,8 +37,8 @@ Step StepTo(const GroundMap& ground, const VoxelKey& from, int dx, int dy) {
     case Side::kBlocked:
       break;
     case Side::kGround: {
-      const VoxelKey to{from.x + dx, from.y + dy, z};
-      if (!IsFrontOfSeat(ground, from, to, &step.is_judged_by_run)) step.to = to;
+      step.to = VoxelKey{from.x + dx, from.y + dy, z};
+      step.is_front = IsFrontOfSeat(ground, from, *step.to, &step.is_judged_by_run);
       break;
     }
     case Side::kUnknown:
@@ -55,7 +56,7 @@ bool IsOneWay(const GroundMap& ground, const VoxelKey& from, const VoxelKey& to,
   const auto sign = [](int d) { return d > 0 ? 1 : d < 0 ? -1 : 0; };
   const Step back = StepTo(ground, to, sign(from.x - to.x), sign(from.y - to.y));
   *is_judged_by_run = *is_judged_by_run || back.is_judged_by_run;
-  return !back.to;
+  return !back.to || back.is_front;
 }
 
 /// Columns around a place that its steps may depend on where a run decided: that of the step back
@@ -118,6 +119,7 @@ const GroundPlaces::Steps& GroundPlaces::StepsFrom(const GroundMap& ground, std:
     steps.to[i] = step.to ? IndexOf(*step.to) : -1;
     if (!step.to) continue;
     if (step.side != Side::kGround) steps.bridges |= bit;
+    if (step.is_front) steps.fronts |= bit;
     if (IsOneWay(ground, from, *step.to, &is_judged_by_run)) steps.one_way |= bit;
   }
   Place& asked = At(place);

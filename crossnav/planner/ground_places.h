@@ -37,6 +37,7 @@ class GroundPlaces {
     std::uint8_t bridges = 0;          ///< bit i: `to[i]` lies beyond ground that was not seen
     std::uint8_t unseen = 0;           ///< bit i: it was not seen what lies there
     std::uint8_t one_way = 0;          ///< bit i: no way back up from `to[i]` is known
+    std::uint8_t fronts = 0;           ///< bit i: the step leads onto the front of a seat
   };
 
   /// -1 where nothing was asked of `key` yet.

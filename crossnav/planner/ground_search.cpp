@@ -54,9 +54,12 @@ void GroundSearch::Expand(std::int32_t from_place) {
                   places.RoomAt(ground_, from_place) == Clearance::kPinch};
   for (std::size_t i = 0; i < steps.to.size(); ++i) {
     if (steps.to[i] < 0 || At(steps.to[i]).is_closed) continue;
+    const auto has = [i](std::uint8_t bits) { return (bits >> i & 1) != 0; };
+    if (has(steps.fronts) && !rules_.may_step_on_seats) continue;
+    const double risk_m = (has(steps.one_way) ? config_.one_way_m : 0) +
+                          (has(steps.fronts) ? config_.doubtful_m : 0);
     Relax(from, steps.to[i],
-          {(steps.bridges >> i & 1) != 0 ? config_.bridge_cost_factor : 1,
-           (steps.one_way >> i & 1) != 0 ? config_.one_way_m / ground_.voxel_m() : 0});
+          {has(steps.bridges) ? config_.bridge_cost_factor : 1, risk_m / ground_.voxel_m()});
   }
 }
 
@@ -64,9 +67,11 @@ void GroundSearch::Relax(const From& from, std::int32_t to, const Price& price) 
   const VoxelKey key = ground_.places().KeyAt(to);
   if (rules_.level && !rules_.level->Contains(key.z - 1)) return;
   const Clearance room = ground_.places().RoomAt(ground_, to);
-  if (room == Clearance::kPinch && !from.is_in_pinch) return;
+  const bool is_squeeze = room == Clearance::kPinch && !from.is_in_pinch;
+  if (is_squeeze && !rules_.may_squeeze) return;
   const double edge = GroundEdgeCost(from.key, key, room, ground_.climb(), config_);
-  const double cost = from.cost + price.factor * edge + price.added;
+  const double cost = from.cost + price.factor * edge + price.added +
+                      (is_squeeze ? config_.doubtful_m / ground_.voxel_m() : 0);
   Node& node = At(to);
   if (cost >= node.cost - 1e-12) return;
   node.cost = cost;

@@ -19,6 +19,8 @@ namespace crossnav::planner {
 
 struct GroundRules {
   std::optional<LevelBand> level;  ///< supports that may be walked on; empty = every floor
+  bool may_squeeze = false;        ///< through gaps that seem narrower than the body
+  bool may_step_on_seats = false;  ///< up rises that look like the front of a seat
 };
 
 class GroundSearch {

@@ -12,6 +12,7 @@ struct PlannerConfig {
   double bridge_cost_factor = 2;  // chosen: as inflated space; over a tread that was not seen
   double one_way_m = 30;          // chosen: about a storey's exploring, for a step down that is
                                   // known to have no way back up
+  double doubtful_m = 3;          // chosen: a detour around a step that a relaxed rule allows
   int max_expansions = 400000;    // chosen: several times a 400 m2 two-floor house; 0 = no limit
 };
 
@@ -23,6 +24,7 @@ void Visit(V& visit, PlannerConfig& c) {
   visit("high_step_cost", c.high_step_cost, 0.0, 1000.0);
   visit("bridge_cost_factor", c.bridge_cost_factor, 1.0, 1000.0);
   visit("one_way_m", c.one_way_m, 0.0, 100000.0);
+  visit("doubtful_m", c.doubtful_m, 0.0, 100000.0);
   visit("max_expansions", c.max_expansions, 0, 2000000000);
 }
 

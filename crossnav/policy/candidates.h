@@ -30,6 +30,11 @@ enum class CandidateKind {
 
 std::string_view NameOf(CandidateKind kind);
 
+/// Of policy.profile = full: a frontier of the level or of another one.
+constexpr bool IsFrontier(CandidateKind kind) {
+  return kind == CandidateKind::kTraversableFrontier || kind == CandidateKind::kStairFrontier;
+}
+
 struct Candidate {
   CandidateKind kind = CandidateKind::kTraversableFrontier;
   Vector3d p_focus_world = Vector3d::Zero();  ///< what it is about, e.g. the cluster's centre

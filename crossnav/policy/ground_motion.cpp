@@ -8,8 +8,6 @@
 #include <map>
 #include <queue>
 
-#include "crossnav/planner/ground_search.h"
-
 namespace crossnav::policy {
 namespace {
 
@@ -27,9 +25,9 @@ constexpr int kWindow = 30;          // chosen: places of the way that are looke
 class WayAhead {
  public:
   WayAhead(const GroundMap& ground, const planner::PlannerConfig& planner,
-           const std::vector<VoxelKey>& path)
+           const std::vector<VoxelKey>& path, const planner::GroundRules& rules)
       : ground_(ground),
-        search_(ground, planner, path[std::min<std::size_t>(path.size(), kWindow) - 1], {}) {
+        search_(ground, planner, path[std::min<std::size_t>(path.size(), kWindow) - 1], rules) {
     // Some way beyond the agent, for positions beside the way.
     double limit = 1e18;
     while (search_.Next() && search_.cost() <= limit)
@@ -218,9 +216,11 @@ class LatticeSearch {
 
 std::vector<Action> MotionAlong(const GroundMap& ground, const std::vector<VoxelKey>& path,
                                 const AgentPose& agent, const MotionConfig& config,
-                                const planner::PlannerConfig& planner, const ActionConfig& action) {
+                                const planner::PlannerConfig& planner, const ActionConfig& action,
+                                const planner::GroundRules& rules) {
   if (path.empty()) return {};
-  const WayAhead way(ground, planner, path);
+  // The search goes from the end of the path to the agent: a step up is a step down in it.
+  const WayAhead way(ground, planner, path, rules);
   return LatticeSearch(ground, way, agent, config, action).Run(path.front().z);
 }
 

@@ -10,6 +10,7 @@
 #include "crossnav/core/action.h"
 #include "crossnav/core/pose.h"
 #include "crossnav/planner/ground_map.h"
+#include "crossnav/planner/ground_search.h"
 #include "crossnav/planner/planner_config.h"
 #include "crossnav/policy/policy_config.h"
 
@@ -17,10 +18,11 @@ namespace crossnav::policy {
 
 /// Turns and forward steps that lead along `path` (places to stand, the agent's first), up to
 /// `config.horizon_steps` of them or to its end, whichever is nearer. Empty where no step helps.
+/// `rules` are those that the path was found by.
 std::vector<Action> MotionAlong(const planner::GroundMap& ground,
                                 const std::vector<geometry::VoxelKey>& path, const AgentPose& agent,
                                 const MotionConfig& config, const planner::PlannerConfig& planner,
-                                const ActionConfig& action);
+                                const ActionConfig& action, const planner::GroundRules& rules = {});
 
 /// Whether a forward step from `agent` keeps clear of what the map knows by now.
 bool IsStepClear(const planner::GroundMap& ground, const AgentPose& agent,

@@ -79,6 +79,8 @@ struct ExploreConfig {
   double sighting_m = -8;        // chosen: the goal, perhaps: worth passing a frontier by
   double uninspected_m = 10;     // chosen: ground seen from too far for the detector
   double turn_back_m = 20;       // chosen: on a flight, what lies the other way
+  double doubt_m = 5;             // chosen: for each frontier nearby that did not open
+  double doubt_range_m = 3;       // chosen: a few widths of a door
   double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
   double inspect_range_m = 5;    // chosen: where a detector answers at all for a chair
   double view_range_m = 4.0;     // chosen: unseen ground that far beyond a frontier counts
@@ -178,6 +180,8 @@ void Visit(V& visit, ExploreConfig& c) {
   visit("sighting_m", c.sighting_m, -100000.0, 100000.0);
   visit("uninspected_m", c.uninspected_m, 0.0, 100000.0);
   visit("turn_back_m", c.turn_back_m, 0.0, 100000.0);
+  visit("doubt_m", c.doubt_m, 0.0, 1000.0);
+  visit("doubt_range_m", c.doubt_range_m, 0.0, 100.0);
   visit("commit_m", c.commit_m, 0.0, 1000.0);
   visit("inspect_range_m", c.inspect_range_m, 0.1, 100.0);
   visit("view_range_m", c.view_range_m, 0.0, 100.0);
