@@ -82,9 +82,15 @@ void Remember(StepState& now, const Findings& findings) {
 void PrepareApproach(StepState& now, int poi_id) {
   GoalState& goal = now.goal;
   if (poi_id != goal.active_live) {
-    goal.tried_viewpoints.clear();
-    goal.failed_views = 0;
-    goal.full.doubtful_m = 0;
+    // Two live POIs may take turns: each keeps the views that failed.
+    std::vector<FailedViews>& failed = goal.full.failed;
+    failed.push_back(
+        {goal.active_live, goal.tried_viewpoints, goal.failed_views, goal.full.doubtful_m});
+    const FailedViews own = FailedViewsOf(goal, poi_id);
+    std::erase_if(failed, [&](const FailedViews& views) { return views.poi_id == poi_id; });
+    goal.tried_viewpoints = own.p_from_world;
+    goal.failed_views = own.count;
+    goal.full.doubtful_m = own.doubtful_m;
   }
   if (const VisitPlace* visit = std::get_if<VisitPlace>(&PursuitOf(goal.full.activity))) {
     const HistoryPoi& poi = goal.history[static_cast<std::size_t>(visit->place)];

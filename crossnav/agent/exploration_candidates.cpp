@@ -79,8 +79,10 @@ std::vector<ExplorationCandidate> ExplorationCandidates::At(const VoxelKey& plac
     here = UninspectedAt(place);
   }
   if (here) found.push_back(std::move(*here));
-  for (Candidate& hint : hints_.SeenFrom(place))
-    found.push_back({ExplorationClass::kHint, std::move(hint), place, true, false, std::nullopt});
+  for (Hints::View& hint : hints_.SeenFrom(place)) {
+    const auto type = hint.is_nearer ? ExplorationClass::kHint : ExplorationClass::kHintFromAfar;
+    found.push_back({type, std::move(hint.candidate), place, true, false, std::nullopt});
+  }
   return found;
 }
 

@@ -11,7 +11,13 @@
 
 namespace crossnav::agent {
 
-enum class ExplorationClass { kFrontier, kFlight, kUninspected, kHint };
+enum class ExplorationClass {
+  kFrontier,
+  kFlight,
+  kUninspected,
+  kHint,
+  kHintFromAfar,  ///< a nearer view of it is due
+};
 
 struct ExplorationCandidate {
   ExplorationClass type = ExplorationClass::kFrontier;

@@ -15,6 +15,7 @@ using policy::Candidate;
 namespace {
 
 constexpr std::size_t kHeading = 5;    // chosen: places of a path that give its direction
+constexpr double kFromAfar_m = 4;      // chosen: the way around a table to a nearer view
 constexpr double kSplitLevel_m = 1.0;  // chosen: flat ground this near in height is the same floor
 
 }  // namespace
@@ -53,6 +54,8 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
       return {config_.uninspected_m + level_m};
     case ExplorationClass::kHint:
       return {config_.sighting_m};
+    case ExplorationClass::kHintFromAfar:
+      return {config_.sighting_m + kFromAfar_m};
     case ExplorationClass::kFrontier:
       break;
   }

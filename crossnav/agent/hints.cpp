@@ -66,7 +66,8 @@ Hints::Hints(const Situation& now) : now_(now) {
                 config.explore.same_place_m, config.explore.max_choices))
       continue;
     const CloseLooks* looks = FindLooks(now.goal.full.looks, poi.id);
-    hints_.push_back({poi, ViewOf(poi, looks), looks, WasApproached(now, poi)});
+    hints_.push_back({poi, ViewWithin(config.approach.range_m, poi), NearerView(poi, looks), looks,
+                      WasApproached(now, poi)});
   }
 }
 
@@ -75,44 +76,47 @@ policy::ViewTest Hints::ViewWithin(double range_m, const policy::LivePoi& poi) c
           now_.config.sensor.camera_height_m};
 }
 
-bool Hints::IsView(const Hint& hint, const VoxelKey& key) const {
-  return !WasLookedFrom(hint.looks, FootOf(key, now_.config.map.voxel_m)) && hint.view.IsView(key);
+/// The nearer view that is due after the last one.
+std::optional<policy::ViewTest> Hints::NearerView(const policy::LivePoi& poi,
+                                                  const CloseLooks* looks) const {
+  if (!looks || looks->distance_m <= 0) return std::nullopt;
+  for (const double share : kNearerShares) {
+    policy::ViewTest view = ViewWithin(
+        std::min(now_.config.policy.approach.range_m, share * looks->distance_m), poi);
+    if (HasView(view, looks)) return view;
+  }
+  return std::nullopt;
 }
 
-/// The nearer view that is due after the last one, if there is one, else any within range.
-policy::ViewTest Hints::ViewOf(const policy::LivePoi& poi, const CloseLooks* looks) const {
-  const double range_m = now_.config.policy.approach.range_m;
-  if (looks && looks->distance_m > 0)
-    for (const double share : kNearerShares) {
-      const double nearer_m = std::min(range_m, share * looks->distance_m);
-      if (HasView({poi, ViewWithin(nearer_m, poi), looks})) return ViewWithin(nearer_m, poi);
-    }
-  return ViewWithin(range_m, poi);
-}
-
-/// Whether there is a view at all; whether a way leads to it is left open.
-bool Hints::HasView(const Hint& hint) const {
-  const VoxelKey &lo = hint.view.lo(), &hi = hint.view.hi();
+/// Whether there is such a place at all; whether a way leads to it is left open.
+bool Hints::HasView(const policy::ViewTest& view, const CloseLooks* looks) const {
+  const VoxelKey &lo = view.lo(), &hi = view.hi();
   for (int x = lo.x; x <= hi.x; ++x)
     for (int y = lo.y; y <= hi.y; ++y)
       for (int z = lo.z; z <= hi.z; ++z)
-        if (const VoxelKey key{x, y, z}; now_.world.ground.IsStanding(key) && IsView(hint, key))
+        if (const VoxelKey key{x, y, z}; now_.world.ground.IsStanding(key) &&
+                                         !WasLookedFrom(looks, FootOf(key, voxel_m())) &&
+                                         view.IsView(key))
           return true;
   return false;
 }
 
-std::vector<policy::Candidate> Hints::SeenFrom(const VoxelKey& key) {
-  std::vector<policy::Candidate> seen;
+std::vector<Hints::View> Hints::SeenFrom(const VoxelKey& key) {
+  std::vector<View> seen;
   for (Hint& hint : hints_) {
-    if (hint.is_seen || !IsView(hint, key)) continue;
+    if (hint.is_seen_nearer || WasLookedFrom(hint.looks, FootOf(key, voxel_m()))) continue;
+    const bool is_nearer = hint.nearer && hint.nearer->IsView(key);
+    if (!is_nearer && (hint.is_seen || !hint.view.IsView(key))) continue;
     hint.is_seen = true;
-    policy::Candidate candidate;
-    candidate.kind = CandidateKind::kSighting;
-    candidate.poi_id = hint.poi.id;
-    candidate.p_focus_world = hint.poi.p_center_world;
-    candidate.standing = {key};
-    candidate.size = static_cast<int>(hint.poi.voxels.size());
-    seen.push_back(std::move(candidate));
+    hint.is_seen_nearer = is_nearer || !hint.nearer;
+    View view;
+    view.is_nearer = hint.is_seen_nearer;
+    view.candidate.kind = CandidateKind::kSighting;
+    view.candidate.poi_id = hint.poi.id;
+    view.candidate.p_focus_world = hint.poi.p_center_world;
+    view.candidate.standing = {key};
+    view.candidate.size = static_cast<int>(hint.poi.voxels.size());
+    seen.push_back(std::move(view));
   }
   return seen;
 }

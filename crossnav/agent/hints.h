@@ -20,8 +20,12 @@ class Hints {
  public:
   explicit Hints(const Situation& now);
 
-  /// Those that are seen from near for the first time, standing at `key`: a candidate each.
-  std::vector<policy::Candidate> SeenFrom(const geometry::VoxelKey& key);
+  struct View {
+    policy::Candidate candidate;
+    bool is_nearer = true;  ///< than the last view; false: as far away, from another side
+  };
+  /// Those that are seen from near for the first time, standing at `key`: a view each.
+  std::vector<View> SeenFrom(const geometry::VoxelKey& key);
 
   /// Length of the straight line from `key` to the nearest hint of its storey that was not seen
   /// from near so far, nor approached in vain [m].
@@ -30,16 +34,19 @@ class Hints {
  private:
   struct Hint {
     const policy::LivePoi& poi;
-    policy::ViewTest view;
-    const CloseLooks* looks = nullptr;  ///< null before the first
+    policy::ViewTest view;                   ///< within the approach range
+    std::optional<policy::ViewTest> nearer;  ///< than the last view, where there is such a place
+    const CloseLooks* looks = nullptr;       ///< null before the first
     bool was_approached = false;
-    bool is_seen = false;
+    bool is_seen = false, is_seen_nearer = false;
   };
 
   policy::ViewTest ViewWithin(double range_m, const policy::LivePoi& poi) const;
-  policy::ViewTest ViewOf(const policy::LivePoi& poi, const CloseLooks* looks) const;
-  bool IsView(const Hint& hint, const geometry::VoxelKey& key) const;
-  bool HasView(const Hint& hint) const;
+  std::optional<policy::ViewTest> NearerView(const policy::LivePoi& poi,
+                                             const CloseLooks* looks) const;
+  bool HasView(const policy::ViewTest& view, const CloseLooks* looks) const;
+
+  double voxel_m() const { return now_.config.map.voxel_m; }
 
   const Situation& now_;
   std::vector<Hint> hints_;

@@ -66,6 +66,7 @@ bool TryAllAgain(StepState& now) {
   goal.live.ForgiveDiscarded();
   goal.tried_viewpoints.clear();
   goal.failed_views = 0;
+  goal.full.failed.clear();
   now.world.coverage.Clear();
   goal.full.inspect_range_m *= 0.6;  // chosen: near enough for the smallest category
   now.world.ground.ForgetBlocked();

@@ -86,16 +86,25 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
   return std::nullopt;
 }
 
+FailedViews FailedViewsOf(const GoalState& goal, int poi_id) {
+  if (poi_id == goal.active_live)
+    return {poi_id, goal.tried_viewpoints, goal.failed_views, goal.full.doubtful_m};
+  const auto& all = goal.full.failed;
+  const auto it = std::find_if(all.begin(), all.end(), [&](const FailedViews& views) {
+    return views.poi_id == poi_id;
+  });
+  return it == all.end() ? FailedViews{poi_id, {}, 0, 0} : *it;
+}
+
 std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const policy::LivePoi& poi) {
-  const bool is_active = poi.id == now.goal.active_live;
+  const FailedViews failed = FailedViewsOf(now.goal, poi.id);
   ViewWish wish{poi.voxels, now.config.policy.approach.range_m - kSlack_m,
-                is_active ? now.goal.tried_viewpoints : std::vector<Vector3d>{},
-                ViewsToAvoid(now, poi), poi.p_center_world};
-  if (is_active && now.goal.full.doubtful_m > 0)
+                failed.p_from_world, ViewsToAvoid(now, poi), poi.p_center_world};
+  if (failed.doubtful_m > 0)
     for (const double share : kNearerShares) {
       ViewWish nearer = wish;
-      nearer.range_m = std::min(wish.range_m, share * now.goal.full.doubtful_m);
+      nearer.range_m = std::min(wish.range_m, share * failed.doubtful_m);
       if (auto target = NearestView(now, start, nearer)) return target;
     }
   return NearestView(now, start, wish);

@@ -51,6 +51,9 @@ std::optional<GroundTarget> NearestView(const Situation& now, const geometry::Vo
 std::optional<GroundTarget> ViewOf(const Situation& now, const geometry::VoxelKey& start,
                                    const policy::LivePoi& poi);
 
+/// The views of a live POI that failed so far, the active one's or another's.
+FailedViews FailedViewsOf(const GoalState& goal, int poi_id);
+
 /// The best live POI that can be approached.
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const geometry::VoxelKey& start);
 

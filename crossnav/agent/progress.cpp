@@ -11,6 +11,13 @@
 
 namespace crossnav::agent {
 
+namespace {
+
+constexpr int kBumps = 6;        // chosen: without progress, before a pursuit is given up
+constexpr int kBumpsInVain = 2;  // chosen: the same, at marked places
+
+}  // namespace
+
 void NoteBump(StepState& now) {
   if (!now.world.full.before_forward) return;
   const AgentPose before = *std::exchange(now.world.full.before_forward, std::nullopt);
@@ -33,8 +40,9 @@ void NoteBump(StepState& now) {
   }
   if (Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity))) {
     pursued->route.motion.clear();
-    // Nothing was learnt: the next step would be the same.
-    if (!is_new) pursued->route.idle_steps += now.config.policy.explore.progress_steps / 2;
+    // Where nothing was learnt, the next step would be the same.
+    pursued->route.idle_steps +=
+        now.config.policy.explore.progress_steps / (is_new ? kBumps : kBumpsInVain);
   }
   now.goal.events.push_back("bump");
 }

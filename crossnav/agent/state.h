@@ -99,12 +99,21 @@ struct CloseLooks {
   int without_rise = 0;                ///< views in a row that did not raise the confidence
 };
 
+/// Views of one live POI that verification failed from.
+struct FailedViews {
+  int poi_id = -1;
+  std::vector<Vector3d> p_from_world;
+  int count = 0;
+  double doubtful_m = 0;  ///< FullGoal::doubtful_m after the last
+};
+
 /// Goal state of policy.profile = full.
 struct FullGoal {
   Activity activity;
   std::vector<Attempt> attempts;  ///< pursuits that ended
   policy::LivePois hints;         ///< sightings too weak for a live POI
   std::vector<CloseLooks> looks;  ///< at hints
+  std::vector<FailedViews> failed;  ///< of live POIs that are not the active one
   double doubtful_m = 0;          ///< distance of the last view of the active live POI that was too
                                   ///< little for its confidence; 0 = none was
   policy::ClaimTracker claims;    ///< verify.memory = on
