@@ -18,10 +18,10 @@ using policy::CandidateKind;
 
 namespace {
 
-constexpr double kArrived_m = 0.35;  // chosen: one forward step and a voxel
-constexpr int kLooksAtTarget = 6;    // chosen: half a turn, or less and a pitch
+constexpr double kArrived_m = 0.35;    // chosen: one forward step and a voxel
+constexpr int kLooksAtTarget = 6;      // chosen: half a turn, or less and a pitch
 constexpr double kTouching_m = 0.001;  // chosen: beside a blocked column, not in it
-constexpr int kWobbles = 3;          // chosen: one more than a live POI needs to be stable
+constexpr int kWobbles = 3;            // chosen: one more than a live POI needs to be stable
 
 /// The next action along the path; nullopt at its end, or where no step helps.
 std::optional<Action> Walk(StepState& now, Route& route) {
@@ -120,8 +120,7 @@ std::optional<Action> ActOn(StepState& now, Approach& approach,
   goal.tried_viewpoints.push_back(now.agent.p_world);
   goal.events.push_back("view failed: " + verification.failed_check);
   approach.looks = 0;
-  if (verification.failed_check == "confidence")
-    goal.full.doubtful_m = verification.distance_m;
+  if (verification.failed_check == "confidence") goal.full.doubtful_m = verification.distance_m;
   if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
     Reject(now, *poi);
     goal.events.push_back("verification failed: " + verification.failed_check);

@@ -199,7 +199,8 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   world.map.ObserveBody(agent.p_world, config.sensor.camera_height_m);
   clock.Stop("integrate");
   world.UpdateStates();
-  if (world.full.before_forward) world.ground.NoteWay(world.full.before_forward->p_world, agent.p_world);
+  if (world.full.before_forward)
+    world.ground.NoteWay(world.full.before_forward->p_world, agent.p_world);
   if (config.policy.profile == "full")
     for (const auto& key : world.full.unanswered.Look(obs, agent.p_world, world.map))
       world.ground.NoteUnanswered(key);

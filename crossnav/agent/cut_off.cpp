@@ -15,8 +15,8 @@ using geometry::VoxelKey;
 
 namespace {
 
-constexpr double kEnd_m = 1.0;        // chosen: ground this near to the end of a flight belongs to it
-constexpr double kGround_m2 = 1.0;    // chosen: less is a corner behind furniture
+constexpr double kEnd_m = 1.0;      // chosen: ground this near to the end of a flight belongs to it
+constexpr double kGround_m2 = 1.0;  // chosen: less is a corner behind furniture
 constexpr double kLevelBand_m = 0.3;  // chosen: lower than a seat
 
 using Places = std::unordered_set<VoxelKey, geometry::VoxelKeyHash>;
@@ -37,8 +37,8 @@ bool IsAnyNear(const Places& reached, const Vector3d& p_world, double voxel_m) {
 
 int CutOffLevels(const Situation& now, const Places& reached) {
   const double voxel_m = now.config.map.voxel_m;
-  return static_cast<int>(std::count_if(
-      now.world.levels_m.begin(), now.world.levels_m.end(), [&](double level_m) {
+  return static_cast<int>(
+      std::count_if(now.world.levels_m.begin(), now.world.levels_m.end(), [&](double level_m) {
         return std::none_of(reached.begin(), reached.end(), [&](const VoxelKey& key) {
           return std::abs(FootOf(key, voxel_m).z() - level_m) <= kLevelBand_m;
         });

@@ -44,17 +44,15 @@ bool NoteLook(StepState& now, int poi_id) {
   if (!poi) return true;
   std::vector<CloseLooks>& all = now.goal.full.looks;
   if (!FindLooks(all, poi_id)) all.push_back({poi_id, {}, 0, 0, 0});
-  CloseLooks& looks = *std::find_if(all.begin(), all.end(), [&](const CloseLooks& known) {
-    return known.poi_id == poi_id;
-  });
+  CloseLooks& looks = *std::find_if(
+      all.begin(), all.end(), [&](const CloseLooks& known) { return known.poi_id == poi_id; });
   const bool has_risen = poi->confidence > looks.confidence + kRise;
   looks.without_rise = has_risen ? 0 : looks.without_rise + 1;
   looks.confidence = poi->confidence;
   looks.p_from_world.push_back(now.agent.p_world);
   if (has_risen)
-    looks.distance_m =
-        policy::DistanceToObject(poi->voxels, now.agent.p_world, now.config.sensor.camera_height_m,
-                                 now.config.map.voxel_m);
+    looks.distance_m = policy::DistanceToObject(
+        poi->voxels, now.agent.p_world, now.config.sensor.camera_height_m, now.config.map.voxel_m);
   return looks.without_rise >= now.config.policy.approach.max_viewpoints;
 }
 
@@ -81,8 +79,8 @@ std::optional<policy::ViewTest> Hints::NearerView(const policy::LivePoi& poi,
                                                   const CloseLooks* looks) const {
   if (!looks || looks->distance_m <= 0) return std::nullopt;
   for (const double share : kNearerShares) {
-    policy::ViewTest view = ViewWithin(
-        std::min(now_.config.policy.approach.range_m, share * looks->distance_m), poi);
+    policy::ViewTest view =
+        ViewWithin(std::min(now_.config.policy.approach.range_m, share * looks->distance_m), poi);
     if (HasView(view, looks)) return view;
   }
   return std::nullopt;

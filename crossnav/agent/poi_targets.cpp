@@ -17,7 +17,7 @@ using policy::CandidateKind;
 
 namespace {
 
-constexpr double kSlack_m = 0.1;    // chosen: the agent stops that near to where it was sent
+constexpr double kSlack_m = 0.1;      // chosen: the agent stops that near to where it was sent
 constexpr double kUnderFoot_m = 0.5;  // chosen: what lies lower is on another storey
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
@@ -90,17 +90,16 @@ FailedViews FailedViewsOf(const GoalState& goal, int poi_id) {
   if (poi_id == goal.active_live)
     return {poi_id, goal.tried_viewpoints, goal.failed_views, goal.full.doubtful_m};
   const auto& all = goal.full.failed;
-  const auto it = std::find_if(all.begin(), all.end(), [&](const FailedViews& views) {
-    return views.poi_id == poi_id;
-  });
+  const auto it = std::find_if(all.begin(), all.end(),
+                               [&](const FailedViews& views) { return views.poi_id == poi_id; });
   return it == all.end() ? FailedViews{poi_id, {}, 0, 0} : *it;
 }
 
 std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const policy::LivePoi& poi) {
   const FailedViews failed = FailedViewsOf(now.goal, poi.id);
-  ViewWish wish{poi.voxels, now.config.policy.approach.range_m - kSlack_m,
-                failed.p_from_world, ViewsToAvoid(now, poi), poi.p_center_world};
+  ViewWish wish{poi.voxels, now.config.policy.approach.range_m - kSlack_m, failed.p_from_world,
+                ViewsToAvoid(now, poi), poi.p_center_world};
   if (failed.doubtful_m > 0)
     for (const double share : kNearerShares) {
       ViewWish nearer = wish;

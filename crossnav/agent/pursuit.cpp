@@ -127,7 +127,8 @@ void End(StepState& now, Ending ending) {
   if (std::holds_alternative<Climb>(pursuit)) NoteFlightTry(now, pursued->target, ending);
   if (ending == Ending::kNoProgress && now.goal.full.may_squeeze) CloseGap(now, pursued->route);
   pursuit = Idle{};
-  if (!now.goal.full.may_squeeze && IsWalledIn(now) && now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalledInRadius_m))
+  if (!now.goal.full.may_squeeze && IsWalledIn(now) &&
+      now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalledInRadius_m))
     now.goal.events.push_back("walled in by bumps: they are forgotten here");
 }
 

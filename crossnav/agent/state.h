@@ -110,15 +110,15 @@ struct FailedViews {
 /// Goal state of policy.profile = full.
 struct FullGoal {
   Activity activity;
-  std::vector<Attempt> attempts;  ///< pursuits that ended
-  policy::LivePois hints;         ///< sightings too weak for a live POI
-  std::vector<CloseLooks> looks;  ///< at hints
+  std::vector<Attempt> attempts;    ///< pursuits that ended
+  policy::LivePois hints;           ///< sightings too weak for a live POI
+  std::vector<CloseLooks> looks;    ///< at hints
   std::vector<FailedViews> failed;  ///< of live POIs that are not the active one
-  double doubtful_m = 0;          ///< distance of the last view of the active live POI that was too
-                                  ///< little for its confidence; 0 = none was
-  policy::ClaimTracker claims;    ///< verify.memory = on
-  std::size_t last_resorts = 0;   ///< last resorts used up
-  bool may_squeeze = false;       ///< planner rules that last resorts relaxed
+  double doubtful_m = 0;         ///< distance of the last view of the active live POI that was too
+                                 ///< little for its confidence; 0 = none was
+  policy::ClaimTracker claims;   ///< verify.memory = on
+  std::size_t last_resorts = 0;  ///< last resorts used up
+  bool may_squeeze = false;      ///< planner rules that last resorts relaxed
   bool may_step_on_seats = false;
   double inspect_range_m = 0;
   policy::Relevancy relevancy;  ///< scoring = semantic

@@ -56,8 +56,8 @@ void GroundSearch::Expand(std::int32_t from_place) {
     if (steps.to[i] < 0 || At(steps.to[i]).is_closed) continue;
     const auto has = [i](std::uint8_t bits) { return (bits >> i & 1) != 0; };
     if (has(steps.fronts) && !rules_.may_step_on_seats) continue;
-    const double risk_m = (has(steps.one_way) ? config_.one_way_m : 0) +
-                          (has(steps.fronts) ? config_.doubtful_m : 0);
+    const double risk_m =
+        (has(steps.one_way) ? config_.one_way_m : 0) + (has(steps.fronts) ? config_.doubtful_m : 0);
     Relax(from, steps.to[i],
           {has(steps.bridges) ? config_.bridge_cost_factor : 1, risk_m / ground_.voxel_m()});
   }

@@ -79,8 +79,8 @@ struct ExploreConfig {
   double sighting_m = -8;        // chosen: the goal, perhaps: worth passing a frontier by
   double uninspected_m = 10;     // chosen: ground seen from too far for the detector
   double turn_back_m = 20;       // chosen: on a flight, what lies the other way
-  double doubt_m = 5;             // chosen: for each frontier nearby that did not open
-  double doubt_range_m = 3;       // chosen: a few widths of a door
+  double doubt_m = 5;            // chosen: for each frontier nearby that did not open
+  double doubt_range_m = 3;      // chosen: a few widths of a door
   double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
   double inspect_range_m = 5;    // chosen: where a detector answers at all for a chair
   double view_range_m = 4.0;     // chosen: unseen ground that far beyond a frontier counts

@@ -13,11 +13,11 @@ namespace {
 using geometry::VoxelKey;
 using geometry::VoxelMap;
 
-constexpr int kRays = 80;          // chosen: across the image; a voxel at three metres takes two
-constexpr double kNear_m = 3.0;    // chosen: within it a depth camera answers for a floor
-constexpr double kEdge_m = 0.6;    // chosen: last part of a ray, over ground that was not seen
-constexpr double kSteep = 0.2;     // chosen: a flatter ray meets the floor too far away
-constexpr int kFrames = 3;         // chosen: as many as make a detection stable
+constexpr int kRays = 80;        // chosen: across the image; a voxel at three metres takes two
+constexpr double kNear_m = 3.0;  // chosen: within it a depth camera answers for a floor
+constexpr double kEdge_m = 0.6;  // chosen: last part of a ray, over ground that was not seen
+constexpr double kSteep = 0.2;   // chosen: a flatter ray meets the floor too far away
+constexpr int kFrames = 3;       // chosen: as many as make a detection stable
 
 bool HasAnswer(const Observation& obs, int u, int v) {
   if (!obs.depth_m.Contains(u, v)) return false;
