@@ -130,7 +130,8 @@ TEST(Hints, AreLookedAtFromNearerWhileTheConfidenceRises) {
   EXPECT_FALSE(NoteLook(given.now, id));
   const auto views = [&] {
     double nearest_m = 1e9;
-    Hints hints(given.now);
+    const Situation situation = given.now;
+    Hints hints(situation);
     for (int x = 0; x < 20; ++x)
       for (const Hints::View& view : hints.SeenFrom({x, 10, 1}))
         if (view.is_nearer)
@@ -158,7 +159,8 @@ TEST(Doubt, AFrontierBesideFrontiersThatDidNotOpenCostsMore) {
     found.candidate.kind = policy::CandidateKind::kTraversableFrontier;
     found.candidate.p_focus_world = Vector3d(x_m, 0, 0.1);
     found.candidate.size = 10;
-    ExplorationPrices prices(given.now, relevancy);
+    const Situation situation = given.now;
+    ExplorationPrices prices(situation, relevancy);
     return prices.Of(found, {{5, 5, 1}, {6, 5, 1}}, 1.0).target.score_m;
   };
   const double before_m = price(3), far_m = price(30);
