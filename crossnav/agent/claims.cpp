@@ -84,10 +84,12 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   const bool was_asked = goal.full.claims.second_view_of == poi.id;
   if (verdict == ClaimVerdict::kWeak) {
     goal.full.claims.second_view_of = poi.id;
-    if (!HasSecondView(now, poi)) {
-      // There is none: the memory decides, and a view that failed counts against the claim.
-      const bool is_likely = (!opinion || opinion->Margin() >= 0) &&
-                             (goal.active_live != poi.id || goal.failed_views == 0);
+    if (goal.full.claims.no_second_view_of == poi.id || !HasSecondView(now, poi)) {
+      // There is none: the memory decides, and a view that failed counts against the claim unless
+      // the memory is sure.
+      const double margin = opinion ? opinion->Margin() : 0;
+      const bool has_failed = goal.active_live == poi.id && goal.failed_views > 0;
+      const bool is_likely = margin >= (has_failed ? config.strong_margin : 0);
       verdict = is_likely ? ClaimVerdict::kAgreed : ClaimVerdict::kRefuted;
     }
   }
@@ -120,7 +122,7 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
 
 std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& poi) {
   const policy::ClaimTracker& claims = now.goal.full.claims;
-  if (claims.second_view_of != poi.id) return {};
+  if (claims.second_view_of != poi.id || claims.no_second_view_of == poi.id) return {};
   const policy::ClaimViews* seen = claims.ViewsOf(poi.id);
   return seen ? seen->p_cameras_world : std::vector<Vector3d>{};
 }

@@ -125,6 +125,9 @@ void End(StepState& now, Ending ending) {
   if (ending != Ending::kSuperseded && ending != Ending::kGone)
     now.goal.events.push_back(std::string(NameOf(pursuit)) + ": " + std::string(NameOf(ending)));
   if (std::holds_alternative<Climb>(pursuit)) NoteFlightTry(now, pursued->target, ending);
+  if (const Approach* approach = std::get_if<Approach>(&pursuit);
+      approach && TryEndingOf(ending) && now.goal.full.claims.second_view_of == approach->poi_id)
+    now.goal.full.claims.no_second_view_of = approach->poi_id;
   if (ending == Ending::kNoProgress && now.goal.full.may_squeeze) CloseGap(now, pursued->route);
   pursuit = Idle{};
   if (!now.goal.full.may_squeeze && IsWalledIn(now) &&
@@ -197,7 +200,11 @@ void MeasureProgress(StepState& now) {
   if (route.idle_steps <= allowed) return;
   if (const VisitPlace* visit = std::get_if<VisitPlace>(&pursuit))
     now.goal.history[static_cast<std::size_t>(visit->place)].is_exhausted = true;
-  if (const Approach* approach = std::get_if<Approach>(&pursuit))
+  // A claim that only lacks its second view stays: the first one is gone back to.
+  const policy::ClaimTracker& claims = now.goal.full.claims;
+  if (const Approach* approach = std::get_if<Approach>(&pursuit);
+      approach &&
+      (claims.second_view_of != approach->poi_id || claims.no_second_view_of == approach->poi_id))
     now.goal.live.Discard(approach->poi_id);
   End(now, Ending::kNoProgress);
 }

@@ -89,7 +89,8 @@ struct RejectedObject {
 struct ClaimTracker {
   std::vector<ClaimViews> views;
   std::vector<RejectedObject> rejected;
-  int second_view_of = -1;  ///< id of the POI that is to be seen from another side, -1 = none
+  int second_view_of = -1;     ///< id of the POI that is to be seen from another side, -1 = none
+  int no_second_view_of = -1;  ///< id of the POI whose other sides could not be reached, -1 = none
 
   const ClaimViews* ViewsOf(int poi_id) const;
 };
