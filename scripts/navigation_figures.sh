@@ -43,7 +43,7 @@ if [[ ! -e $file ]]; then
   [[ -z $homes ]] || cp -r "$homes"/*/ "$scenes"
   count=$((4 * $(find "$scenes" -mindepth 1 -maxdepth 1 -type d | wc -l)))
   alternate=()
-  [[ $edition == 1 ]] || alternate=(--alternate 0.25)
+  [[ $edition == 1 ]] || alternate=(--alternate 0.25 --certify detection)
   "$program" episodes generate "${alternate[@]}" --scenes "$scenes" --count "$count" --goals 3 \
     --cross-floor 0.5 --seed 7 --out "$file" >&2
 fi

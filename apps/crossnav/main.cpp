@@ -15,7 +15,8 @@ CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const ch
   verb->footer(std::string("Example:\n  ") + example);
   verb->add_flag("--json", options.common.json, "One JSON document on stdout, logs on stderr");
   verb->add_flag("--quiet", options.common.quiet, "No logs and no progress");
-  verb->add_option("--config", options.common.config_file, "Settings (TOML); empty = the paper's")
+  verb->add_option("--config", options.common.config_file,
+                   "Settings (TOML); default: the paper's numbers, our navigator")
       ->type_name("FILE");
   verb->add_option("--set", options.common.overrides, "Override a setting; may be repeated")
       ->type_name("KEY=VALUE")

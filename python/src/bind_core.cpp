@@ -196,7 +196,9 @@ void BindPose(nb::module_& m) {
 void BindConfig(nb::module_& m) {
   nb::class_<bench::RunConfig>(
       m, "Config",
-      "Every setting: the paper's defaults, with a mapping, a TOML text or a TOML file on top.")
+      "Every setting: the numbers of the paper's table and our navigator (policy.profile = full; "
+      "variant \"paper\" is the paper's method), with a mapping, a TOML text or a TOML file on "
+      "top.")
       .def(
           "__init__",
           [](bench::RunConfig* self, const Settings& settings, const std::string& variant) {
