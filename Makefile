@@ -17,7 +17,7 @@ JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)
   END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
 TIDY := $(or $(XDG_DATA_HOME),$(HOME)/.local/share)/crossnav/clang-tidy-$(shell \
   sed -n 's/^clang-tidy==\([0-9.]*\).*/\1/p' scripts/clang-tidy.txt)/bin
-SOURCES := $(shell find crossnav apps tests benchmarks python -name '*.h' -o -name '*.cpp' | sort)
+SOURCES := $(shell find crossnav apps tests benchmarks python examples -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
 .PHONY: help setup demo test test-long golden bench networks results wheel format lint asan tsan fuzz docs clean \

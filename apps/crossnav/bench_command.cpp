@@ -10,6 +10,7 @@
 #include "crossnav/bench/episode_generator.h"
 #include "crossnav/bench/runner.h"
 #include "crossnav/bench/timing.h"
+#include "crossnav/core/version.h"
 #include "crossnav/world/house/embedded_house.h"
 #include "perception_source.h"
 #include "progress.h"

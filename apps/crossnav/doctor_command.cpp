@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "commands.h"
+#include "crossnav/core/version.h"
 #include "crossnav/networks/suite.h"
 #include "perception_source.h"
 

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "crossnav/core/nearest.h"
+#include "crossnav/core/version.h"
 #include "verbs.h"
 
 namespace crossnav::app {

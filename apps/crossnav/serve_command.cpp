@@ -11,6 +11,7 @@
 
 #include "crossnav/bench/output_path.h"
 #include "crossnav/core/categories.h"
+#include "crossnav/core/version.h"
 #include "crossnav/serve/blind.h"
 #include "crossnav/serve/server.h"
 #include "memory_files.h"

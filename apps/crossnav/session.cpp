@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crossnav/bench/config_file.h"
+#include "crossnav/core/version.h"
 #include "crossnav/sim/ground_truth_encoder.h"
 
 namespace crossnav::app {

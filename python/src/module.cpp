@@ -2,6 +2,8 @@
 // The extension module crossnav._core. Users import `crossnav`, which passes its names on.
 #include "common.h"
 
+#include "crossnav/core/version.h"
+
 namespace crossnav::python {
 namespace {
 
