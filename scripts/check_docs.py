@@ -5,7 +5,7 @@
     scripts/check_docs.py [ROOT]
 
 Relative links in Markdown files and documents named in the code lead somewhere; every label of the
-paper that the code cites has a row in docs/paper_map.md; every file and name in such a row exists.
+paper that the code cites has a row in docs/paper_map.md; every file and name in such a row exists; README.md has 90 lines at most.
 Exit status 1 if anything fails.
 """
 import pathlib
@@ -14,6 +14,7 @@ import sys
 
 LABEL = re.compile(r"\b(?:eq|tab|alg|sec|fig):[a-z][a-z0-9_]*")
 CODE_FOLDERS = ("crossnav", "apps", "tests", "benchmarks")
+MAX_README_LINES = 90
 SKIPPED = {"build", "out", "node_modules", ".git"}
 
 
@@ -78,11 +79,20 @@ def check_paper_map(root):
             yield f"{path.relative_to(root)}: cites {label}, which docs/paper_map.md lacks"
 
 
+def check_readme(root):
+    """The README is a front door."""
+    path = root / "README.md"
+    lines = len(path.read_text(encoding="utf-8").splitlines()) if path.exists() else 0
+    if lines > MAX_README_LINES:
+        yield f"README.md: {lines} lines, at most {MAX_README_LINES}"
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
     if root.is_file():
         root = root.parent.parent
-    problems = [*check_links(root), *check_citations(root), *check_paper_map(root)]
+    problems = [*check_links(root), *check_citations(root), *check_paper_map(root),
+                *check_readme(root)]
     print("\n".join(problems) if problems else "docs: links and paper map hold")
     return 1 if problems else 0
 

@@ -99,6 +99,20 @@ class Installed(unittest.TestCase):
         self.assertTrue(claim, said)
         self.check_answer(home, claim.groups())
 
+    def test_6_the_loop_of_the_readme_compiles(self):
+        readme = (SOURCE / "README.md").read_text("utf-8")
+        loop = re.search(r"```cpp\n(.*?)```", readme, re.S).group(1)
+        program = self.folder / "build" / "readme.cpp"
+        program.write_text(loop + """
+struct Robot {
+  crossnav::Observation Observe() { return {}; }
+  void Act(crossnav::Action) {}
+};
+template crossnav::Result<void> Find(Robot&, crossnav::agent::Agent&, const std::string&);
+""", encoding="utf-8")
+        run(COMPILER, "-std=c++20", "-fsyntax-only", "-isystem", "/usr/include/eigen3", "-I",
+            self.prefix / "include", program)
+
     def check_answer(self, home, point):
         """More of what was claimed is found there."""
         places = re.findall(r"at (\S+) (\S+) \S+, similarity", self.example("ask_map", home, *point))

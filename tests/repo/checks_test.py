@@ -91,6 +91,7 @@ class Checks(unittest.TestCase):
         self.assert_found("docs", {"docs/paper_map.md": row}, "NoSuch is not in")
 
     def test_a_broken_link_is_found(self):
+        self.assert_found("docs", {"README.md": "a line\n" * 91}, "91 lines, at most 90")
         self.assert_found("docs", {"README.md": "see [this](docs/gone.md)\n"}, "docs/gone.md")
 
 
