@@ -29,9 +29,16 @@ void PrefetchRow(const DepthImage& depth_m, int v) {
   PrefetchBytes(row.data(), row.size());
 }
 
+// A difference per pixel shrinks as 1 / width, and width / fx is the field of view alone.
+double DefaultGradientScale(const CameraIntrinsics& camera) {
+  constexpr double kPaperWidth_px = 640;
+  const double width_px = camera.width_px;
+  return width_px * width_px / (kPaperWidth_px * camera.fx);
+}
+
 QualityFactors FactorsOf(const CameraIntrinsics& camera, const FusionConfig& config) {
   const double scale =
-      config.gradient_scale > 0 ? config.gradient_scale : camera.width_px / camera.fx;
+      config.gradient_scale > 0 ? config.gradient_scale : DefaultGradientScale(camera);
   const double sigma = config.depth_scale_m;
   return {static_cast<float>(2 * config.gamma * scale * std::numbers::log2e),
           static_cast<float>(config.preferred_depth_m),

@@ -28,7 +28,7 @@ struct FusionConfig {
   double gamma = 0.20;             ///< depth-gradient factor
   double preferred_depth_m = 1.0;  ///< d0
   double depth_scale_m = 1.5;      ///< sigma_d
-  double gradient_scale = 0;       ///< 0 = width / fx, which is independent of resolution
+  double gradient_scale = 0;       ///< 0 = width^2 / (640 fx): the same at every resolution
   double epsilon = 1e-6;           ///< eq:intra_frame_fusion
   /// Budget of feature rows, 0 = unbounded. Above it the least confident rows become int8, which
   /// count half; when that is not enough, they are dropped.

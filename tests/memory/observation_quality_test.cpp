@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "crossnav/core/rng.h"
 #include "crossnav/memory/observation_quality.h"
@@ -111,15 +112,44 @@ TEST(ObservationQualityTest, IsWithinAFewRoundingsOfTheFormula) {
   EXPECT_LT(largest, 4e-7);
 }
 
-TEST(ObservationQualityTest, DefaultGradientScaleIsImageWidthOverFocalLength) {
-  DepthImage depth(64, 4);
-  for (int v = 0; v < 4; ++v)
-    for (int u = 0; u < 64; ++u) depth.At(u, v) = 2.0f + 0.1f * static_cast<float>(u);
-  const CameraIntrinsics camera = IntrinsicsFromHfov(64, 4, 1.2);
-  FusionConfig explicit_scale;
-  explicit_scale.gradient_scale = 64 / camera.fx;
-  EXPECT_EQ(ObservationQuality(depth, camera, {}).data,
-            ObservationQuality(depth, camera, explicit_scale).data);
+TEST(ObservationQualityTest, DefaultGradientScaleIsWidthOverFocalLengthAtThePapersWidth) {
+  for (const int width_px : {64, 640}) {
+    DepthImage depth(width_px, 4);
+    for (int v = 0; v < 4; ++v)
+      for (int u = 0; u < width_px; ++u) depth.At(u, v) = 2.0f + 0.1f * static_cast<float>(u);
+    const CameraIntrinsics camera = IntrinsicsFromHfov(width_px, 4, 1.2);
+    FusionConfig explicit_scale;
+    explicit_scale.gradient_scale = width_px / 640.0 * width_px / camera.fx;
+    EXPECT_EQ(ObservationQuality(depth, camera, {}).data,
+              ObservationQuality(depth, camera, explicit_scale).data);
+  }
+}
+
+// Depth of the wall z = 2 m + slope x, seen by a camera with 90 degrees across.
+DepthImage SlantedWall(const CameraIntrinsics& camera, double slope) {
+  DepthImage depth(camera.width_px, camera.height_px);
+  for (int v = 0; v < depth.height; ++v)
+    for (int u = 0; u < depth.width; ++u)
+      depth.At(u, v) = static_cast<float>(2 / (1 - slope * (u - camera.cx) / camera.fx));
+  return depth;
+}
+
+double WeightAt(double across, int width_px, double slope) {
+  const CameraIntrinsics camera = IntrinsicsFromHfov(width_px, 5, std::numbers::pi / 2);
+  const auto q = ObservationQuality(SlantedWall(camera, slope), camera, {});
+  return q.At(static_cast<int>(across * width_px), 2);
+}
+
+TEST(ObservationQualityTest, DoesNotDependOnTheResolution) {
+  for (const double slope : {0.2, 0.5, 0.8}) {
+    for (const double across : {0.1, 0.25, 0.5, 0.75, 0.9}) {
+      const double at_640 = WeightAt(across, 640, slope);
+      EXPECT_GT(at_640, 0);
+      for (const int width_px : {320, 1280})
+        EXPECT_NEAR(WeightAt(across, width_px, slope) / at_640, 1, 0.05)
+            << slope << ", " << across << ", " << width_px;
+    }
+  }
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using testing::TestFrame;
 
 testing::LiteralFactors FactorsOf(const TestFrame& f) {
   testing::LiteralFactors factors;
-  factors.gradient_scale = f.camera.width_px / f.camera.fx;
+  factors.gradient_scale = f.camera.width_px / 640.0 * f.camera.width_px / f.camera.fx;
   return factors;
 }
 
