@@ -7,7 +7,9 @@ namespace {
 constexpr const char* kPageHelp = "Also report.html, one page with plots, by the Python package";
 
 constexpr const char* kVariantHelp =
-    "full, no-history-poi, planar or paper; told by ground truth: known-map, known-objects";
+    "full; no-history-poi (inspected ground is forgotten at each goal, too), no-history-poi-pure "
+    "(History POIs alone off); planar; paper, paper-no-history-poi (the literal method); told by "
+    "ground truth: known-map, known-objects";
 
 void AddPerception(CLI::App* verb, std::string& perception) {
   verb->add_option("--perception", perception,

@@ -135,8 +135,10 @@ Result<void> Agent::SetGoal(const std::string& name) {
   impl_->goal = std::move(fresh);
   impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
   impl_->world.paper.bumps.Clear();
-  // The memory answers for what was seen from near; without it every goal looks for itself.
-  if (!impl_->config.policy.poi.use_history) impl_->world.coverage.Clear();
+  // Inspected ground needs no second look because the memory answers for it. Without History POIs
+  // nothing answers, so that a new goal inspects all ground again, unless keep_coverage is set.
+  const policy::PoiConfig& poi = impl_->config.policy.poi;
+  if (!poi.use_history && !poi.keep_coverage) impl_->world.coverage.Clear();
   return {};
 }
 

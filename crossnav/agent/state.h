@@ -55,7 +55,7 @@ struct World {
   planner::GroundMap ground;
   memory::SemanticMemory memory;
   policy::StairEvidence stairs;
-  policy::Coverage coverage;  ///< ground inspected from near; without history POIs, for this goal
+  policy::Coverage coverage;  ///< inspected ground; cleared by goals per poi.keep_coverage
   std::vector<geometry::StairFlight> flights;  ///< walked flights first
   policy::FlightSurvey flight_survey;
   std::vector<Vector3d> path_off_level_world;  ///< foot positions since the level was left

@@ -200,6 +200,31 @@ std::vector<std::string> Split(const std::string& key) {
   return parts;
 }
 
+struct Variant {
+  std::string_view name;
+  void (*apply)(RunConfig&);
+};
+
+constexpr Variant kVariants[] = {
+    {"full", [](RunConfig&) {}},
+    {"no-history-poi", [](RunConfig& c) { c.agent.policy.poi.use_history = false; }},
+    {"no-history-poi-pure",
+     [](RunConfig& c) {
+       c.agent.policy.poi.use_history = false;
+       c.agent.policy.poi.keep_coverage = true;
+     }},
+    {"planar", [](RunConfig& c) { c.agent.policy.planar = true; }},
+    {"paper", [](RunConfig& c) { c.agent.policy.profile = "paper"; }},
+    {"paper-no-history-poi",
+     [](RunConfig& c) {
+       c.agent.policy.profile = "paper";
+       c.agent.policy.poi.use_history = false;
+     }},
+    {"known-map", [](RunConfig&) {}},  // what is known comes with the memory (survey.h)
+    // Every instance, not the paper's four.
+    {"known-objects", [](RunConfig& c) { c.agent.query.top_k = 1000; }},
+};
+
 }  // namespace
 
 Result<void> ApplyConfigText(std::string_view text, const std::string& name, RunConfig& config) {
@@ -243,31 +268,15 @@ Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig
   return {};
 }
 
-Result<void> ApplyVariant(std::string_view variant, RunConfig& config) {
-  if (variant == "full") return {};
-  if (variant == "no-history-poi") {
-    config.agent.policy.poi.use_history = false;
-    return {};
+Result<void> ApplyVariant(std::string_view name, RunConfig& config) {
+  std::vector<std::string> names;
+  for (const Variant& variant : kVariants) {
+    if (variant.name == name) return variant.apply(config), Result<void>();
+    names.emplace_back(variant.name);
   }
-  if (variant == "planar") {
-    config.agent.policy.planar = true;
-    return {};
-  }
-  if (variant == "paper") {
-    config.agent.policy.profile = "paper";
-    return {};
-  }
-  if (variant == "known-map") return {};  // what is known comes with the memory (survey.h)
-  if (variant == "known-objects") {
-    config.agent.query.top_k = 1000;  // every instance, not the paper's four
-    return {};
-  }
-  const std::vector<std::string> variants = {"full",  "no-history-poi", "planar",
-                                             "paper", "known-map",      "known-objects"};
   return Fail(ErrorCode::kInvalid,
-              "unknown variant \"" + std::string(variant) +
-                  "\"; there are full, no-history-poi, planar, paper, known-map and known-objects" +
-                  DidYouMean(variant, variants),
+              "unknown variant \"" + std::string(name) + "\"; there are " + Join(names, ", ") +
+                  DidYouMean(name, names),
               "--variant");
 }
 

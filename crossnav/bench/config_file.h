@@ -25,7 +25,7 @@ Result<void> ApplyConfigText(std::string_view toml, const std::string& name, Run
 /// Applies overrides such as "policy.poi.use_history=false", in order, all or none.
 Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config);
 
-/// full | no-history-poi | planar | paper (docs/cli.md).
+/// A named set of settings; docs/cli.md lists them.
 Result<void> ApplyVariant(std::string_view variant, RunConfig& config);
 
 /// Everything a user may say of settings, in the order in which it is applied.

@@ -18,7 +18,9 @@ struct ObjectConfig {
 };
 
 struct PoiConfig {
-  bool use_history = true;         ///< false = the paper's "w/o H-POI"
+  bool use_history = true;     ///< false = the paper's "w/o H-POI"
+  bool keep_coverage = false;  ///< use_history = false: inspected ground stays inspected at a new
+                               ///< goal; profile full only
   double similarity_slack = 0.08;  // chosen: below what confirmed objects answered with; full only
   double live_takeover_m = 1.0;
   double blacklist_xy_m = 0.8, blacklist_z_m = 0.6;
@@ -122,6 +124,7 @@ void Visit(V& visit, ObjectConfig& c) {
 template <class V>
 void Visit(V& visit, PoiConfig& c) {
   visit("use_history", c.use_history);
+  visit("keep_coverage", c.keep_coverage);
   visit("similarity_slack", c.similarity_slack, 0.0, 2.0);
   visit("live_takeover_m", c.live_takeover_m, 0.0, 100.0);
   visit("blacklist_xy_m", c.blacklist_xy_m, 0.0, 100.0);

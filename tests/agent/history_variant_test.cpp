@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The variant no-history-poi, and what a new goal starts anew. On equal observations the variant
-// may differ in History POIs and in what follows from them (mode, target, path, action), and in
-// nothing else. Stairs are left out on purpose: they are promoted only in sessions, that is, by
-// what the agent does.
+// The variants no-history-poi and no-history-poi-pure, and what a new goal starts anew. On equal
+// observations the variant may differ in History POIs and in what follows from them (mode, target,
+// path, action), and in nothing else. Stairs are left out on purpose: they are promoted only in
+// sessions, that is, by what the agent does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -149,6 +149,21 @@ TEST(HistoryVariant, ChangesNothingButHistoryPoisOnEqualObservations) {
     EXPECT_GT(seen.modes, 0);
     EXPECT_GT(seen.live, 0);
     EXPECT_GT(seen.frontiers, 2);
+  }
+}
+
+TEST(HistoryVariant, InspectedGroundIsForgottenUnlessItIsKept) {
+  for (const bool keep_coverage : {false, true}) {
+    Config config = WithHistory(false);
+    config.policy.poi.keep_coverage = keep_coverage;
+    Agent agent(config, FakeSuite(CouchSight()));
+    BoxWalker walker = TwoRooms();
+    ASSERT_TRUE(agent.SetGoal("toilet").has_value());
+    ASSERT_TRUE(RunAgent(agent, walker, 600).all_explored);
+    ASSERT_TRUE(agent.SetGoal("bed").has_value());
+    const auto first = agent.Step(walker.Look());
+    ASSERT_TRUE(first.has_value());
+    EXPECT_EQ(OfKind(first->trace, "uninspected").empty(), keep_coverage);
   }
 }
 

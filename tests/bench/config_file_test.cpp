@@ -11,10 +11,11 @@
 namespace crossnav::bench {
 namespace {
 
-TEST(ConfigFile, EmptyTextMeansThePaper) {
+TEST(ConfigFile, EmptyTextMeansThePapersNumbersAndOurNavigator) {
   RunConfig config;
   ASSERT_TRUE(ApplyConfigText("", "empty.toml", config));
   EXPECT_EQ(ConfigHash(config), ConfigHash(RunConfig{}));
+  EXPECT_EQ(config.agent.policy.profile, "full");
 }
 
 TEST(ConfigFile, SectionsReachNestedFields) {
@@ -146,6 +147,27 @@ TEST(ConfigFile, UnknownVariantIsRefused) {
   EXPECT_TRUE(ApplyVariant("paper", config));
   EXPECT_EQ(config.agent.policy.profile, "paper");
   EXPECT_FALSE(ApplyVariant("fast", config));
+  const auto refused = ApplyVariant("no-history", config);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("paper-no-history-poi"), std::string::npos);
+}
+
+TEST(ConfigFile, AblationsOfHistoryPoisChangeTheirSettingsAndNoOther) {
+  using Settings = std::vector<std::pair<std::string, std::string>>;
+  const auto changed = [](std::string_view variant) {
+    RunConfig config;
+    EXPECT_TRUE(ApplyVariant(variant, config));
+    const nlohmann::json defaults = nlohmann::json::parse(DumpJson(RunConfig{})).flatten();
+    const nlohmann::json set = nlohmann::json::parse(DumpJson(config)).flatten();
+    Settings settings;
+    for (const auto& [key, value] : set.items())
+      if (value != defaults.at(key)) settings.emplace_back(key, value.dump());
+    return settings;
+  };
+  const std::pair<std::string, std::string> off{"/policy/poi/use_history", "false"};
+  EXPECT_EQ(changed("no-history-poi"), (Settings{off}));
+  EXPECT_EQ(changed("no-history-poi-pure"), (Settings{{"/policy/poi/keep_coverage", "true"}, off}));
+  EXPECT_EQ(changed("paper-no-history-poi"), (Settings{off, {"/policy/profile", "\"paper\""}}));
 }
 
 }  // namespace
