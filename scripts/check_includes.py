@@ -31,7 +31,8 @@ ROOMS = {
     "world": {"core", "sim"},
     "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory"},
-    "bench": _AGENT | {"networks", "serve", "sim", "world", "homes", "store"},
+    "scenegraph": {"core", "geometry", "memory"},
+    "bench": _AGENT | {"scenegraph", "networks", "serve", "sim", "world", "homes", "store"},
 }
 
 # Rooms whose files lie in folders: what each folder may include of its own room besides itself.

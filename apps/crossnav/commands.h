@@ -262,6 +262,14 @@ std::vector<std::string> StairTrialKinds();
 Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& common,
                          Console& console);
 
+struct GraphBenchOptions {
+  int count = 10, edition = 1;
+  std::uint64_t seed = 1;
+  std::string pictures;  ///< folder; empty = none
+};
+Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
+                        Console& console);
+
 Result<void> Doctor(const CommonOptions& common, Console& console);
 
 }  // namespace crossnav::app

@@ -349,6 +349,15 @@ void AddTools(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(StairTrialKinds()));
   stairs->add_option("--keep", o.stairs.keep,
                      "Folder for worlds and episodes of failed attempts, for crossnav run");
+  CLI::App* graph =
+      AddVerb(*bench, o, "graph", "Rooms and floors of generated houses' maps against their plans",
+              "crossnav bench graph --seed 7001 --count 10",
+              [&o](Console& c) { return BenchGraph(o.graph_bench, o.common, c); });
+  graph->add_option("--seed", o.graph_bench.seed, "Of the first house");
+  graph->add_option("--count", o.graph_bench.count, "Houses")->check(CLI::Range(1, 100000));
+  graph->add_option("--edition", o.graph_bench.edition, "Of the generator")
+      ->check(CLI::Range(1, 2));
+  graph->add_option("--pictures", o.graph_bench.pictures, "Folder for a picture of each floor");
   CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",
                             "crossnav bench noise --scenes scenes --episodes e.json --count 12",
                             [&o](Console& c) { return BenchNoise(o.noise, o.common, c); });

@@ -40,6 +40,7 @@ struct Options {
   NetworksOptions networks;
   StairsOptions stairs;
   NoiseSweepOptions noise;
+  GraphBenchOptions graph_bench;
   ServeOptions serve;
   Command command;
 };

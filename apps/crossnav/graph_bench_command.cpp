@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// `bench graph`: rooms and floors of generated houses' maps against the plans they were built from.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "crossnav/bench/graph_trials.h"
+#include "crossnav/bench/output_path.h"
+#include "graph_picture.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ScoreJson(const bench::GraphScore& score) {
+  return {{"floors", score.floors},
+          {"floors_found", score.floors_found},
+          {"floors_wrong", score.floors_wrong},
+          {"rooms", score.rooms},
+          {"rooms_found", score.rooms_found},
+          {"rooms_wrong", score.rooms_wrong},
+          {"rooms_f1", score.RoomsF1()}};
+}
+
+std::string Row(const std::string& name, const bench::GraphScore& score) {
+  return fmt::format("| {} | {} of {}, {} more | {} of {}, {} more | {:.3f} |\n", name,
+                     score.floors_found, score.floors, score.floors_wrong, score.rooms_found,
+                     score.rooms, score.rooms_wrong, score.RoomsF1());
+}
+
+}  // namespace
+
+Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
+                        Console& console) {
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  if (auto ok = bench::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
+  bench::GraphScore all;
+  std::string table = "| house | floors | rooms (IoU 0.5) | rooms F1 |\n|---|---|---|--:|\n";
+  Json houses = Json::array();
+  for (int i = 0; i < options.count; ++i) {
+    const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
+    console.Progress(fmt::format("house {} of {}", i + 1, options.count));
+    const auto trial = bench::TryGraph(seed, options.edition, *config);
+    if (!trial) return tl::unexpected(trial.error());
+    all += trial->score;
+    table += Row(trial->house, trial->score);
+    Json house = ScoreJson(trial->score);
+    house["house"] = trial->house;
+    house["seconds"] = trial->seconds;
+    houses.push_back(std::move(house));
+    console.Log(fmt::format("{}: graph in {:.2f} s", trial->house, trial->seconds));
+    if (options.pictures.empty()) continue;
+    const auto folder = std::filesystem::path(options.pictures) / trial->house;
+    if (auto ok = WriteFloorPictures(trial->graph, folder); !ok) return ok;
+  }
+  console.Print(table + Row("all", all));
+  console.Document(Json({{"seed", options.seed},
+                         {"count", options.count},
+                         {"edition", options.edition},
+                         {"all", ScoreJson(all)},
+                         {"houses", std::move(houses)}}));
+  return {};
+}
+
+}  // namespace crossnav::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The graph of a saved map: floors and rooms from its geometry alone, objects as its memory found
+// them.
+#pragma once
+
+#include "crossnav/geometry/stair_flight.h"
+#include "crossnav/geometry/voxel_map.h"
+#include "crossnav/memory/semantic_memory.h"
+#include "crossnav/scenegraph/scene_graph.h"
+
+namespace crossnav::scenegraph {
+
+/// Floors, rooms, passages and stairs; no objects yet.
+SceneGraph BuildGraph(const geometry::VoxelMap& map, const memory::SemanticMemory& memory,
+                      const std::vector<geometry::StairFlight>& flights);
+
+/// Floor of a point: the highest with its ground at most 0.5 m above it; empty below all.
+std::optional<int> FloorAt(const SceneGraph& graph, const Vector3d& p_world);
+
+/// Room of a point on a floor, within half a metre; empty where there is none.
+std::optional<int> RoomAt(const SceneGraph& graph, int floor, const Vector3d& p_world);
+
+/// Gives the object its id, floor and room, and appends it.
+void AddObject(SceneGraph& graph, GraphObject object);
+
+/// How the objects of one floor stand to each other. Replaces `graph.relations`.
+void RelateObjects(SceneGraph& graph);
+
+}  // namespace crossnav::scenegraph
