@@ -226,9 +226,13 @@ struct MapOptions {
   std::vector<double> from;  ///< foot point of who asks, world [m]; empty = where it was seen from
   bool with_voxels = false;
   bool surfaces_only = false, skip_damaged = false;
+  std::vector<std::string> objects;  ///< of the graph: categories to look for
+  std::string pictures;              ///< of the graph: folder; empty = none
 };
 Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Console& console);
 Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Console& console);
+/// Building, floors, rooms and objects, as JSON or GraphML by the ending of `out`.
+Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Console& console);
 Result<void> MapExport(const MapOptions& options, const CommonOptions& common, Console& console);
 
 struct BenchOptions {

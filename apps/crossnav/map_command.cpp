@@ -7,12 +7,16 @@
 #include "crossnav/agent/observation_place.h"
 #include "crossnav/bench/output_path.h"
 #include "crossnav/bench/result_records.h"
+#include "crossnav/core/write_file.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/query_match.h"
+#include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/sim/ground_truth_encoder.h"
 #include "crossnav/sim/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "graph_picture.h"
+#include "graph_text.h"
 #include "map_build.h"
 #include "perception_source.h"
 #include "session.h"
@@ -192,7 +196,59 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
                      match.best, is_nowhere ? ", but so much of it that no place stands out" : "");
 }
 
+/// The places of `category` that match as well as what is present; all of them where that was never
+/// measured for the map's encoder.
+Result<void> AddObjects(const MapOptions& options, const std::string& category,
+                        const store::LoadedMemory& loaded, const bench::RunConfig& config,
+                        scenegraph::SceneGraph& graph) {
+  MapOptions asked = options;
+  asked.text = category;
+  const auto vectors = EncodeText(asked, loaded.header, config);
+  if (!vectors) return tl::unexpected(vectors.error());
+  memory::QueryConfig query = config.agent.query;
+  query.top_k = 1000;  // all that stand out
+  const auto found = memory::Query(loaded.memory, vectors->text, query, vectors->background);
+  const auto match = memory::MatchOf(loaded.memory, vectors->text, found);
+  const auto from = memory::PresentFrom(loaded.header.encoder_name);
+  graph.asked.push_back(category);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (from && match.places[i] < *from) continue;
+    scenegraph::GraphObject object;
+    object.category = category;
+    object.p_center_world = found[i].p_center_world;
+    object.box = found[i].box;
+    object.match = match.places[i];
+    object.is_certain = from.has_value();
+    AddObject(graph, std::move(object));
+  }
+  return {};
+}
+
 }  // namespace
+
+Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Console& console) {
+  const bool is_xml = options.out.ends_with(".graphml");
+  if (!is_xml && !options.out.ends_with(".json"))
+    return Fail(ErrorCode::kUnsupported, "a graph is written as .json or .graphml", "--to");
+  if (auto ok = bench::CheckOutputFile(options.out, "--to"); !ok) return ok;
+  if (auto ok = bench::CheckNotInput(options.out, "--to", options.file); !ok) return ok;
+  if (auto ok = bench::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
+  const auto config = LoadConfig(common);
+  if (!config) return tl::unexpected(config.error());
+  const auto loaded = Load(options, *config, console);
+  if (!loaded) return tl::unexpected(loaded.error());
+  auto graph = scenegraph::BuildGraph(loaded->map, loaded->memory, loaded->flights);
+  for (const std::string& category : options.objects)
+    if (auto ok = AddObjects(options, category, *loaded, *config, graph); !ok) return ok;
+  RelateObjects(graph);
+  const std::string json = GraphJson(graph);
+  if (auto ok = WriteFileAtomically(options.out, is_xml ? GraphXml(graph) : json); !ok) return ok;
+  if (!options.pictures.empty())
+    if (auto ok = WriteFloorPictures(graph, options.pictures); !ok) return ok;
+  console.Print(GraphSummary(graph));
+  console.Document(json);
+  return {};
+}
 
 Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Console& console) {
   const auto config = LoadConfig(common);

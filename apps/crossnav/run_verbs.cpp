@@ -260,7 +260,17 @@ void AddMap(CLI::App& app, Options& o) {
   CLI::App* points = AddVerb(*map, o, "export", "Voxels as a coloured point cloud (PLY)",
                              "crossnav map export home.map --out home.ply",
                              [&o](Console& c) { return MapExport(o.map, o.common, c); });
-  for (CLI::App* verb : {info, query, points}) {
+  CLI::App* graph = AddVerb(*map, o, "graph", "Floors, rooms and objects of a map as a graph",
+                            "crossnav map graph home.map --to graph.json --objects chair,bed",
+                            [&o](Console& c) { return MapGraph(o.map, o.common, c); });
+  graph->add_option("--to", o.map.out, "File to write: .json or .graphml")->required();
+  graph
+      ->add_option("--objects", o.map.objects,
+                   "Categories to look for in the memory; default: none")
+      ->type_name("A,B,...")
+      ->delimiter(',');
+  graph->add_option("--pictures", o.map.pictures, "Folder for a picture of each floor");
+  for (CLI::App* verb : {info, query, points, graph}) {
     verb->add_option("MAP", o.map.file, "Map file")->required();
     verb->add_flag("--skip-damaged", o.map.skip_damaged, "Go on with what is intact");
   }

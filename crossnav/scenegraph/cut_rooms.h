@@ -11,7 +11,7 @@ inline constexpr int kNoRoom = -1;
 
 struct RoomCutConfig {
   double passage_m = 1.4;    // chosen: a wider opening joins, doors and archways are narrower
-  double share = 0.75;       // chosen: of the smaller basin's widest place; a bay is no room
+  double share = 0.5;        // chosen: of the smaller basin's widest place; seeds 1 to 3
   double min_area_m2 = 1.0;  // chosen: smaller pieces join a neighbour, or are no room
 };
 
