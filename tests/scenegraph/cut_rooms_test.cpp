@@ -36,33 +36,35 @@ int CountOf(const PlanGrid<int>& rooms) {
 }
 
 // Two rooms above a corridor: the left one behind a door, the right one behind an open archway.
-const std::vector<std::string> kPlan = {
-    "#######################", "#..........#..........#", "#..........#..........#",
-    "#..........#..........#", "#..........#..........#", "#..........#..........#",
-    "#..........#..........#", "#####ddd######...######", "#.....................#",
-    "#.....................#", "#.....................#", "#.....................#",
-    "#.....................#", "#######################"};
+const std::vector<std::string> kPlan = [] {
+  const std::string wall(23, '#');
+  std::vector<std::string> rows(21, "#.....................#");
+  for (int row = 1; row <= 10; ++row) rows[row][11] = '#';
+  rows.front() = rows.back() = wall;
+  rows[11] = "#####ddd######...######";
+  return rows;
+}();
 
 TEST(CutRooms, DoorsAndArchwaysPartRoomsFromACorridor) {
   const auto rooms = CutRooms(Drawn(kPlan), 0.1);
   EXPECT_EQ(CountOf(rooms), 3);
-  const int left = RoomOf(rooms, 3, 3), right = RoomOf(rooms, 17, 3), hall = RoomOf(rooms, 10, 10);
+  const int left = RoomOf(rooms, 3, 3), right = RoomOf(rooms, 17, 3), hall = RoomOf(rooms, 10, 15);
   EXPECT_NE(left, kNoRoom);
   EXPECT_NE(left, right);
   EXPECT_NE(left, hall);
   EXPECT_NE(right, hall);
   EXPECT_EQ(RoomOf(rooms, 1, 1), left);
-  EXPECT_EQ(RoomOf(rooms, 21, 6), right);
-  EXPECT_EQ(RoomOf(rooms, 1, 12), hall);
-  EXPECT_NE(RoomOf(rooms, 6, 7), kNoRoom) << "a doorway belongs to a room";
+  EXPECT_EQ(RoomOf(rooms, 21, 10), right);
+  EXPECT_EQ(RoomOf(rooms, 1, 19), hall);
+  EXPECT_NE(RoomOf(rooms, 6, 11), kNoRoom) << "a doorway belongs to a room";
 }
 
 TEST(CutRooms, AWideOpeningJoins) {
   auto plan = kPlan;
-  plan[7] = "#####ddd#####......####";
+  plan[11] = "#####ddd#####......####";
   const auto rooms = CutRooms(Drawn(plan), 0.1);
   EXPECT_EQ(CountOf(rooms), 2);
-  EXPECT_EQ(RoomOf(rooms, 17, 3), RoomOf(rooms, 10, 10));
+  EXPECT_EQ(RoomOf(rooms, 17, 3), RoomOf(rooms, 10, 15));
 }
 
 TEST(CutRooms, ACupboardIsNoRoomAndNothingIsNone) {
