@@ -210,6 +210,7 @@ class WalkSearch {
     node.left_is_corner = t_left >= 1 && portal.left_is_corner;
     node.polygon = portal.to;
     node.entry = portal.back;
+    if (WasIn(portal.to, index)) return;
     const double to_interval = DistanceToSegment(node.root, node.left, node.right);
     node.sees_all = to_interval < kEpsilon_m;
     const bool is_end_on = !node.sees_all && LeftOf(node.root, node.left, node.right) > -kEpsilon_m;
@@ -223,6 +224,15 @@ class WalkSearch {
     if (bound >= best_m_) return;
     nodes_.push_back(node);
     queue_.emplace(bound, static_cast<int>(nodes_.size()) - 1);
+  }
+
+  /// Whether the way to node `index` goes through the polygon. Polygons are convex, so that no
+  /// shortest path enters one twice; ways through polygons without area would do so forever.
+  bool WasIn(int polygon, int index) const {
+    for (int i = index; i >= 0; i = nodes_[static_cast<std::size_t>(i)].parent) {
+      if (nodes_[static_cast<std::size_t>(i)].polygon == polygon) return true;
+    }
+    return false;
   }
 
   /// An interval seen end-on: only its nearer end can be turned around. False: it leads nowhere.

@@ -89,6 +89,23 @@ TEST_P(EveryFalseEntrance, LeadsToNoOtherFloor) {
 INSTANTIATE_TEST_SUITE_P(All, EveryFalseEntrance, testing::ValuesIn(kFalseEntrances),
                          [](const auto& kind) { return PlainName(NameOf(kind.param)); });
 
+// Ground that ends at the edge of a tile of the navmesh leaves a polygon without area in the next
+// one. From above, the search for the shortest path went back and forth through it until it gave
+// up: this world of `bench stairs` ended the whole run.
+TEST(StairTrials, APolygonWithoutAreaIsNoTrapForTheShortestPath) {
+  const auto landing = std::ranges::find(kStairVariants, "deep half landing", &StairVariant::name);
+  const auto site = BuildStairSite(MakeStairWorld(*landing, 28), RunConfig());
+  ASSERT_TRUE(site) << site.error().Message();
+  const StairWorld& world = site->world;
+  const sim::NavMesh& navmesh = site->context->navmesh();
+  const Vector3d before_sofa(2.5, -2.4, world.lower_m);
+  const auto down_m = navmesh.Geodesic(world.p_top_world, before_sofa);
+  const auto up_m = navmesh.Geodesic(before_sofa, world.p_top_world);
+  ASSERT_TRUE(up_m);
+  ASSERT_TRUE(down_m);
+  EXPECT_NEAR(*down_m, *up_m, 0.05);
+}
+
 TEST(StairTrials, TheSameSeedGivesTheSameAttempt) {
   RunConfig config = test::SmallConfig();
   config.eval.action_budget = 30;
