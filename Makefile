@@ -12,6 +12,7 @@ PERCEPTION ?= oracle
 SECONDS ?= 60
 SUITE ?= crossnav-mfmon-1-mini
 TARGET ?=
+PYTHONS ?= python3
 # One compiler per core, as far as 1.5 GB of free memory each goes.
 JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
   END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
@@ -20,7 +21,7 @@ TIDY := $(or $(XDG_DATA_HOME),$(HOME)/.local/share)/crossnav/clang-tidy-$(shell 
 SOURCES := $(shell find crossnav apps tests benchmarks python examples -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-.PHONY: help setup demo test test-long golden bench networks results wheel format lint asan tsan fuzz docs clean \
+.PHONY: help setup demo test test-long golden bench networks results wheel packages format lint asan tsan fuzz docs clean \
   program everything
 
 help:  ## this list
@@ -67,8 +68,13 @@ networks: program  ## render frames, train, export and evaluate the networks (ho
 	@networks/make.sh
 
 wheel: setup $(BUILD)/build.ninja  ## the Python package as a wheel under build/wheel
-	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms crossnav
 	@scripts/build_wheel.sh $(BUILD)
+
+packages: setup $(BUILD)/build.ninja  ## portable wheels (PYTHONS="python3.11 ...") and a .deb
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms crossnav
+	@scripts/portable_wheels.sh $(BUILD) $(PYTHONS)
+	@cd $(BUILD) && cpack && ls -l *.deb
 
 format:  ## clang-format, in place
 	@scripts/setup.sh lint

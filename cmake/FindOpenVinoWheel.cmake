@@ -22,6 +22,7 @@ if(EXISTS "${openvino_root}/openvino/include/openvino/openvino.hpp")
 endif()
 file(GLOB OpenVinoWheel_LIBRARY "${openvino_root}/openvino/libs/libopenvino.so.*")
 file(GLOB OpenVinoWheel_TBB "${openvino_root}/openvino/libs/libtbb.so.12")
+set(OpenVinoWheel_LIBS "${openvino_root}/openvino/libs" CACHE INTERNAL "For scripts/portable_wheels.sh")
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenVinoWheel
   REQUIRED_VARS OpenVinoWheel_INCLUDE_DIR OpenVinoWheel_LIBRARY OpenVinoWheel_TBB
@@ -30,10 +31,6 @@ if(OpenVinoWheel_FOUND AND NOT TARGET OpenVinoWheel::OpenVinoWheel)
   add_library(OpenVinoWheel::OpenVinoWheel INTERFACE IMPORTED GLOBAL)
   target_include_directories(OpenVinoWheel::OpenVinoWheel SYSTEM INTERFACE
     "${OpenVinoWheel_INCLUDE_DIR}")
-  # The libraries carry no search path of their own, and need a newer TBB than the distribution's.
-  # An old-style RPATH holds for what they load, too, and for Embree, so that there is one TBB.
   target_link_libraries(OpenVinoWheel::OpenVinoWheel INTERFACE
-    -Wl,--no-as-needed "${OpenVinoWheel_LIBRARY}" "${OpenVinoWheel_TBB}")
-  target_link_options(OpenVinoWheel::OpenVinoWheel INTERFACE
-    "-Wl,--disable-new-dtags,-rpath,${openvino_root}/openvino/libs")
+    "${OpenVinoWheel_LIBRARY}" "${OpenVinoWheel_TBB}")
 endif()

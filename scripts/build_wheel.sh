@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds the Python wheel out of the rooms that a CMake build folder already has.
 #   scripts/build_wheel.sh [BUILD_DIR]      default: build/release; its target `rooms` must be built
-# Leaves a fresh virtual environment with the pinned tools in build/python-venv and the wheel in
-# build/wheel. Exit status 77: pip reaches no package registry. PYTHON chooses the interpreter.
+# Leaves the wheel in build/wheel and a virtual environment with the pinned tools in build/python-venv, which
+# is made anew when the pins, this script or the interpreter change. Exit status 77: pip reaches no package registry. PYTHON chooses the interpreter.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -14,21 +14,31 @@ log="$root/build/python-pip.log"
 unreachable='NewConnectionError|ConnectTimeout|ReadTimeout|ProxyError|NameResolutionError'
 unreachable+='|Max retries exceeded|Temporary failure in name|\(from versions: none\)'
 
-rm -rf "$venv" "$root/build/wheel"
-if ! "${PYTHON:-python3}" -m venv "$venv"; then
-  echo "build_wheel: no virtual environment; scripts/setup.sh installs python3-venv" >&2
-  exit 1
-fi
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
 
-# Modules are compiled as they are imported: few of all are.
-if ! pip install -q --no-input --no-compile -r "$root/python/requirements.txt" >"$log" 2>&1; then
-  tail -n 5 "$log" >&2
-  if grep -qE "$unreachable" "$log"; then
-    echo "build_wheel: skipped, as pip reaches no package registry"
-    exit 77
+# Tools and packages of the tests. Modules are compiled as they are imported: few of all are.
+make_environment() {
+  rm -rf "$venv"
+  if ! "${PYTHON:-python3}" -m venv "$venv"; then
+    echo "build_wheel: no virtual environment; scripts/setup.sh installs python3-venv" >&2
+    exit 1
   fi
-  exit 1
+  if ! pip install -q --no-input --no-compile -r "$root/python/requirements.txt" >"$log" 2>&1; then
+    tail -n 5 "$log" >&2
+    if grep -qE "$unreachable" "$log"; then
+      echo "build_wheel: skipped, as pip reaches no package registry"
+      exit 77
+    fi
+    exit 1
+  fi
+}
+
+rm -rf "$root/build/wheel"
+mkdir -p "$root/build"
+contents=$("${PYTHON:-python3}" -VV && cat "$root/python/requirements.txt" "${BASH_SOURCE[0]}")
+if [[ $contents != "$(cat "$venv/contents" 2>/dev/null)" ]]; then
+  make_environment
+  printf '%s\n' "$contents" >"$venv/contents"
 fi
 
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"

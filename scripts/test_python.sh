@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the wheel, installs it into a fresh virtual environment and runs the Python tests there.
+# Builds the wheel, installs it into the virtual environment of the tools and runs the Python tests there.
 #   scripts/test_python.sh [BUILD_DIR]      exit status 77: skipped, see build_wheel.sh
 set -euo pipefail
 
@@ -8,7 +8,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 "$root/scripts/build_wheel.sh" "$@"
 python="$root/build/python-venv/bin/python"
 wheel=$(echo "$root"/build/wheel/*.whl)
-"$python" -m pip install -q --disable-pip-version-check --no-deps "$wheel"
+"$python" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall "$wheel"
 program="${1:-$root/build/release}/apps/crossnav/crossnav"  # where it is built, it writes replays
 program=$([ -x "$program" ] && realpath "$program" || true)
 cd "$root/build/python-venv"  # not where the sources lie

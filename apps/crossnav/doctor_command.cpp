@@ -33,11 +33,11 @@ Json OptionalParts() {
   Json parts = Json::array();
   for (const networks::Backend& backend : networks::Backends())
     parts.push_back({{"name", backend.name},
-                     {"found", backend.is_built},
+                     {"found", backend.is_available},
                      {"version", backend.version},
                      {"providers", backend.providers},
                      {"for", "perception by networks instead of ground truth"},
-                     {"get", backend.is_built ? "" : backend.get}});
+                     {"get", backend.is_available ? std::string() : backend.get}});
   parts.push_back({{"name", "furniture pack"},
                    {"found", has_pack},
                    {"for", "generated houses with modelled furniture instead of simple shapes"},
@@ -70,7 +70,7 @@ Result<void> Doctor(const CommonOptions& common, Console& console) {
   if (!config) return tl::unexpected(config.error());
   Json perception = {"oracle"};
   const auto& backends = networks::Backends();
-  if (std::any_of(backends.begin(), backends.end(), [](const auto& b) { return b.is_built; }))
+  if (std::any_of(backends.begin(), backends.end(), [](const auto& b) { return b.is_available; }))
     perception.push_back("networks");
   const Json json = {{"version", CROSSNAV_VERSION},
                      {"compiler", __VERSION__},

@@ -70,10 +70,10 @@ Json BackendsJson() {
   Json json = Json::array();
   for (const networks::Backend& backend : networks::Backends())
     json.push_back({{"name", backend.name},
-                    {"found", backend.is_built},
+                    {"found", backend.is_available},
                     {"version", backend.version},
                     {"providers", backend.providers},
-                    {"get", backend.is_built ? "" : backend.get}});
+                    {"get", backend.is_available ? std::string() : backend.get}});
   return json;
 }
 
@@ -206,9 +206,9 @@ Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& c
                         e.error.empty() ? "found" : e.error);
   }
   for (const networks::Backend& backend : networks::Backends())
-    text += backend.is_built ? fmt::format("{}: {} ({})\n", backend.name, backend.version,
+    text += backend.is_available ? fmt::format("{}: {} ({})\n", backend.name, backend.version,
                                            fmt::join(backend.providers, ", "))
-                             : fmt::format("{}: not built in; {}\n", backend.name, backend.get);
+                             : fmt::format("{}: not available; {}\n", backend.name, backend.get);
   console.Print(text);
   console.Document(Json({{"dir", NetworksDir(*config).string()},
                          {"networks", std::move(list)},

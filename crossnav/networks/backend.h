@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Inference libraries behind one small interface; the list of them is in backends.cpp. Which are
-// there is decided when crossnav is built. Their exceptions end here and become errors.
+// Inference libraries behind one small interface; the list of them is in backends.cpp. ONNX
+// Runtime is linked where CMake found it; OpenVINO is loaded at run time. Their exceptions end here
+// and become errors.
 #pragma once
 
 #include <map>
@@ -33,10 +34,10 @@ struct SessionOptions {
 
 struct Backend {
   const char* name;
-  bool is_built;                       ///< into this program
-  std::string version;                 ///< of the library; empty where it is not built in
-  std::vector<std::string> providers;  ///< that the library has; empty where it is not built in
-  const char* get;                     ///< how to have it
+  bool is_available;                   ///< built in (ONNX Runtime), or found at run time (OpenVINO)
+  std::string version;                 ///< of the library; empty where it is not available
+  std::vector<std::string> providers;  ///< that the library has; empty where it is not available
+  std::string get;                     ///< how to have it
   Result<std::unique_ptr<Session>> (*open)(const std::string& onnx, const SessionOptions& options,
                                            const std::string& where);
 };

@@ -3,22 +3,19 @@
 
 #include "crossnav/networks/backend.h"
 #include "crossnav/networks/onnxruntime_backend.h"
-#include "crossnav/networks/openvino_backend.h"
+#include "crossnav/networks/openvino_library.h"
 
 namespace crossnav::networks {
 namespace {
 
-constexpr const char* kGetOpenVino = "scripts/setup.sh fetches it; then configure and build again";
 constexpr const char* kGetOnnxRuntime =
     "install libonnxruntime-dev or name a folder with ONNXRUNTIME_ROOT; then configure and build "
     "again";
 
 Backend OpenVino() {
-#ifdef CROSSNAV_WITH_OPENVINO
-  return {"openvino", true, OpenVinoVersion(), {"cpu"}, kGetOpenVino, &OpenWithOpenVino};
-#else
-  return {"openvino", false, {}, {}, kGetOpenVino, nullptr};
-#endif
+  const auto& [plugin, missing] = TheOpenVino();
+  if (plugin == nullptr) return {"openvino", false, {}, {}, missing, nullptr};
+  return {"openvino", true, plugin->openvino_version(), {"cpu"}, {}, plugin->open};
 }
 
 Backend OnnxRuntime() {
@@ -45,26 +42,27 @@ bool HasProvider(const Backend& backend, const std::string& provider) {
 /// Why none of the backends that could be taken runs a network.
 tl::unexpected<Error> NoBackend(const SessionOptions& options, const std::string& where) {
   const auto& all = Backends();
-  std::vector<std::string> names, built;
+  std::vector<std::string> names, available;
   for (const Backend& backend : all) {
     const bool is_meant = options.backend == "auto" || options.backend == backend.name;
     names.push_back(backend.name);
-    if (is_meant && backend.is_built)
-      built.push_back("this " + std::string(backend.name) + " has " + Listed(backend.providers));
-    if (options.backend == backend.name && !backend.is_built)
-      return Fail(ErrorCode::kUnsupported,
-                  options.backend + " is not built into this program; " + backend.get, where);
+    if (is_meant && backend.is_available)
+      available.push_back("this " + std::string(backend.name) + " has " +
+                          Listed(backend.providers));
+    if (options.backend == backend.name && !backend.is_available)
+      return Fail(ErrorCode::kUnsupported, options.backend + " is not available; " + backend.get,
+                  where);
   }
-  if (!built.empty())
+  if (!available.empty())
     return Fail(ErrorCode::kUnsupported,
-                "\"" + options.provider + "\" is not here: " + Listed(built) +
+                "\"" + options.provider + "\" is not here: " + Listed(available) +
                     "; set networks.provider = cpu, or build crossnav with an ONNX Runtime that "
                     "has it (ONNXRUNTIME_ROOT) and set networks.backend = onnxruntime",
                 "networks.provider");
   if (options.backend == "auto")
     return Fail(ErrorCode::kUnsupported,
-                "no inference library is built into this program; for OpenVINO, " +
-                    std::string(kGetOpenVino) + "; for ONNX Runtime, " + kGetOnnxRuntime,
+                "no inference library is available; for OpenVINO, " + TheOpenVino().missing +
+                    "; for ONNX Runtime, " + kGetOnnxRuntime,
                 where);
   return Fail(ErrorCode::kInvalid,
               "no backend \"" + options.backend + "\"; there are " + Listed(names),
@@ -82,7 +80,7 @@ Result<std::unique_ptr<Session>> OpenSession(const std::string& onnx, const Sess
                                              const std::string& where) {
   for (const Backend& backend : Backends()) {
     const bool is_meant = options.backend == "auto" || options.backend == backend.name;
-    if (is_meant && backend.is_built && HasProvider(backend, options.provider))
+    if (is_meant && backend.is_available && HasProvider(backend, options.provider))
       return backend.open(onnx, options, where);
   }
   return NoBackend(options, where);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/networks/openvino_backend.h"
+// The plugin libcrossnav_openvino.so, the only code that is linked to OpenVINO.
+#include "crossnav/networks/openvino_plugin.h"
 
 #include <algorithm>
 #include <cstring>
 #include <openvino/openvino.hpp>
+
+#include "crossnav/core/version.h"
 
 namespace crossnav::networks {
 namespace {
@@ -131,8 +134,6 @@ class OpenVinoSession : public Session {
   std::vector<Port> inputs_, outputs_;
 };
 
-}  // namespace
-
 std::string OpenVinoVersion() {
   return ov::get_openvino_version().buildNumber;
 }
@@ -148,4 +149,12 @@ Result<std::unique_ptr<Session>> OpenWithOpenVino(const std::string& onnx,
   }
 }
 
+constexpr OpenVinoPlugin kPlugin = {CROSSNAV_VERSION, &OpenVinoVersion, &OpenWithOpenVino};
+
+}  // namespace
 }  // namespace crossnav::networks
+
+extern "C" __attribute__((visibility("default"))) const crossnav::networks::OpenVinoPlugin*
+crossnav_openvino_plugin() {
+  return &crossnav::networks::kPlugin;
+}

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The Gymnasium environment."""
 
+import subprocess
+import sys
 from typing import Any
 
 import crossnav.gym
@@ -19,6 +21,13 @@ def make(**options: Any) -> gymnasium.Env[Any, Any]:
 
 def test_the_environment_passes_gymnasiums_checks() -> None:
     check_env(make(render_mode="rgb_array").unwrapped)
+
+
+def test_gymnasium_finds_it_without_an_import_of_ours() -> None:
+    user = ("import gymnasium; print(gymnasium.make('crossnav.gym:crossnav/CrossFloorNav-v0', "
+            "config={'sensor.width_px': 32, 'sensor.height_px': 32}).spec.id)")
+    done = subprocess.run([sys.executable, "-c", user], capture_output=True, text=True, check=False)
+    assert done.stdout.strip() == crossnav.gym.ENV_ID, done.stderr
 
 
 def test_a_seed_gives_the_same_episode() -> None:

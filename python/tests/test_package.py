@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The wheel itself: what is in it, that it imports anywhere, and that its types hold."""
 
+import json
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -83,7 +85,7 @@ def test_the_wheel_is_small_and_whole() -> None:
     for name in ("crossnav/__init__.py", "crossnav/_core.pyi", "crossnav/py.typed",
                  "crossnav/gym.py", "crossnav/habitat.py", "crossnav/data/live.desc"):
         assert name in names
-    assert sum(name.endswith(".so") for name in names) == 1
+    assert sum("_core" in name and name.endswith(".so") for name in names) == 1
     assert not [name for name in names if name.startswith(("build/", "python/"))]
 
 
@@ -94,3 +96,22 @@ def test_the_wheel_holds_no_path_of_the_machine_that_built_it() -> None:
             data = wheel.read(name)
             for path in (ROOT, str(Path.home()) + "/"):
                 assert path.encode() not in data, f"{path} in {name}"
+
+
+@needs_wheel
+@pytest.mark.skipif(not os.environ.get("CROSSNAV_PROGRAM"), reason="the program is not built")
+def test_the_wheel_brings_the_program_and_its_small_network(tmp_path: Path) -> None:
+    program = Path(sys.executable).with_name("crossnav")
+    done = subprocess.run([program, "networks", "list", "--json"], cwd=tmp_path,
+                          capture_output=True, text=True, check=True)
+    listed = json.loads(done.stdout)
+    assert Path(listed["dir"]) == Path(crossnav.__file__).parent / "share/crossnav/networks"
+    assert {n["name"]: n["found"] for n in listed["networks"]}["crossnav_small"]
+
+
+@pytest.mark.skipif(not ROOT, reason="scripts/test_python.sh names the checkout")
+def test_the_extra_is_the_version_of_openvino_that_is_built_against() -> None:
+    pin = re.search(r"^openvino==[\d.]+", (Path(ROOT) / "scripts/openvino.txt").read_text("utf-8"),
+                    re.MULTILINE)
+    wanted = metadata.requires("crossnav") or []
+    assert pin and f"{pin[0]}; extra == 'openvino'" in [w.replace('"', "'") for w in wanted]

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "cli_fixture.h"
 #include "networks/small_network.h"
 
@@ -58,6 +60,19 @@ TEST_F(NetworksCli, AnEpisodeFromPixelsSaysSoAndNamesTheFiles) {
   // Its memory speaks the network's language, and no other.
   EXPECT_EQ(Run("map query m.map bed --set eval.perception=networks" + use_).exit_code, 0);
   ExpectFailure("map query m.map bed", {"m.map", "small-"});
+}
+
+TEST_F(NetworksCli, AFolderWithoutOpenVinoIsNamed) {
+  const auto all = networks::test::BuiltBackends();
+  if (std::find(all.begin(), all.end(), "openvino") == all.end()) GTEST_SKIP() << "no OpenVINO";
+  const Outcome check =
+      RunIn(folder_, "networks check small --set networks.backend=openvino" + use_,
+            "CROSSNAV_OPENVINO=/nowhere");
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_NE(
+      (check.out + check.err).find("openvino is not available; CROSSNAV_OPENVINO names /nowhere"),
+      std::string::npos)
+      << check.out << check.err;
 }
 
 TEST_F(NetworksCli, AMissingNetworkIsNamedBeforeAnythingRuns) {

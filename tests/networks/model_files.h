@@ -25,7 +25,7 @@ inline std::filesystem::path DataFile(const std::string& name) {
 inline std::vector<std::string> BuiltBackends() {
   std::vector<std::string> names;
   for (const Backend& backend : Backends())
-    if (backend.is_built) names.push_back(backend.name);
+    if (backend.is_available) names.push_back(backend.name);
   return names.empty() ? std::vector<std::string>{"none"} : names;
 }
 
@@ -37,7 +37,7 @@ inline bool HasBackend() {
 class WithBackend : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!HasBackend()) GTEST_SKIP() << "no inference library is built in";
+    if (!HasBackend()) GTEST_SKIP() << "no inference library is available";
   }
 };
 

@@ -146,9 +146,9 @@ TEST(Backend, AnUnknownOneIsNamed) {
   EXPECT_NE(session.error().Message().find("no backend \"abacus\""), std::string::npos);
 }
 
-TEST(Backend, OneThatIsNotBuiltInSaysHowToHaveIt) {
+TEST(Backend, OneThatIsNotAvailableSaysHowToHaveIt) {
   for (const Backend& backend : Backends()) {
-    if (backend.is_built) {
+    if (backend.is_available) {
       EXPECT_FALSE(backend.version.empty());
       EXPECT_EQ(backend.providers.empty() ? "" : backend.providers.front(), "cpu");
       continue;
@@ -158,12 +158,12 @@ TEST(Backend, OneThatIsNotBuiltInSaysHowToHaveIt) {
     const auto session = OpenSession("", options, "x.onnx");
     ASSERT_FALSE(session);
     EXPECT_EQ(session.error().Message(),
-              "x.onnx: " + options.backend + " is not built into this program; " + backend.get);
+              "x.onnx: " + options.backend + " is not available; " + backend.get);
   }
 }
 
 TEST(Backend, WithoutALibraryTheErrorSaysHowToHaveOne) {
-  if (HasBackend()) GTEST_SKIP() << "a library is built in";
+  if (HasBackend()) GTEST_SKIP() << "a library is available";
   const auto session = OpenSession("", {}, "x.onnx");
   ASSERT_FALSE(session);
   EXPECT_NE(session.error().Message().find("scripts/setup.sh"), std::string::npos);
