@@ -41,7 +41,7 @@ TEST(OpenVinoFolders, ANamedFolderIsTheOnlyOne) {
 }
 
 TEST(OpenVinoFolders, PythonPackagesAreFoundForEachVersion) {
-  const TempFolder folder;
+  const crossnav::test::TempFolder folder;
   const fs::path lib = fs::path(folder.path()) / "lib";
   for (const char* name : {"python3.13", "python3.10", "pkgconfig"})
     fs::create_directories(lib / name);
