@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs a suite in every variant and writes docs/results.md.
+"""Runs a suite in every variant and writes docs/results.md: ours, and every table of the paper.
 
   scripts/results.py SUITE [--jobs N] [--out FILE] [EVAL OPTION...]
 
@@ -17,7 +17,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("CROSSNAV", str(ROOT / "build/release/apps/crossnav/crossnav"))
-VARIANTS = ("full", "no-history-poi", "planar", "paper")
+# The methods of the paper's tables, then ours. A comparison is with the last of its list.
+METHODS = ("onemap", "paper-no-history-poi", "paper")
+OURS = ("planar", "no-history-poi", "no-history-poi-pure", "full")
+# tab:single_object_results has no row without History POIs: one goal has no history.
+SINGLE = ("onemap", "paper")
+SINGLE_CONFIG = ROOT / "config/objectnav_paper.toml"
 
 
 def crossnav(*words: str) -> str:
@@ -46,7 +51,28 @@ def head() -> str:
     return done.stdout.strip() or "no commit"
 
 
-def page(suite: str, options: list, runs: dict, comparisons: list, commit: str) -> str:
+def sections(report: str) -> dict:
+    """Title to text of the level-2 sections of a report."""
+    parts = report.split("\n## ")[1:]
+    return {part.split("\n", 1)[0]: part.split("\n", 1)[1].strip() for part in parts}
+
+
+def paper_tables(report: str, methods: tuple) -> list:
+    """The report's tables that stand beside the paper's, one level deeper."""
+    found = sections(report)
+    lines = []
+    for title, text in found.items():
+        if title not in methods:
+            lines += [f"### {title}", "", text, ""]
+    for method in methods:
+        if method in found and "### Outcomes" in found[method]:
+            outcomes = found[method].split("### Outcomes", 1)[1].split("\n### ", 1)[0].strip()
+            lines += [f"### Outcomes of `{method}`", "", outcomes, ""]
+    return lines
+
+
+def page(suite: str, options: list, runs: dict, comparisons: list, papers: list,
+         commit: str) -> str:
     any_run = next(iter(runs.values()))
     required = any_run["groups"]["cfr"]["episodes"]
     command = " ".join(["scripts/results.py", suite, *options])
@@ -74,7 +100,47 @@ def page(suite: str, options: list, runs: dict, comparisons: list, commit: str) 
         differences = comparison["differences"]
         shown = [f"{n} {percent(differences[n], 'difference')}" for n in ("SR", "SPL")]
         lines.append(f"- {pair}: " + ", ".join(shown))
-    return "\n".join(lines) + "\n"
+    lines += ["", "## The paper's tables", "",
+              "Its methods on this suite, and its own figures, which were taken on HM3D with "
+              "networks and are no target.", "", *papers]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def report_of(folders: list, place: Path) -> dict:
+    """The comparisons of the runs; `place` gets report.md."""
+    return json.loads(crossnav("report", *(str(f) for f in folders), "--out", str(place), "--json",
+                               "--quiet"))
+
+
+def run_suite(suite: str, place: Path, jobs: str, options: list) -> tuple:
+    """(metrics by variant, comparisons)"""
+    runs, comparisons = {}, []
+    for variants in (OURS, METHODS):
+        for variant in reversed(variants):
+            crossnav("suite", "run", suite, "--variant", variant, "--jobs", jobs, *options)
+            folder = place / "runs" / variant
+            runs[variant] = json.loads(crossnav("metrics", str(folder / "results.jsonl"), "--json",
+                                                "--quiet"))
+            if variant == variants[-1]:
+                continue
+            against = place / "runs" / variants[-1]
+            comparisons += report_of([folder, against], place / "compared" / variant)["comparisons"]
+    return runs, comparisons
+
+
+def run_single(place: Path, episodes: int, jobs: str, options: list) -> list:
+    """Single-object navigation in the suite's houses, in the paper's frozen configuration."""
+    single = place / "single"
+    file = single / "episodes.json.gz"
+    if not file.exists():
+        crossnav("episodes", "generate", "--scenes", str(place / "scenes"), "--count",
+                 str(episodes), "--goals", "1", "--seed", "7", "--out", str(file))
+    for variant in SINGLE:
+        crossnav("eval", "--config", str(SINGLE_CONFIG), "--scenes", str(place / "scenes"),
+                 "--episodes", str(file), "--variant", variant, "--out", str(single / variant),
+                 "--jobs", jobs, *options)
+    report_of([single / variant for variant in SINGLE], single / "report")
+    return paper_tables((single / "report/report.md").read_text(encoding="utf-8"), ())[:4]
 
 
 def main() -> None:
@@ -85,18 +151,12 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results.md")
     args, options = parser.parse_known_args()
     place = Path("out/suites") / args.suite
-    runs, comparisons = {}, []
-    for variant in VARIANTS:
-        crossnav("suite", "run", args.suite, "--variant", variant, "--jobs", str(args.jobs),
-                 *options)
-        folder = place / "runs" / variant
-        runs[variant] = json.loads(crossnav("metrics", str(folder / "results.jsonl"), "--json", "--quiet"))
-        if variant == "full":
-            continue
-        found = json.loads(crossnav("report", str(folder), str(place / "runs/full"), "--out",
-                                    str(place / "compared" / variant), "--json", "--quiet"))
-        comparisons += found["comparisons"]
-    args.out.write_text(page(args.suite, options, runs, comparisons, args.commit), encoding="utf-8")
+    runs, comparisons = run_suite(args.suite, place, str(args.jobs), options)
+    report_of([place / "runs" / method for method in METHODS], place / "paper")
+    papers = paper_tables((place / "paper/report.md").read_text(encoding="utf-8"), METHODS)
+    papers += run_single(place, runs["full"]["episodes"], str(args.jobs), options)
+    args.out.write_text(page(args.suite, options, runs, comparisons, papers, args.commit),
+                        encoding="utf-8")
     print(args.out)
 
 

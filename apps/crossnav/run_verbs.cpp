@@ -8,7 +8,8 @@ constexpr const char* kPageHelp = "Also report.html, one page with plots, by the
 
 constexpr const char* kVariantHelp =
     "full; no-history-poi (inspected ground is forgotten at each goal, too), no-history-poi-pure "
-    "(History POIs alone off); planar; paper, paper-no-history-poi (the literal method); told by "
+    "(History POIs alone off); planar; onemap (the paper's baseline); paper, paper-no-history-poi "
+    "(the literal method); told by "
     "ground truth: known-map, known-objects";
 
 void AddPerception(CLI::App* verb, std::string& perception) {

@@ -10,6 +10,7 @@
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
 #include "crossnav/agent/observation_check.h"
+#include "crossnav/agent/onemap_policy.h"
 #include "crossnav/agent/paper_policy.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
@@ -135,6 +136,7 @@ Result<void> Agent::SetGoal(const std::string& name) {
   impl_->goal = std::move(fresh);
   impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
   impl_->world.paper.bumps.Clear();
+  impl_->world.onemap.map.ClearChecked();
   // Inspected ground needs no second look because the memory answers for it. Without History POIs
   // nothing answers, so that a new goal inspects all ground again, unless keep_coverage is set.
   const policy::PoiConfig& poi = impl_->config.policy.poi;
@@ -183,7 +185,9 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;
   });
-  goal.live.Update(sightings, object, config.map.voxel_m, world.step);
+  // Paper, "Final Target-Object Approach": during the approach the detection is updated.
+  const int approached = config.policy.profile == "paper" ? goal.active_live : -1;
+  goal.live.Update(sightings, object, config.map.voxel_m, world.step, approached);
   if (DoubtsClaims(config))
     NoteViews(goal.live.all(), sightings, p_camera_world, object, config.verify, &goal.full.claims);
   return sightings;
@@ -228,6 +232,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   auto sightings = NoteSightings(percept->detections, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
   world.coverage.Add(end_voxels, p_camera_world, goal.full.inspect_range_m, config.map.voxel_m);
+  if (config.policy.profile == "onemap") world.onemap.map.Add(end_voxels, obs, config.fusion);
   clock.Stop("evidence");
   return Seen{std::move(sightings), std::move(*percept)};
 }
@@ -254,8 +259,10 @@ Result<StepResult> Agent::Step(const Observation& given) {
 
   // Candidates, mode and target, plan, action.
   StepState now{self.config, self.world, self.goal, agent, eye, obs, seen->sightings, self.hooks};
-  const bool is_literal = self.config.policy.profile == "paper";
-  const Decision decision = is_literal ? paper::Decide(now) : Navigate(now);
+  const std::string& profile = self.config.policy.profile;
+  const Decision decision = profile == "paper"    ? paper::Decide(now)
+                            : profile == "onemap" ? onemap::Decide(now)
+                                                  : Navigate(now);
   clock.Stop("decide");
 
   result.all_explored = !decision.action;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The agent's whole configuration. Every default is at its field, beside the code that uses it. An
-// empty config file means the paper's numbers and our navigator (policy.profile = full); the paper's
-// method to the letter is policy.profile = paper.
+// empty config file means the paper's numbers and our navigator (policy.profile = full); the
+// paper's method to the letter is policy.profile = paper.
 #pragma once
 
 #include <string>

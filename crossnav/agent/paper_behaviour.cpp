@@ -130,6 +130,17 @@ void QueueLookAround(GoalState& goal, const AgentPose& agent, const ActionConfig
                            Action::kTurnLeft);
 }
 
+void NoticeBump(Situation& now) {
+  auto& bumps = now.world.paper.bumps;
+  if (!bumps.Update(now.agent, now.world.step, now.config.map)) return;
+  now.goal.events.push_back("bump");
+  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
+  const auto escape =
+      policy::EscapeActions(now.world.map, now.agent, bumps.bumped_yaws(), now.config.action);
+  now.goal.paper.script.assign(escape.begin(), escape.end());
+  now.goal.events.push_back("stuck: stepping aside");
+}
+
 double DistanceToGoal(const Situation& now, const Target& target) {
   const Vector3d p = CenterOf(target.plan.path.back(), now.config.map.voxel_m);
   return (p - now.agent.p_world).head<2>().norm();
@@ -300,6 +311,7 @@ std::optional<Action> Approach(Situation& now, const Target& target, const polic
     goal.paper.blacklist.push_back(
         {poi.p_center_world, config.blacklist_xy_m, config.blacklist_z_m});
     goal.live.Discard(poi.id);
+    goal.paper.is_detection_rejected = true;
     goal.events.push_back("verification failed: " + verification.failed_check);
   }
   return Action::kTurnLeft;

@@ -9,6 +9,7 @@
 #include "crossnav/agent/paper_behaviour.h"
 #include "crossnav/agent/paper_targets.h"
 #include "crossnav/policy/stair_geometry.h"
+#include "crossnav/policy/takeover.h"
 
 namespace crossnav::agent::paper {
 
@@ -56,10 +57,11 @@ ModeInputs InputsFor(const Situation& now, const Options& options, SessionVerdic
   in.has_live_poi = options.live.has_value();
   in.has_history_poi = options.history.has_value();
   in.is_following_history = now.goal.paper.active_history >= 0;
+  in.verification_failed = now.goal.paper.is_detection_rejected;
   if (options.live && options.history) {
-    const Vector3d d =
-        options.live->candidate.p_focus_world - options.history->candidate.p_focus_world;
-    in.live_near_history = d.norm() <= now.config.policy.poi.live_takeover_m;
+    in.live_near_history =
+        policy::IsTakeover(options.live->candidate.p_focus_world,
+                           options.history->candidate.p_focus_world, now.config.policy.poi);
   }
   in.is_near_viewpoint =
       options.live && options.live->plan.cost * now.config.map.voxel_m <= 1.0;  // chosen
@@ -84,17 +86,6 @@ void UpdateLevel(Situation& now) {
   goal.events.push_back("on another level");
 }
 
-void NoticeBump(Situation& now) {
-  auto& bumps = now.world.paper.bumps;
-  if (!bumps.Update(now.agent, now.world.step, now.config.map)) return;
-  now.goal.events.push_back("bump");
-  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
-  const auto escape =
-      policy::EscapeActions(now.world.map, now.agent, bumps.bumped_yaws(), now.config.action);
-  now.goal.paper.script.assign(escape.begin(), escape.end());
-  now.goal.events.push_back("stuck: stepping aside");
-}
-
 void ApplyMode(GoalState& goal, const ModeDecision& next, const Options& options) {
   const bool is_poi = next.mode == Mode::kPoiNavigation || next.mode == Mode::kTargetApproach;
   if (is_poi) {
@@ -113,6 +104,7 @@ void ApplyMode(GoalState& goal, const ModeDecision& next, const Options& options
     goal.events.push_back("mode: " + std::string(NameOf(next.mode)));
   goal.paper.mode = next.mode;
   goal.paper.is_new = false;
+  goal.paper.is_detection_rejected = false;
 }
 
 const std::optional<Target>& SelectTarget(const ModeDecision& next, const Options& options) {

@@ -140,19 +140,9 @@ GraphRules WholeMapRules(const Situation& now) {
   return rules;
 }
 
-std::optional<Target> ChooseFrontier(Situation& now, std::vector<Candidate> candidates) {
+std::optional<Target> ChooseFrontier(Situation& now, const std::vector<Candidate>& candidates) {
   if (!now.start || candidates.empty()) return std::nullopt;
   const GraphRules rules = LevelRules(now);
-  if (now.goal.paper.commitment) {
-    const int kept = FindCommitted(candidates, *now.goal.paper.commitment);
-    if (kept >= 0) {
-      if (auto target = PlanTo(now, candidates[kept], rules)) {
-        now.goal.paper.commitment->standing = candidates[kept].standing;
-        return target;
-      }
-    }
-    now.goal.paper.commitment.reset();
-  }
   std::vector<VoxelKey> goals;
   std::vector<std::size_t> owner;
   for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -163,8 +153,12 @@ std::optional<Target> ChooseFrontier(Situation& now, std::vector<Candidate> cand
   Plan plan = FindPath(now.world.map, *now.start, goals, rules, now.config.planner);
   if (!plan.found()) return std::nullopt;
   const Candidate& chosen = candidates[owner[plan.goal_index]];
-  now.goal.paper.commitment =
-      Commitment{chosen.kind, chosen.p_focus_world, chosen.standing, now.world.step, 0};
+  auto& commitment = now.goal.paper.commitment;
+  // Chosen again after its grace period, a frontier that was looked at keeps its looks.
+  const int looks =
+      commitment && FindCommitted({chosen}, *commitment) == 0 ? commitment->arrived_looks : 0;
+  commitment =
+      Commitment{chosen.kind, chosen.p_focus_world, chosen.standing, now.world.step, looks};
   return MakeTarget(chosen, std::move(plan), rules);
 }
 
@@ -194,8 +188,33 @@ std::vector<Candidate> OpenEntrances(const Situation& now, double level_m, bool 
   return open;
 }
 
+namespace {
+
+/// The committed candidate, of whatever class, until its grace period is over (sec. "Candidate
+/// Priority"): no other frontier replaces it while it is there and can be reached.
+std::optional<Target> KeepCommitted(Situation& now, const std::vector<Candidate>& frontiers) {
+  auto& commitment = now.goal.paper.commitment;
+  if (!commitment) return std::nullopt;
+  if (now.world.step - commitment->since_step >= now.config.policy.frontier.grace_steps)
+    return std::nullopt;
+  const bool is_entrance = commitment->kind != CandidateKind::kTraversableFrontier;
+  const auto candidates = is_entrance ? OpenEntrances(now, now.world.level_m, true) : frontiers;
+  const int kept = FindCommitted(candidates, *commitment);
+  if (kept < 0) return std::nullopt;
+  auto target = PlanTo(now, candidates[static_cast<std::size_t>(kept)], LevelRules(now));
+  if (target) commitment->standing = target->candidate.standing;
+  return target;
+}
+
+}  // namespace
+
 std::optional<Target> ChooseExploration(Situation& now, std::vector<Candidate>* shown) {
   *shown = OpenFrontiers(now);
+  if (auto target = KeepCommitted(now, *shown)) {
+    if (target->candidate.kind != CandidateKind::kTraversableFrontier)
+      shown->push_back(target->candidate);
+    return target;
+  }
   if (auto target = ChooseFrontier(now, *shown)) return target;
   const auto try_classes = [&](const std::vector<Candidate>& entrances) -> std::optional<Target> {
     shown->insert(shown->end(), entrances.begin(), entrances.end());
@@ -203,15 +222,17 @@ std::optional<Target> ChooseExploration(Situation& now, std::vector<Candidate>* 
     for (std::size_t i = 0; i < entrances.size();) {
       std::size_t end = i;
       while (end < entrances.size() && entrances[end].kind == entrances[i].kind) ++end;
-      std::vector<Candidate> one_class(entrances.begin() + static_cast<std::ptrdiff_t>(i),
-                                       entrances.begin() + static_cast<std::ptrdiff_t>(end));
-      if (auto target = ChooseFrontier(now, std::move(one_class))) return target;
+      const std::vector<Candidate> one_class(entrances.begin() + static_cast<std::ptrdiff_t>(i),
+                                             entrances.begin() + static_cast<std::ptrdiff_t>(end));
+      if (auto target = ChooseFrontier(now, one_class)) return target;
       i = end;
     }
     return std::nullopt;
   };
   if (auto target = try_classes(OpenEntrances(now, now.world.level_m, false))) return target;
-  return try_classes(WayBackEntrances(now));
+  if (auto target = try_classes(WayBackEntrances(now))) return target;
+  now.goal.paper.commitment.reset();
+  return std::nullopt;
 }
 
 std::optional<Target> ChooseLivePoi(const Situation& now, int* id) {

@@ -36,15 +36,17 @@ planner::GraphRules LevelRules(const Situation& now);
 /// Rules of POI navigation: everything pathable, stairs included.
 planner::GraphRules WholeMapRules(const Situation& now);
 
-/// Best target of one class: the nearest candidate, or the committed one while it lasts.
-std::optional<Target> ChooseFrontier(Situation& now, std::vector<policy::Candidate> candidates);
+/// The nearest candidate of one class; commits to it.
+std::optional<Target> ChooseFrontier(Situation& now,
+                                     const std::vector<policy::Candidate>& candidates);
 
 /// Traversable, then descend and ascent frontiers of the level, without what was set aside.
 std::vector<policy::Candidate> OpenFrontiers(const Situation& now);
 std::vector<policy::Candidate> OpenEntrances(const Situation& now, double level_m,
                                              bool include_walked);
 
-/// Target of Basic Explore; nullopt when nothing is left on this level and no stairs lead on.
+/// Target of Basic Explore: the committed candidate during its grace period, else the nearest of
+/// the first class that has one. nullopt when nothing is left on this level and no stairs lead on.
 std::optional<Target> ChooseExploration(Situation& now, std::vector<policy::Candidate>* shown);
 
 /// Viewpoint of the best stable live POI; `id` gets the POI.

@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "crossnav/policy/glance.h"
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/policy/modes.h"
+#include "crossnav/policy/onemap_goals.h"
 #include "crossnav/policy/stair_evidence.h"
 #include "crossnav/policy/stair_session.h"
 #include "crossnav/policy/steering.h"
@@ -49,6 +51,12 @@ struct PaperWorld {
   int last_direction = 0;  ///< of the last successful floor transition; 0 = none yet
 };
 
+/// World state of policy.profile = onemap.
+struct OneMapWorld {
+  policy::OneMapMap map;
+  std::set<policy::Column> blacklist;  ///< goals that did not go away when they were reached
+};
+
 /// Survives a change of goal.
 struct World {
   geometry::VoxelMap map;
@@ -66,6 +74,7 @@ struct World {
   std::vector<geometry::StateChange> changes;  ///< of this step
   FullWorld full;
   PaperWorld paper;
+  OneMapWorld onemap;
 
   /// Brings states and ground up to date with the evidence.
   void UpdateStates() {
@@ -74,8 +83,15 @@ struct World {
     ground.Update(fresh);
   }
 
+  /// The map's settings; the paper's map ends at its box.
+  static geometry::MapConfig MapConfigOf(const Config& config) {
+    geometry::MapConfig map = config.map;
+    map.clip_to_extent |= config.policy.profile == "paper";
+    return map;
+  }
+
   explicit World(const Config& config)
-      : map(config.map), ground(config.map), memory(config.fusion, config.map.voxel_m) {}
+      : map(MapConfigOf(config)), ground(config.map), memory(config.fusion, config.map.voxel_m) {}
 };
 
 /// A place of the memory that answered the goal's query.
@@ -150,6 +166,7 @@ struct PaperGoal {
   std::vector<policy::BlacklistedPlace> blacklist;           ///< POIs
   std::vector<policy::BlacklistedPlace> frontier_blacklist;  ///< frontiers that did not open up
   std::vector<policy::BlacklistedPlace> set_aside;           ///< rejected stair entrances
+  bool is_detection_rejected = false;  ///< verification of the approached POI failed last step
   std::optional<Commitment> commitment;
   std::optional<EntranceCheck> entrance;
   std::optional<policy::StairSession> session;
@@ -157,6 +174,20 @@ struct PaperGoal {
   double scanned_landing_m = -1e9;  ///< height of the landing of the last full turn
   std::deque<Action> script;        ///< actions of a full turn or of an escape from a bump
   bool is_relaxed = false;          ///< the one relaxed retry was used
+};
+
+/// The object that OneMap goes to.
+struct OneMapObject {
+  policy::Column column;
+  Vector3d p_world = Vector3d::Zero();
+};
+
+/// Goal state of policy.profile = onemap.
+struct OneMapGoalState {
+  std::optional<OneMapObject> object;
+  std::optional<policy::OneMapGoal> last;  ///< the frontier or point of interest gone to
+  std::set<policy::Column> unreachable;    ///< objects without a path
+  int stuck_steps = 0;                     ///< at the end of the path to it
 };
 
 /// Reinitialised by every new goal.
@@ -175,6 +206,7 @@ struct GoalState {
   std::vector<std::string> events;  ///< of this step
   FullGoal full;
   PaperGoal paper;
+  OneMapGoalState onemap;
 };
 
 }  // namespace crossnav::agent

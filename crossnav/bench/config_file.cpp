@@ -214,6 +214,12 @@ constexpr Variant kVariants[] = {
        c.agent.policy.poi.keep_coverage = true;
      }},
     {"planar", [](RunConfig& c) { c.agent.policy.planar = true; }},
+    {"onemap",
+     [](RunConfig& c) {
+       c.agent.policy.profile = "onemap";
+       c.agent.policy.planar = true;
+       c.agent.policy.poi.use_history = false;  // its points of interest stand for them
+     }},
     {"paper", [](RunConfig& c) { c.agent.policy.profile = "paper"; }},
     {"paper-no-history-poi",
      [](RunConfig& c) {

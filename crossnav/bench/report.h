@@ -19,7 +19,7 @@ namespace crossnav::bench {
 struct ReportRun {
   std::string name;              ///< of its folder
   std::filesystem::path folder;  ///< where its files lie
-  std::string variant;           ///< full, no-history-poi, planar, paper; empty where unknown
+  std::string variant;           ///< as --variant; empty where unknown
   std::string perception, config_hash, episodes_hash;
   std::vector<EpisodeRecord> episodes;
   std::optional<RunHeader> header;  ///< absent in files of other programs

@@ -16,23 +16,31 @@ std::optional<double> ValueOf(const PaperRow& row, const std::string& metric) {
   if (metric == "SPL") return row.spl / 100;
   if (metric == "PR") return row.pr / 100;
   if (metric == "PPL") return row.ppl / 100;
-  double reached = 1;  // share of episodes, eq:conditional_global_relation
-  for (int k = 0; k < 3; ++k) {
-    const auto stage = static_cast<std::size_t>(k);
-    const double sr_global = reached * row.sr_cond[stage] / 100;
-    const double spl_global = reached * row.spl_cond[stage] / 100;
-    reached = sr_global;
-    if (metric == fmt::format("SR_cond_{}", k + 1)) return row.sr_cond[stage] / 100;
-    if (metric == fmt::format("SPL_cond_{}", k + 1)) return row.spl_cond[stage] / 100;
-    if (metric == fmt::format("SR_global_{}", k + 1)) return sr_global;
-    if (metric == fmt::format("SPL_global_{}", k + 1)) return spl_global;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (metric == fmt::format("SR_cond_{}", k + 1)) return row.sr_cond[k] / 100;
+    if (metric == fmt::format("SPL_cond_{}", k + 1)) return row.spl_cond[k] / 100;
+    if (metric == fmt::format("SR_global_{}", k + 1)) return row.sr_global[k] / 100;
+    if (metric == fmt::format("SPL_global_{}", k + 1)) return row.spl_global[k] / 100;
   }
   return std::nullopt;
 }
 
-/// The paper's value of a figure for this variant.
-std::optional<double> PaperValue(const std::string& variant, const std::string& group,
+/// The paper's value of a figure of episodes with one goal.
+std::optional<double> SingleValue(const std::string& variant, const std::string& group,
+                                  const std::string& metric) {
+  if (group != "all" || variant.empty()) return std::nullopt;
+  for (const PaperSingleRow& row : kPaperSingleObject) {
+    if (row.variant != variant) continue;
+    if (metric == "SR") return row.sr / 100;
+    if (metric == "SPL") return row.spl / 100;
+  }
+  return std::nullopt;
+}
+
+/// The paper's value of a figure for this variant. Its episodes have three goals, or one.
+std::optional<double> PaperValue(const std::string& variant, const std::string& group, int goals,
                                  const std::string& metric) {
+  if (goals == 1) return SingleValue(variant, group, metric);
   if (group != "all" && group != "cfr") return std::nullopt;
   for (const PaperRow& row : group == "all" ? kPaperAll : kPaperCrossFloor)
     if (row.variant == variant) return ValueOf(row, metric);
@@ -50,7 +58,7 @@ void AddGroup(const ReportRun& run, const std::string& group,
     ReportFigure figure{run.name, group, name, metrics.episodes, *value, {}, {}};
     const auto interval = intervals.find(name);
     if (interval != intervals.end()) figure.interval = interval->second;
-    figure.paper = PaperValue(run.variant, group, name);
+    figure.paper = PaperValue(run.variant, group, metrics.goals, name);
     figures.push_back(std::move(figure));
   }
 }

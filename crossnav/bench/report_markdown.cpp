@@ -70,6 +70,12 @@ std::string SequenceTable(const std::vector<ReportRun>& runs,
   return text;
 }
 
+const std::array<double, 3>& ValuesOf(const PaperRow& row, const std::string& metric) {
+  if (metric == "SR_cond") return row.sr_cond;
+  if (metric == "SPL_cond") return row.spl_cond;
+  return metric == "SR_global" ? row.sr_global : row.spl_global;
+}
+
 std::string StageTable(const std::vector<ReportRun>& runs, const std::vector<ReportFigure>& figures,
                        const std::string& group, const std::string& metric,
                        std::span<const PaperRow> paper) {
@@ -85,7 +91,7 @@ std::string StageTable(const std::vector<ReportRun>& runs, const std::vector<Rep
     text += Row(cells);
   }
   for (const PaperRow& row : paper) {
-    const auto& values = metric == "SR_cond" ? row.sr_cond : row.spl_cond;
+    const auto& values = ValuesOf(row, metric);
     std::vector<std::string> cells = {fmt::format("*paper: {}*", row.method)};
     for (int k = 0; k < goals; ++k) {
       cells.push_back(k < 3 ? fmt::format("{:.2f}", values[static_cast<std::size_t>(k)]) : "-");
@@ -135,8 +141,7 @@ std::string OutcomeTableText(const ReportRun& run) {
     for (const int count : counts) cells.push_back(std::to_string(count));
     text += Row(cells);
   }
-  if (run.variant != "full") return text;
-  for (const PaperOutcomes& p : kPaperOutcomes) {
+  for (const PaperOutcomes& p : PaperOutcomesOf(run.variant)) {
     text += Row({fmt::format("*paper: {}*", p.goal), std::to_string(p.total),
                  std::to_string(p.success), std::to_string(p.not_reached),
                  std::to_string(p.misdetection), std::to_string(p.all_explored),
@@ -188,6 +193,44 @@ std::string FailedEpisodes(const ReportRun& run) {
   return text;
 }
 
+/// tab:single_object_results
+std::string SingleObjectSections(const std::vector<ReportRun>& runs,
+                                 const std::vector<ReportFigure>& figures) {
+  std::string text = "\n## Single-object navigation\n\n" +
+                     Head({"method", "zero-shot", "multi-floor", "LLM", "episodes", "SR", "SPL"});
+  for (const ReportRun& run : runs) {
+    const ReportFigure* sr = Find(figures, run.name, "all", "SR");
+    if (sr == nullptr) continue;
+    text += Row({run.name, "", "", "", std::to_string(sr->episodes), Cell(sr),
+                 Cell(Find(figures, run.name, "all", "SPL"))});
+  }
+  const auto mark = [](bool holds) { return std::string(holds ? "yes" : "no"); };
+  for (const PaperSingleRow& row : kPaperSingleObject) {
+    text +=
+        Row({fmt::format("*paper: {}*", row.method), mark(row.zero_shot), mark(row.multi_floor),
+             mark(row.llm), "2000", fmt::format("{:.1f}", row.sr), fmt::format("{:.1f}", row.spl)});
+  }
+  return text;
+}
+
+/// The tables of a sequence of goals: tab:all_overall and its relatives.
+std::string Sections(const std::vector<ReportRun>& runs, const std::vector<ReportFigure>& figures) {
+  std::string text = "\n## All episodes\n\n" + SequenceTable(runs, figures, "all", kPaperAll);
+  text += "\n## Episodes that require a floor change\n\n" +
+          SequenceTable(runs, figures, "cfr", kPaperCrossFloor);
+  const std::pair<const char*, const char*> metrics[] = {{"SR_cond", "Conditional SR"},
+                                                         {"SPL_cond", "Conditional SPL"},
+                                                         {"SR_global", "Global SR"},
+                                                         {"SPL_global", "Global SPL"}};
+  for (const auto& [metric, name] : metrics) {
+    text += fmt::format("\n## {}, all episodes\n\n", name) +
+            StageTable(runs, figures, "all", metric, kPaperAll);
+    text += fmt::format("\n## {}, floor change required\n\n", name) +
+            StageTable(runs, figures, "cfr", metric, kPaperCrossFloor);
+  }
+  return text;
+}
+
 std::string RunSection(const ReportRun& run) {
   return fmt::format("\n## {}\n\nvariant {}, {}, config {}, episodes {}\n", run.name,
                      run.variant.empty() ? "unknown" : run.variant,
@@ -214,16 +257,7 @@ std::string ReportMarkdown(const std::vector<ReportRun>& runs,
       "taken on HM3D with networks; they stand beside ours and are no target.\n";
   if (const std::string tracks = TrackTable(runs, figures); !tracks.empty())
     text += "\n## Tracks\n\nBy the origin of the buildings.\n\n" + tracks;
-  text += "\n## All episodes\n\n" + SequenceTable(runs, figures, "all", kPaperAll);
-  text += "\n## Episodes that require a floor change\n\n" +
-          SequenceTable(runs, figures, "cfr", kPaperCrossFloor);
-  for (const std::string metric : {"SR_cond", "SPL_cond"}) {
-    const std::string name = metric == "SR_cond" ? "Conditional SR" : "Conditional SPL";
-    text +=
-        "\n## " + name + ", all episodes\n\n" + StageTable(runs, figures, "all", metric, kPaperAll);
-    text += "\n## " + name + ", floor change required\n\n" +
-            StageTable(runs, figures, "cfr", metric, kPaperCrossFloor);
-  }
+  text += GoalsOf(runs) == 1 ? SingleObjectSections(runs, figures) : Sections(runs, figures);
   for (const ReportRun& run : runs) text += RunSection(run);
   return text;
 }

@@ -153,8 +153,8 @@ std::string OutcomePlotSvg(const ReportRun& run) {
   for (const auto& [goal, counts] : table) {
     svg += Stack(counts, y, goal);
     y += 18;
-    for (const PaperOutcomes& paper : kPaperOutcomes) {
-      if (paper.goal != goal || run.variant != "full") continue;
+    for (const PaperOutcomes& paper : PaperOutcomesOf(run.variant)) {
+      if (paper.goal != goal) continue;
       svg += Stack(CountsOf(paper), y, "paper");
       y += 18;
     }

@@ -9,9 +9,10 @@ namespace crossnav::geometry {
 
 /// True if the map keeps `key` (always, unless map.clip_to_extent).
 inline bool IsKept(const MapData& map, const VoxelKey& key) {
-  if (!map.config.clip_to_extent) return true;
+  if (!map.config.clip_to_extent || !map.center) return true;
   const int xy = map.cells.extent_xy, z = map.cells.extent_z;
-  return key.x >= -xy && key.x < xy && key.y >= -xy && key.y < xy && key.z >= -z && key.z < z;
+  const VoxelKey d = key - *map.center;
+  return d.x >= -xy && d.x < xy && d.y >= -xy && d.y < xy && d.z >= -z && d.z < z;
 }
 
 /// Adds the entry to the frame's list of touched blocks.

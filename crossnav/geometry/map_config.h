@@ -8,7 +8,8 @@ namespace crossnav::geometry {
 
 struct MapConfig {
   double voxel_m = 0.10;
-  double extent_xy_m = 60;  ///< the paper's box; applied only where clip_to_extent is set
+  double extent_xy_m = 60;  ///< the paper's box about the first camera; applied only where
+                            ///< clip_to_extent is set or policy.profile = paper
   double extent_z_m = 60;   ///< about +-30 m
   bool clip_to_extent = false;
   double inflation_m = 0.20;

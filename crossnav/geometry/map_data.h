@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "crossnav/geometry/depth_view.h"
@@ -17,7 +18,7 @@ struct MapCells {
   int max_climb = 3;
   int agent_height = 15;
   double inflation = 2;  ///< radius
-  int extent_xy = 0;     ///< keys in [-extent, extent) where clipped; 0 = unbounded
+  int extent_xy = 0;     ///< keys less the centre in [-extent, extent) where clipped
   int extent_z = 0;
 };
 
@@ -35,6 +36,7 @@ struct MapData {
   RowEnds row_ends;                 ///< scratch
   DepthView view;                   ///< of the current frame
   EndVoxels ends;                   ///< of the current frame
+  std::optional<VoxelKey> center;   ///< of a clipped map: the first camera's voxel
   std::vector<StateChange> changes;
   std::uint64_t revision = 0;
 };

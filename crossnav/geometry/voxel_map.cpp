@@ -62,6 +62,7 @@ const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntr
   CROSSNAV_CHECK(depth_m.width == camera.width_px && depth_m.height == camera.height_px,
                  "depth image and camera differ in size");
   const DepthFrame frame{depth_m, camera, T_world_camera};
+  if (!data_->center) data_->center = KeyOf(T_world_camera.translation(), config().voxel_m);
   data_->view.Resize(depth_m.width, depth_m.height);
   const KeyBounds bounds = CollectEnds(*data_, frame);
   if (IsProjectionCheaper(*data_, frame))

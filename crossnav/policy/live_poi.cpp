@@ -68,14 +68,17 @@ bool IsSameObject(const std::vector<VoxelKey>& a, const Vector3d& a_center,
 }
 
 void LivePois::Update(const std::vector<Sighting>& sightings, const ObjectConfig& config,
-                      double voxel_m, int step) {
+                      double voxel_m, int step, int approached) {
   for (const Sighting& sighting : sightings) {
-    if (sighting.confidence < config.detector_confidence) continue;
+    if (sighting.confidence < std::min(config.detector_confidence, config.secondary_confidence))
+      continue;
     if (sighting.area_fraction < config.min_box_area_fraction) continue;
     auto match = std::find_if(pois_.begin(), pois_.end(), [&](const LivePoi& poi) {
       return IsSameObject(poi.voxels, poi.p_center_world, sighting.voxels, sighting.p_center_world,
                           config.merge_distance_m);
     });
+    const bool is_approached = match != pois_.end() && match->id == approached;
+    if (!is_approached && sighting.confidence < config.detector_confidence) continue;
     if (match == pois_.end()) {
       LivePoi poi;
       poi.id = next_id_++;

@@ -40,9 +40,10 @@ std::vector<Sighting> LiftDetections(const std::vector<perception::Detection>& d
 /// The POIs of one goal.
 class LivePois {
  public:
-  /// Merges sightings that are confident and large enough (tab:supp_configuration, "Object").
+  /// Merges sightings that are confident and large enough (tab:supp_configuration, "Object"). The
+  /// POI `approached` (-1 = none) also takes sightings of the secondary confidence.
   void Update(const std::vector<Sighting>& sightings, const ObjectConfig& config, double voxel_m,
-              int step);
+              int step, int approached = -1);
 
   /// Stable and not discarded, most confident first.
   std::vector<const LivePoi*> Stable(const ObjectConfig& config) const;

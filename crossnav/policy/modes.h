@@ -40,7 +40,7 @@ struct ModeInputs {
   bool has_history_poi = false;       ///< one that is reachable and not blacklisted
   bool is_following_history = false;  ///< the POI being navigated to is a history POI
   bool is_near_viewpoint = false;     ///< of the live POI
-  bool verification_failed = false;   ///< the approached POI was refuted this step
+  bool verification_failed = false;   ///< the approached POI was refuted in the last step
 };
 
 struct ModeDecision {

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "crossnav/policy/onemap_config.h"
+
 namespace crossnav::policy {
 
 struct ObjectConfig {
@@ -32,6 +34,7 @@ struct FrontierConfig {
   double level_band_m = 0.35;     // chosen: one step above the maximum climb
   double unknown_column_m = 0.3;  // chosen: genuine unknown, nothing seen within +-0.3 m
   double arrival_m = 0.35;        // chosen: one forward step and a voxel
+  int grace_steps = 20;           // chosen: way of a few metres; profile paper only
 };
 
 struct StairConfig {
@@ -100,7 +103,7 @@ struct ExploreConfig {
 };
 
 struct PolicyConfig {
-  std::string profile = "full";  ///< full | paper (the literal method)
+  std::string profile = "full";  ///< full | paper (the literal method) | onemap (the baseline)
   MotionConfig motion;
   ExploreConfig explore;
   ObjectConfig object;
@@ -108,6 +111,7 @@ struct PolicyConfig {
   FrontierConfig frontier;
   StairConfig stair;
   ApproachConfig approach;
+  OneMapConfig onemap;
   bool planar = false;  ///< variant: no stairs, one level, the planar persistent-memory stand-in
 };
 
@@ -137,6 +141,7 @@ void Visit(V& visit, FrontierConfig& c) {
   visit("level_band_m", c.level_band_m, 0.0, 10.0);
   visit("unknown_column_m", c.unknown_column_m, 0.0, 10.0);
   visit("arrival_m", c.arrival_m, 0.05, 10.0);
+  visit("grace_steps", c.grace_steps, 0, 100000);
 }
 template <class V>
 void Visit(V& visit, StairConfig& c) {
@@ -209,7 +214,8 @@ void Visit(V& visit, PolicyConfig& c) {
   visit.Section("frontier", c.frontier);
   visit.Section("stair", c.stair);
   visit.Section("approach", c.approach);
-  visit("profile", c.profile, {"full", "paper"});
+  visit.Section("onemap", c.onemap);
+  visit("profile", c.profile, {"full", "paper", "onemap"});
   visit("planar", c.planar);
 }
 

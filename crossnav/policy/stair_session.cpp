@@ -94,21 +94,25 @@ void PromoteStairs(StairSession& session, const StairEvidence& evidence, VoxelMa
                    const StairConfig& config) {
   const double voxel_m = map.config().voxel_m;
   const NearCluster near(session.cluster, CellsFloor(config.admission_radius_m, voxel_m));
-  std::vector<VoxelKey> added;
+  std::vector<VoxelKey> added, rejected;
   for (const auto& [key, voxel] : evidence.voxels()) {
     const bool is_accepted =
         session.direction > 0
             ? voxel.geometry_score >= config.geometry_threshold
             : (voxel.geometry_score + voxel.probability) / 2 >= config.descent_confirmation;
-    if (!is_accepted) continue;
     if (RiseOf(session, CenterOf(key, voxel_m).z()) < -0.3)
       continue;  // another flight, the other way
     if (map.StairMarkAt(key) == StairMark::kStair || !near.Contains(key)) continue;
+    if (!is_accepted) {
+      if (map.StairMarkAt(key) == StairMark::kNone) rejected.push_back(key);
+      continue;
+    }
     // Risers and sides carry no foot: only what is on top of its column.
     if (IsSurface(map.StateAt({key.x, key.y, key.z + 1}))) continue;
     added.push_back(key);
   }
   map.MarkStair(added, StairMark::kStair);
+  map.MarkStair(rejected, StairMark::kFake);
   session.cluster.insert(added.begin(), added.end());
   const auto expanded = ExpandableNeighbours(added, map);
   std::vector<VoxelKey> fresh;

@@ -32,9 +32,9 @@ enum class SessionStatus { kClimbing, kOnLanding, kStalled };
 StairSession BeginSession(int direction, double entrance_level_m, const Vector3d& p_world_foot,
                           const std::vector<VoxelKey>& flight);
 
-/// Promotes accepted evidence within the admission radius of the session's cluster to STAIR, and
-/// OCCUPIED neighbours that one could step on to STAIR_EXPANDED. The caller updates the map's
-/// states.
+/// Within the admission radius of the session's cluster, accepted evidence becomes STAIR, OCCUPIED
+/// neighbours that one could step on become STAIR_EXPANDED, and rejected evidence becomes
+/// FAKE_STAIR, which later evidence may still promote. The caller updates the map's states.
 void PromoteStairs(StairSession& session, const StairEvidence& evidence, VoxelMap& map,
                    const StairConfig& config);
 

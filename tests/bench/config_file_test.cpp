@@ -170,5 +170,14 @@ TEST(ConfigFile, AblationsOfHistoryPoisChangeTheirSettingsAndNoOther) {
   EXPECT_EQ(changed("paper-no-history-poi"), (Settings{off, {"/policy/profile", "\"paper\""}}));
 }
 
+// The paper's single-object protocol is its frozen configuration: one goal, and nothing else.
+TEST(ConfigFile, TheSingleObjectProtocolOfThePaperChangesTheNumberOfGoalsOnly) {
+  RunConfig config;
+  ASSERT_TRUE(ApplyConfigFile(CROSSNAV_SOURCE_DIR "/config/objectnav_paper.toml", config));
+  EXPECT_EQ(config.dataset.goals, 1);
+  config.dataset.goals = 3;
+  EXPECT_EQ(DumpJson(config), DumpJson(RunConfig{}));
+}
+
 }  // namespace
 }  // namespace crossnav::bench

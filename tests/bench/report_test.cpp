@@ -14,7 +14,7 @@ namespace crossnav::bench {
 namespace {
 
 std::vector<ReportRun> TwoRuns() {
-  ReportRun full{"full", {}, "full", "oracle-perception", "aa", "bb", {}, {}};
+  ReportRun full{"paper", {}, "paper", "oracle-perception", "aa", "bb", {}, {}};
   for (int i = 0; i < 10; ++i) {
     auto episode = test::MakeEpisode(std::to_string(i), 3, {{i < 5, 2.0, 4.0}});
     episode.cross_floor_required = i % 2 == 0;
@@ -22,7 +22,7 @@ std::vector<ReportRun> TwoRuns() {
     full.episodes.push_back(episode);
   }
   ReportRun other = full;
-  other.name = other.variant = "no-history-poi";
+  other.name = other.variant = "paper-no-history-poi";
   return {full, other};
 }
 
@@ -30,8 +30,8 @@ TEST(Report, FiguresCarryThePapersNumberOfTheirVariant) {
   const auto figures = CollectFigures(TwoRuns(), {50, 1});
   bool has_full = false, has_other = false;
   for (const ReportFigure& f : figures) {
-    if (f.group == "all" && f.metric == "SR" && f.run == "full") has_full = *f.paper == 0.2913;
-    if (f.group == "cfr" && f.metric == "SPL_cond_2" && f.run == "no-history-poi") {
+    if (f.group == "all" && f.metric == "SR" && f.run == "paper") has_full = *f.paper == 0.2913;
+    if (f.group == "cfr" && f.metric == "SPL_cond_2" && f.run == "paper-no-history-poi") {
       has_other = *f.paper == 0.1943;
     }
     if (f.group.starts_with("scene:")) {
@@ -95,8 +95,8 @@ TEST(Report, CountsTheCausesOfFailedStages) {
       << text;
   EXPECT_EQ(CausesCsv(runs),
             "run,cause,outcome,stages\n"
-            "full,go_to under way,out_of_time,5\n"
-            "no-history-poi,stopped at the wrong object,misdetection,5\n");
+            "paper,go_to under way,out_of_time,5\n"
+            "paper-no-history-poi,stopped at the wrong object,misdetection,5\n");
   const auto causes = nlohmann::json::parse(ReportJson(runs, {}))["runs"][0]["causes"];
   EXPECT_EQ(causes["go_to under way"]["stages"], 5);
   EXPECT_EQ(causes["go_to under way"]["outcomes"]["out_of_time"], 5);
@@ -112,18 +112,69 @@ TEST(Report, PlotsAreClosedSvg) {
   }
 }
 
+// The paper's method stands beside the profile `paper`; our navigator is no method of the paper.
+TEST(Report, OurNavigatorHasNoNumberOfThePaper) {
+  auto runs = TwoRuns();
+  runs[0].variant = "full";
+  for (const ReportFigure& f : CollectFigures({runs[0]}, {50, 1})) EXPECT_FALSE(f.paper);
+  const std::string text = ReportMarkdown({runs[0]}, {});
+  EXPECT_EQ(text.find("*paper: chair*"), std::string::npos);
+  EXPECT_NE(ReportMarkdown({TwoRuns()[0]}, {}).find("| *paper: chair* | 363 | 323 | 0 | 13 | 1 |"),
+            std::string::npos);
+}
+
+TEST(Report, HasTheGlobalTablesAndTheOutcomesWithoutHistory) {
+  const auto runs = TwoRuns();
+  const std::string text = ReportMarkdown(runs, CollectFigures(runs, {50, 1}));
+  for (const char* row : {"## Global SR, all episodes", "## Global SPL, floor change required",
+                          "| *paper: w/o H-POI* | 70.33 | 45.52 | 29.77 |",
+                          "| *paper: OneMap* | 17.82 | 6.89 | 0.00 |",
+                          "| *paper: bed* | 358 | 201 | 6 | 133 | 1 | 8 | 9 |"})
+    EXPECT_NE(text.find(row), std::string::npos) << row;
+}
+
+TEST(Report, EpisodesWithOneGoalStandBesideTheSingleObjectTable) {
+  ReportRun run{"mine", {}, "paper", "oracle-perception", "aa", "bb", {}, {}};
+  for (int i = 0; i < 4; ++i)
+    run.episodes.push_back(test::MakeEpisode(std::to_string(i), 1, {{i < 3, 2.0, 4.0}}));
+  const auto figures = CollectFigures({run}, {50, 1});
+  const std::string text = ReportMarkdown({run}, figures);
+  EXPECT_NE(text.find("| *paper: LifelongCrossNav* | yes | yes | no | 2000 | 59.7 | 28.0 |"),
+            std::string::npos);
+  EXPECT_NE(text.find("| *paper: XGX* | no | no | no | 2000 | 72.9 | 35.7 |"), std::string::npos);
+  EXPECT_EQ(text.find("16.83"), std::string::npos);
+  for (const ReportFigure& f : figures) {
+    if (f.group == "all" && f.metric == "SR") {
+      EXPECT_DOUBLE_EQ(*f.paper, 0.597);
+    }
+  }
+}
+
 TEST(PaperNumbers, AgreeWithThemselves) {
-  for (const PaperOutcomes& p : kPaperOutcomes) {
-    EXPECT_EQ(p.total,
-              p.success + p.misdetection + p.stuck + p.out_of_time + p.not_reached + p.all_explored)
-        << p.goal;
+  for (const char* variant : {"paper", "paper-no-history-poi"}) {
+    int success = 0;
+    for (const PaperOutcomes& p : PaperOutcomesOf(variant)) {
+      EXPECT_EQ(p.total, p.success + p.misdetection + p.stuck + p.out_of_time + p.not_reached +
+                             p.all_explored)
+          << p.goal;
+      success += p.success;
+    }
+    const auto row = std::find_if(kPaperAll.begin(), kPaperAll.end(),
+                                  [&](const PaperRow& r) { return r.variant == variant; });
+    EXPECT_NEAR(success, 9.27 * (row->sr_global[0] + row->sr_global[1] + row->sr_global[2]), 4)
+        << variant;
   }
   for (const auto& table : {kPaperAll, kPaperCrossFloor}) {
     for (const PaperRow& row : table) {
-      const double g1 = row.sr_cond[0], g2 = g1 * row.sr_cond[1] / 100;
-      const double g3 = g2 * row.sr_cond[2] / 100;
-      EXPECT_NEAR((g1 + g2 + g3) / 3, row.pr, 0.02) << row.method;
-      EXPECT_NEAR(g3, row.sr, 0.02) << row.method;
+      double reached = 100;
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(reached * row.spl_cond[k] / 100, row.spl_global[k], 0.02) << row.method;
+        reached *= row.sr_cond[k] / 100;
+        EXPECT_NEAR(reached, row.sr_global[k], 0.02) << row.method;
+      }
+      EXPECT_NEAR((row.sr_global[0] + row.sr_global[1] + row.sr_global[2]) / 3, row.pr, 0.02)
+          << row.method;
+      EXPECT_NEAR(reached, row.sr, 0.02) << row.method;
     }
   }
 }

@@ -171,5 +171,22 @@ TEST(IsSameObject, NearCentresOrAFifthOfTheVoxelsMakeIt) {
   EXPECT_FALSE(same(left, far));
 }
 
+// tab:supp_configuration, "Secondary confidence": enough to go on with an approach, not to begin.
+TEST(LivePois, TheApproachedPoiTakesSightingsOfTheSecondaryConfidence) {
+  for (const double confidence : {0.59, 0.60, 0.69}) {
+    LivePois pois;
+    pois.Update({SightingOf(CubeAt(0))}, {}, 0.1, 0);
+    const int id = pois.all().front().id;
+    const std::size_t before = pois.all().front().voxels.size();
+    const Sighting weak = SightingOf(CubeAt(1), confidence);
+    pois.Update({weak, SightingOf(CubeAt(40), confidence)}, {}, 0.1, 1);
+    EXPECT_EQ(pois.all().front().voxels.size(), before) << confidence;
+    pois.Update({weak, SightingOf(CubeAt(40), confidence)}, {}, 0.1, 2, id);
+    EXPECT_EQ(pois.all().size(), 1u);
+    EXPECT_EQ(pois.all().front().voxels.size() > before, confidence >= 0.60) << confidence;
+    EXPECT_EQ(pois.all().front().confidence, 0.8);
+  }
+}
+
 }  // namespace
 }  // namespace crossnav::policy

@@ -71,18 +71,39 @@ TEST(PromoteStairs, TheClusterAdvancesUntilTheFlightIsWhole) {
     EXPECT_EQ(world.map.StairMarkAt(key), StairMark::kStair);
 }
 
-TEST(PromoteStairs, EvidenceWithoutTheShapeOfStairsStaysEvidence) {
+// sec. "Stair-State Promotion": rejected evidence is retained as FAKE_STAIR.
+TEST(PromoteStairs, EvidenceWithoutTheShapeOfStairsBecomesFakeStairWithinTheAdmissionRadius) {
   std::set<VoxelKey> floor, air;
-  for (int x = 0; x < 15; ++x)
+  for (int x = 0; x < 45; ++x)
     for (int y = 0; y < 15; ++y) {
       floor.insert({x, y, -1});
       for (int z = 0; z < 15; ++z) air.insert({x, y, z});
     }
   VoxelMap map = test::MapOfEvidence(floor, air);
   const std::vector<VoxelKey> voxels(floor.begin(), floor.end());
-  StairSession session = BeginSession(+1, 0, {0.5, 0.5, 0}, {{5, 5, -1}});
+  const VoxelKey seed{5, 5, -1};
+  StairSession session = BeginSession(+1, 0, {0.5, 0.5, 0}, {seed});
   PromoteStairs(session, SeeAll(map, voxels), map, {});
-  for (const VoxelKey& key : voxels) EXPECT_EQ(map.StairMarkAt(key), StairMark::kNone);
+  map.UpdateStates();
+  for (const VoxelKey& key : voxels) {
+    const bool is_near = 0.1 * VoxelDistance(key, seed) <= 2.5 + 1e-9;
+    EXPECT_EQ(map.StairMarkAt(key), is_near ? StairMark::kFake : StairMark::kNone);
+    EXPECT_EQ(map.StateAt({key.x, key.y, key.z + 1}), VoxelState::kTraversable);
+  }
+}
+
+TEST(PromoteStairs, FakeStairIsReversible) {
+  FlightWorld world = MakeFlight({.steps = 6});
+  const auto treads = ColumnTops(world.flight);
+  StairSession session = BeginSession(+1, 0, {-0.3, 0.5, 0}, Below(world, 0.28));
+  StairEvidence poor;
+  std::vector<geometry::SeenStair> seen;
+  for (const VoxelKey& key : world.flight) seen.push_back({key, 0.8F, 0.64F, false});
+  poor.Import(seen);
+  PromoteStairs(session, poor, world.map, {});
+  for (const VoxelKey& key : treads) EXPECT_EQ(world.map.StairMarkAt(key), StairMark::kFake);
+  PromoteStairs(session, SeeAll(world.map, world.flight), world.map, {});
+  for (const VoxelKey& key : treads) EXPECT_EQ(world.map.StairMarkAt(key), StairMark::kStair);
 }
 
 TEST(PromoteStairs, TheWayDownDoesNotPromoteAFlightThatLeadsUp) {

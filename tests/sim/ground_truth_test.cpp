@@ -152,7 +152,9 @@ TEST(GroundTruth, AllPartsWorkTogether) {
   ASSERT_TRUE(percept.has_value()) << percept.error().Message();
   ASSERT_EQ(percept->detections.size(), 1U);
   EXPECT_FALSE(percept->detections[0].mask.empty());
-  EXPECT_EQ(percept->features.dim, 768);
+  EXPECT_EQ(percept->features.dim, 768);  // tab:supp_configuration, "Dense output"
+  EXPECT_EQ(percept->features.rows, 24);
+  EXPECT_EQ(percept->features.cols, 24);
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""scripts/results.py runs every row of every table, and its page holds them; a stand-in plays the
+program, which logs its calls and answers with canned figures."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/results.py"
+PROGRAM = '''#!{python}
+import json, pathlib, sys
+words = sys.argv[1:]
+with open("calls.txt", "a") as log:
+    log.write(" ".join(words) + "\\n")
+figure = dict(value=.5, low=.4, high=.6)
+metrics = dict(SR=figure, SPL=figure, PR=figure, PPL=figure)
+if words[0] == "metrics":
+    print(json.dumps(dict(episodes=24, goals=3, metrics=metrics,
+                          groups=dict(cfr=dict(episodes=8, metrics=metrics)))))
+if words[0] == "report":
+    out = pathlib.Path(words[words.index("--out") + 1])
+    out.mkdir(parents=True)
+    names = [pathlib.Path(w).name for w in words[1:words.index("--out")]]
+    is_single = "single" in words[1]
+    text = "# Report\\n\\n" + ("## Single-object navigation\\n\\nsingle rows\\n" if is_single
+                               else "## All episodes\\n\\noverall rows\\n")
+    for name in names:
+        text += "\\n## " + name + "\\n\\nof it\\n\\n### Outcomes\\n\\nrows of " + name
+        text += "\\n\\n### Causes of failure\\n\\nnone\\n"
+    (out / "report.md").write_text(text)
+    difference = dict(difference=.1, low=0, high=.2)
+    print(json.dumps(dict(comparisons=[dict(before=names[0], after=n,
+                          differences=dict(SR=difference, SPL=difference)) for n in names[1:]])))
+'''
+
+
+class Results(unittest.TestCase):
+    def test_every_row_of_every_table_is_run_and_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            program = root / "crossnav"
+            program.write_text(PROGRAM.replace("{python}", sys.executable))
+            program.chmod(0o755)
+            subprocess.run([sys.executable, str(SCRIPT), "suite-x", "--jobs", "3", "--commit", "abc",
+                            "--out", "page.md", "--set", "a=1"], cwd=root, check=True,
+                           env={**os.environ, "CROSSNAV": str(program)}, capture_output=True)
+            calls = (root / "calls.txt").read_text()
+            page = (root / "page.md").read_text()
+        for variant in ("full", "no-history-poi", "no-history-poi-pure", "planar", "onemap",
+                        "paper-no-history-poi", "paper"):
+            self.assertIn(f"suite run suite-x --variant {variant} --jobs 3 --set a=1\n", calls)
+            self.assertIn(f"| `{variant}` | 50.0 [40.0, 60.0] |", page)
+        self.assertIn("--goals 1", calls)
+        for variant in ("onemap", "paper"):
+            self.assertRegex(calls, "eval --config .*/config/objectnav_paper.toml .*--variant "
+                                    f"{variant} .*--set a=1\n")
+        for part in ("### All episodes\n\noverall rows", "### Outcomes of `paper`\n\nrows of paper\n",
+                     "### Outcomes of `paper-no-history-poi`\n", "### Outcomes of `onemap`\n",
+                     "### Single-object navigation\n\nsingle rows", "- `onemap` to `paper`: SR 10.0",
+                     "- `no-history-poi-pure` to `full`", "Measured at `abc`"):
+            self.assertIn(part, page)
+        self.assertNotIn("Causes of failure", page)
+
+
+if __name__ == "__main__":
+    unittest.main()
