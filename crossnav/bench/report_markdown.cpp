@@ -49,6 +49,10 @@ int GoalsOf(const std::vector<ReportRun>& runs) {
   return static_cast<int>(goals);
 }
 
+std::string NameOf(const ReportRun& run) {
+  return run.name + (GroupByTrack(run.episodes).size() > 1 ? " (tracks pooled)" : "");
+}
+
 std::string SequenceTable(const std::vector<ReportRun>& runs,
                           const std::vector<ReportFigure>& figures, const std::string& group,
                           std::span<const PaperRow> paper) {
@@ -56,9 +60,8 @@ std::string SequenceTable(const std::vector<ReportRun>& runs,
   for (const ReportRun& run : runs) {
     const ReportFigure* sr = Find(figures, run.name, group, "SR");
     if (sr == nullptr) continue;
-    const bool is_pooled = GroupByTrack(run.episodes).size() > 1;
-    text += Row({run.name + (is_pooled ? " (tracks pooled)" : ""), std::to_string(sr->episodes),
-                 Cell(sr), Cell(Find(figures, run.name, group, "SPL")),
+    text += Row({NameOf(run), std::to_string(sr->episodes), Cell(sr),
+                 Cell(Find(figures, run.name, group, "SPL")),
                  Cell(Find(figures, run.name, group, "PR")),
                  Cell(Find(figures, run.name, group, "PPL"))});
   }
@@ -201,7 +204,7 @@ std::string SingleObjectSections(const std::vector<ReportRun>& runs,
   for (const ReportRun& run : runs) {
     const ReportFigure* sr = Find(figures, run.name, "all", "SR");
     if (sr == nullptr) continue;
-    text += Row({run.name, "", "", "", std::to_string(sr->episodes), Cell(sr),
+    text += Row({NameOf(run), "", "", "", std::to_string(sr->episodes), Cell(sr),
                  Cell(Find(figures, run.name, "all", "SPL"))});
   }
   const auto mark = [](bool holds) { return std::string(holds ? "yes" : "no"); };
