@@ -115,13 +115,25 @@ struct EpisodesOptions {
   double alternate = 0;  ///< of those: the share that changes floors at every stage
   std::uint64_t seed = 1;
   bool repeats = false;
-  std::string certify;  ///< coverage or detection; empty = as configured
-  std::string track;    ///< origin of the buildings; empty = not said
+  std::string certify;     ///< coverage or detection; empty = as configured
+  std::string track;       ///< origin of the buildings; empty = not said
+  std::string scene_list;  ///< file of names, one a line; empty = every scene
+  std::vector<int> first;  ///< episodes with their first transition at stage 1, 2, ...
+  bool by_scene = false;   ///< one scene in memory at a time
 };
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
                               Console& console);
 Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& common,
                            Console& console);
+
+struct ChooseOptions {
+  std::string scenes, out;
+  int floors = 1;                       ///< at least
+  std::vector<std::string> categories;  ///< each can be observed from somewhere
+};
+/// Scenes with so many floors and these categories, as a list for EpisodesGenerate.
+Result<void> SceneChoose(const ChooseOptions& options, const CommonOptions& common,
+                         Console& console);
 
 struct RunOptions {
   std::string scenes, episodes, episode;

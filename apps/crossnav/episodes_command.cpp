@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "crossnav/bench/episode_generator.h"
 #include "crossnav/bench/evaluation.h"
 #include "crossnav/bench/output_path.h"
 #include "eval_progress.h"
+#include "scene_list.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -39,6 +42,45 @@ Tally Count(const bench::EpisodeFile& file) {
   return tally;
 }
 
+Result<void> CheckWishes(const EpisodesOptions& options, const bench::RunConfig& config) {
+  if (static_cast<int>(options.first.size()) > config.dataset.goals) {
+    return Fail(ErrorCode::kInvalid, "names more stages than an episode has goals", "--first");
+  }
+  if (std::accumulate(options.first.begin(), options.first.end(), 0) > options.count) {
+    return Fail(ErrorCode::kInvalid, "asks for more episodes than --count", "--first");
+  }
+  if (options.alternate > 0 && options.by_scene) {
+    return Fail(ErrorCode::kInvalid, "is drawn over all scenes; leave out --by-scene",
+                "--alternate");
+  }
+  return {};
+}
+
+Result<bench::EpisodeFile> Draw(const EpisodesOptions& options, const bench::RunConfig& config,
+                                const std::vector<std::string>& ids, Console& console) {
+  CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(options.count));
+  bench::GeneratorOptions wishes{options.count, options.cross_floor, options.seed, options.first};
+  wishes.alternating_share = options.alternate;
+  wishes.drawn = [&](int done) { progress.Done(static_cast<std::size_t>(done)); };
+  if (options.by_scene) {
+    const auto load = [&](const std::string& id) {
+      return bench::SceneContext::Load(options.scenes, id, config);
+    };
+    return bench::GenerateByScene(ids, load, config, wishes);
+  }
+  SceneCache cache(options.scenes, config);
+  const auto scenes = cache.GetAll(ids, console);
+  if (!scenes) return tl::unexpected(scenes.error());
+  return bench::GenerateEpisodes(*scenes, config, wishes);
+}
+
+/// The most memory that this process has used.
+double PeakMegabytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
 }  // namespace
 
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
@@ -49,14 +91,12 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   if (options.goals > 0) config->dataset.goals = options.goals;
   if (options.repeats) config->dataset.allow_repeats = true;
   if (!options.certify.empty()) config->dataset.certificate = options.certify;
-  SceneCache cache(options.scenes, *config);
-  const auto scenes = cache.GetAll(console);
+  if (auto ok = CheckWishes(options, *config); !ok) return ok;
+  const auto scenes = options.scene_list.empty()
+                          ? bench::ListScenes(options.scenes)
+                          : ReadSceneList(options.scene_list, options.scenes);
   if (!scenes) return tl::unexpected(scenes.error());
-  CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(options.count));
-  bench::GeneratorOptions wishes{options.count, options.cross_floor, options.seed};
-  wishes.alternating_share = options.alternate;
-  wishes.drawn = [&](int done) { progress.Done(static_cast<std::size_t>(done)); };
-  auto file = bench::GenerateEpisodes(*scenes, *config, wishes);
+  auto file = Draw(options, *config, *scenes, console);
   if (!file) return tl::unexpected(file.error());
   console.EndProgress();
   for (bench::Episode& episode : file->episodes) episode.track = options.track;
@@ -68,6 +108,7 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   console.Print(
       fmt::format("{}: {} episodes in {} scenes, {} require a floor change (first at stage {})\n",
                   options.out, tally.episodes, scenes->size(), tally.cross_floor, stages));
+  console.Log(fmt::format("peak memory {:.0f} MiB", PeakMegabytes()));
   if (file->certificate_edition > 1) {
     console.Print(fmt::format("  {} of {} goal objects are confirmed from nowhere\n",
                               tally.not_confirmable, tally.goal_objects));

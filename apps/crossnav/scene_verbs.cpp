@@ -78,6 +78,21 @@ void AddFrames(CLI::App& scene, Options& o) {
   frames->add_option("--out", o.frames.out, "Folder for frames.json and the arrays")->required();
 }
 
+void AddChoose(CLI::App& scene, Options& o) {
+  CLI::App* choose = AddVerb(scene, o, "choose", "Scenes by floors and categories, as a list",
+                             "crossnav scene choose --scenes hm3d/val --floors 2 --categories "
+                             "bed,chair,plant,sofa,toilet,tv_monitor --out scenes.txt",
+                             [&o](Console& c) { return SceneChoose(o.choose, o.common, c); });
+  choose->add_option("--scenes", o.choose.scenes, "Folder of scenes")->required();
+  choose->add_option("--floors", o.choose.floors, "Floors at least; default: 1")
+      ->check(CLI::Range(1, 100));
+  choose
+      ->add_option("--categories", o.choose.categories,
+                   "Goal categories that can be observed from somewhere; default: any")
+      ->delimiter(',');
+  choose->add_option("--out", o.choose.out, "List to write: a name a line, for --scene-list");
+}
+
 void AddScene(CLI::App& app, Options& o) {
   CLI::App* scene = app.add_subcommand("scene", "Look at a scene, import a home");
   scene->require_subcommand(1);
@@ -109,6 +124,7 @@ void AddScene(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 1000));
   views->add_option("--out", o.views.out, "Folder for views.json and the pictures")->required();
   AddFrames(*scene, o);
+  AddChoose(*scene, o);
   CLI::App* import = AddVerb(*scene, o, "import",
                              "A home, a building or a 3D model becomes a scene in HM3D layout",
                              "crossnav scene import MyHome.sh3d --out scenes",
@@ -169,6 +185,17 @@ void AddEpisodes(CLI::App& app, Options& o) {
       "--track", o.episodes.track,
       "Origin of the buildings, by which results are given: generated, drawn, bim, "
       "scan or a word of yours");
+  generate->add_option("--scene-list", o.episodes.scene_list,
+                       "File that names the scenes, one a line (scene choose); default: all");
+  generate
+      ->add_option("--first", o.episodes.first,
+                   "How many episodes have their first floor change at stage 1, 2, ...; the others "
+                   "require none; instead of --cross-floor")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 1000000))
+      ->type_name("N,N,N");
+  generate->add_flag("--by-scene", o.episodes.by_scene,
+                     "Keep one scene in memory at a time; draws other episodes than without");
   generate->add_flag("--repeats", o.episodes.repeats, "Allow a category twice in an episode");
   generate->add_option("--out", o.episodes.out, "Episode file (.json or .json.gz)")->required();
   CLI::App* check = AddVerb(*episodes, o, "check", "Proves every certificate again",

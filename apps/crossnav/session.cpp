@@ -42,15 +42,15 @@ Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) 
   return entries_.back().context.get();
 }
 
-Result<std::vector<bench::GeneratorScene>> SceneCache::GetAll(Console& console) {
-  const auto ids = bench::ListScenes(scenes_dir_);
-  if (!ids) return tl::unexpected(ids.error());
-  keep_ = std::max(keep_, entries_.size() + ids->size());
+Result<std::vector<bench::GeneratorScene>> SceneCache::GetAll(const std::vector<std::string>& ids,
+                                                              Console& console) {
+  keep_ = std::max(keep_, entries_.size() + ids.size());
   std::vector<bench::GeneratorScene> scenes;
-  for (const std::string& id : *ids) {
-    console.Progress(fmt::format("scene {} of {}: {}", scenes.size() + 1, ids->size(), id));
+  for (const std::string& id : ids) {
+    console.Progress(fmt::format("scene {} of {}: {}", scenes.size() + 1, ids.size(), id));
     const auto context = Get(id);
     if (!context) return tl::unexpected(context.error());
+    for (const std::string& note : (*context)->scene().notes) console.Log(id + ": " + note);
     scenes.push_back({id, *context});
   }
   return scenes;

@@ -35,8 +35,9 @@ class SceneCache {
 
   Result<const bench::SceneContext*> Get(const std::string& scene_id);
 
-  /// Every scene of the folder, all kept from now on; for drawing episodes.
-  Result<std::vector<bench::GeneratorScene>> GetAll(Console& console);
+  /// These scenes, all kept from now on; for drawing episodes.
+  Result<std::vector<bench::GeneratorScene>> GetAll(const std::vector<std::string>& ids,
+                                                    Console& console);
 
  private:
   struct Entry {

@@ -59,7 +59,9 @@ Result<void> MakeEpisodes(const bench::SuiteDefinition& suite, const SuitePlace&
   task.count = 1;
   task.work = [&](int) -> Result<std::string> {
     SceneCache cache(place.scenes(), config);
-    const auto scenes = cache.GetAll(console);
+    const auto ids = bench::ListScenes(place.scenes());
+    if (!ids) return tl::unexpected(ids.error());
+    const auto scenes = cache.GetAll(*ids, console);
     if (!scenes) return tl::unexpected(scenes.error());
     console.EndProgress();
     bench::GeneratorOptions drawing = DrawingOf(suite, *scenes);

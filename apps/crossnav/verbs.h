@@ -24,6 +24,7 @@ struct Options {
   FramesOptions frames;
   SceneImportOptions scene_import;
   EpisodesOptions episodes;
+  ChooseOptions choose;
   RunOptions run;
   DemoOptions demo;
   EvalOptions eval;

@@ -139,6 +139,51 @@ std::optional<Episode> DrawFromAnyScene(std::span<const GeneratorScene> scenes,
   return std::nullopt;
 }
 
+tl::unexpected<Error> CannotCertify(int stage, std::size_t number, int count) {
+  return Fail(ErrorCode::kInvalid,
+              std::string("cannot certify an episode that ") +
+                  (stage > 0 ? "requires a floor change" : "stays on one floor") +
+                  "; change --cross-floor, --first or --goals, or add scenes",
+              "episode " + std::to_string(number) + " of " + std::to_string(count));
+}
+
+/// Episodes drawn scene by scene: those that are there, and the stages of those that are not.
+struct DrawnByScene {
+  EpisodeFile file;
+  std::set<std::string> ids;
+  std::vector<int> open;  // stages of first transitions
+};
+
+/// Draws up to `most` of the open episodes in one scene; a stage that it cannot give once is not
+/// asked of it again.
+void DrawHere(const GeneratorScene& scene, const RunConfig& config, std::size_t most, Rng& rng,
+              DrawnByScene& drawn) {
+  constexpr int kRepeats = 10;  // chosen: draws of an episode that is there already
+  std::set<int> impossible;
+  if (scene.context->navmesh().Floors().size() < 2) {
+    for (const int stage : drawn.open) {
+      if (stage > 0) impossible.insert(stage);
+    }
+  }
+  std::vector<int> left;
+  for (const int stage : drawn.open) {
+    std::optional<Episode> episode;
+    for (int i = 0; i < kRepeats && most > 0 && !impossible.contains(stage); ++i) {
+      episode = DrawEpisode(scene, config, {0, stage, true, false}, rng);
+      if (!episode || drawn.ids.insert(episode->episode_id).second) break;
+      episode.reset();
+    }
+    if (!episode) {
+      if (most > 0) impossible.insert(stage);
+      left.push_back(stage);
+      continue;
+    }
+    --most;
+    drawn.file.episodes.push_back(std::move(*episode));
+  }
+  drawn.open = std::move(left);
+}
+
 }  // namespace
 
 bool Alternates(const Episode& episode) {
@@ -203,11 +248,8 @@ Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
       if (!episode || ids.insert(episode->episode_id).second) break;
     }
     if (!episode) {
-      return Fail(ErrorCode::kInvalid,
-                  std::string("cannot certify an episode that ") +
-                      (stages[i] > 0 ? "requires a floor change" : "stays on one floor") +
-                      "; change --cross-floor or --goals, or add scenes",
-                  "episode " + std::to_string(i + 1) + " of " + std::to_string(options.count));
+      return CannotCertify(stages[static_cast<std::size_t>(i)], static_cast<std::size_t>(i) + 1,
+                           options.count);
     }
     file.episodes.push_back(std::move(*episode));
     options.drawn(i + 1);
@@ -215,6 +257,34 @@ Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
   if (config.dataset.certificate == "detection") file.certificate_edition = 2;
   for (const GeneratorScene& scene : scenes) AddGoalObjects(scene, file);
   return file;
+}
+
+Result<EpisodeFile> GenerateByScene(std::span<const std::string> scene_ids, const SceneLoader& load,
+                                    const RunConfig& config, const GeneratorOptions& options) {
+  CROSSNAV_CHECK(!scene_ids.empty(), "no scenes to make episodes for");
+  CROSSNAV_CHECK(options.alternating_share == 0, "drawn over all scenes only");
+  constexpr std::uint64_t kRounds = 2;
+  Rng plan(options.seed);
+  DrawnByScene drawn;
+  drawn.open = PlanTransitions(config, options, plan);
+  for (std::uint64_t round = 0; round < kRounds; ++round) {
+    for (std::size_t s = 0; s < scene_ids.size(); ++s) {
+      if (round > 0 && drawn.open.empty()) break;
+      const auto context = load(scene_ids[s]);
+      if (!context) return tl::unexpected(context.error());
+      const GeneratorScene scene{scene_ids[s], context->get()};
+      if (round == 0) AddGoalObjects(scene, drawn.file);
+      const std::size_t scenes_left = round == 0 ? scene_ids.size() - s : 1;
+      Rng rng(MixSeed(options.seed, HashString(scene.scene_id) + round));
+      DrawHere(scene, config, (drawn.open.size() + scenes_left - 1) / scenes_left, rng, drawn);
+      options.drawn(static_cast<int>(drawn.file.episodes.size()));
+    }
+  }
+  if (!drawn.open.empty()) {
+    return CannotCertify(drawn.open.front(), drawn.file.episodes.size() + 1, options.count);
+  }
+  if (config.dataset.certificate == "detection") drawn.file.certificate_edition = 2;
+  return std::move(drawn.file);
 }
 
 }  // namespace crossnav::bench

@@ -39,6 +39,16 @@ struct GeneratorScene {
 Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
                                      const RunConfig& config, const GeneratorOptions& options);
 
+/// Makes the context of a scene; it is let go before the next one is made.
+using SceneLoader =
+    std::function<Result<std::unique_ptr<SceneContext>>(const std::string& scene_id)>;
+
+/// The same scene by scene, with one of them in memory at a time; what one scene cannot give is
+/// asked of those after it, and of all once more. Draws other episodes than GenerateEpisodes.
+/// `alternating_share` must be 0.
+Result<EpisodeFile> GenerateByScene(std::span<const std::string> scene_ids, const SceneLoader& load,
+                                    const RunConfig& config, const GeneratorOptions& options);
+
 /// An episode with chosen goals from a chosen floor; `seed` picks the start. Error: not
 /// certifiable.
 Result<Episode> MakeEpisode(const GeneratorScene& scene, const RunConfig& config,

@@ -94,9 +94,12 @@ struct StageRecord {
   StageExtra extra;
 };
 
-/// Why an episode has no result. Metrics count it as not successful.
+/// EpisodeFailure::reason of an episode that does not fit its scene (start off the navmesh).
+inline constexpr std::string_view kInvalidEpisode = "invalid";
+
+/// Why an episode has no result. Metrics count it as not successful; an invalid one, not at all.
 struct EpisodeFailure {
-  std::string reason;   ///< error, crash or time
+  std::string reason;   ///< error, crash, time or invalid
   std::string message;  ///< for people
 };
 

@@ -11,14 +11,22 @@
 namespace crossnav::bench {
 namespace {
 
-EpisodeFailure FailureOf(const ItemAnswer& answer, double episode_seconds) {
+/// True where the error is CheckPlayable's: the episode does not fit its scene.
+bool IsInvalid(const Episode& episode, const Error& error) {
+  return error.code == ErrorCode::kMismatch && error.where.starts_with(episode.where + ": ");
+}
+
+EpisodeFailure FailureOf(const Episode& episode, const ItemAnswer& answer, double episode_seconds) {
   switch (answer.end) {
     case ItemEnd::kCrash:
       return {"crash", answer.error.Message()};
     case ItemEnd::kTime:
       return {"time", fmt::format("took longer than eval.episode_seconds = {:g}", episode_seconds)};
-    case ItemEnd::kDone:
     case ItemEnd::kError:
+      if (IsInvalid(episode, answer.error))
+        return {std::string(kInvalidEpisode), answer.error.Message()};
+      break;
+    case ItemEnd::kDone:
       break;
   }
   return {"error", answer.error.Message()};
@@ -68,7 +76,7 @@ Result<void> Evaluate(const Evaluation& evaluation, ResultWriter& writer) {
         answer.end == ItemEnd::kDone
             ? EpisodeFromJsonLine(answer.text, at(item).episode_id)
             : Result<EpisodeRecord>(
-                  FailedRecord(at(item), FailureOf(answer, evaluation.episode_seconds)));
+                  FailedRecord(at(item), FailureOf(at(item), answer, evaluation.episode_seconds)));
     if (!record) return tl::unexpected(record.error());
     if (auto ok = writer.Append(*record); !ok) return ok;
     evaluation.finished(*record);

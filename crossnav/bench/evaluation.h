@@ -25,7 +25,9 @@ struct Evaluation {
 };
 
 /// An episode that errs, whose worker crashes or that runs out of its time leaves a `failed` record
-/// and is no error. Errors: a file that cannot be written, no process that can be started.
+/// and is no error; an episode that does not fit its scene (CheckPlayable, kMismatch) leaves
+/// one with the reason kInvalidEpisode. Errors: a file that cannot be written, no process that can
+/// be started.
 Result<void> Evaluate(const Evaluation& evaluation, ResultWriter& writer);
 
 /// The episodes, those of a scene together, scenes and episodes in the order of their appearance.

@@ -163,6 +163,14 @@ OutcomeTable CountOutcomes(std::span<const EpisodeRecord> episodes) {
   return table;
 }
 
+std::vector<EpisodeRecord> JudgedEpisodes(std::span<const EpisodeRecord> episodes) {
+  std::vector<EpisodeRecord> judged;
+  for (const EpisodeRecord& episode : episodes) {
+    if (!episode.failed || episode.failed->reason != kInvalidEpisode) judged.push_back(episode);
+  }
+  return judged;
+}
+
 std::map<std::string, int> CountFailures(std::span<const EpisodeRecord> episodes) {
   std::map<std::string, int> reasons;
   for (const EpisodeRecord& episode : episodes) {

@@ -43,6 +43,9 @@ Metrics ComputeMetricsOf(std::span<const EpisodeRecord> episodes, std::span<cons
 using OutcomeTable = std::map<std::string, std::array<int, kOutcomeNames.size()>>;
 OutcomeTable CountOutcomes(std::span<const EpisodeRecord> episodes);
 
+/// Without those that do not fit their scene: nobody can play them, so no figure counts them.
+std::vector<EpisodeRecord> JudgedEpisodes(std::span<const EpisodeRecord> episodes);
+
 /// Episodes without a result, by reason (error, crash, time). They count as not successful.
 std::map<std::string, int> CountFailures(std::span<const EpisodeRecord> episodes);
 

@@ -143,7 +143,13 @@ Json TrackJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& b
 
 }  // namespace
 
-std::string MetricsText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
+std::string MetricsText(std::span<const EpisodeRecord> all, const BootstrapConfig& bootstrap) {
+  const std::vector<EpisodeRecord> episodes = JudgedEpisodes(all);
+  if (const std::size_t invalid = all.size() - episodes.size(); invalid > 0) {
+    return fmt::format("invalid: {} episodes do not fit their scenes; no figure counts them\n",
+                       invalid) +
+           MetricsText(episodes, bootstrap);
+  }
   if (episodes.empty()) return "no episodes\n";
   const auto tracks = GroupByTrack(episodes);
   if (tracks.size() < 2) {
@@ -156,11 +162,13 @@ std::string MetricsText(std::span<const EpisodeRecord> episodes, const Bootstrap
   return text;
 }
 
-std::string MetricsJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
+std::string MetricsJson(std::span<const EpisodeRecord> all, const BootstrapConfig& bootstrap) {
+  const std::vector<EpisodeRecord> episodes = JudgedEpisodes(all);
   const auto tracks = GroupByTrack(episodes);
   if (tracks.size() < 2) {
     Json json = TrackJson(episodes, bootstrap);
     if (!tracks.empty()) json["track"] = tracks.begin()->first;
+    if (all.size() > episodes.size()) json["invalid"] = all.size() - episodes.size();
     return json.dump(1);
   }
   Json by_name = Json::object();

@@ -21,7 +21,11 @@ Result<ReportRun> ReadRun(const std::filesystem::path& path, bool require_all) {
     run.episodes_hash = merged->header->episodes_hash;
   }
   run.header = std::move(merged->header);
-  run.episodes = std::move(merged->episodes);
+  run.episodes = JudgedEpisodes(merged->episodes);
+  if (run.episodes.empty()) {
+    return Fail(ErrorCode::kInvalid, "holds only episodes that do not fit their scenes",
+                path.string());
+  }
   if (const auto tracks = GroupByTrack(run.episodes); tracks.size() == 1)
     run.name = tracks.begin()->first + "/" + run.name;
   return run;

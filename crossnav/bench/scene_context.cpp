@@ -309,7 +309,7 @@ Result<void> CheckPlayable(const SceneContext& context, const Episode& episode) 
   }
   const auto start = context.navmesh().Snap(p);
   if (!start) {
-    return Fail(ErrorCode::kInvalid, "the start lies off the navmesh of " + context.scene().id,
+    return Fail(ErrorCode::kMismatch, "the start lies off the navmesh of " + context.scene().id,
                 episode.where + ": start_position");
   }
   for (const std::string& goal : episode.goals) {
@@ -318,7 +318,7 @@ Result<void> CheckPlayable(const SceneContext& context, const Episode& episode) 
       return Fail(ErrorCode::kNotFound, context.scene().id + " has no \"" + goal + "\"", where);
     }
     if (!context.DistanceToGoal(*start, goal)) {
-      return Fail(ErrorCode::kInvalid,
+      return Fail(ErrorCode::kMismatch,
                   "no \"" + goal + "\" of " + context.scene().id + " can be reached from the start",
                   where);
     }

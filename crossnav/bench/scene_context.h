@@ -132,8 +132,8 @@ class SceneContext {
 /// Ids ("<folder>/<file>.glb") of all scenes below `scenes_dir`, sorted.
 Result<std::vector<std::string>> ListScenes(const std::filesystem::path& scenes_dir);
 
-/// What is wrong with the episode in this scene (unknown goal, unreachable goal, start off the
-/// navmesh), or nothing.
+/// What is wrong with the episode in this scene, or nothing. kMismatch: it does not fit the navmesh
+/// (start off it, goal unreachable from there), as episodes made on another navmesh may not.
 Result<void> CheckPlayable(const SceneContext& context, const Episode& episode);
 
 /// Marks of a file of edition 2 that the detection rule contradicts, in words; the context must be

@@ -10,7 +10,7 @@
 #include "crossnav/bench/gzip_file.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/core/write_file.h"
+#include "crossnav/sim/scene_cache.h"
 #include "crossnav/sim/scene_info.h"
 
 namespace crossnav::bench {
@@ -66,9 +66,10 @@ std::string Text(const std::string& key, const Viewpoints& viewpoints) {
 Viewpoints ViewpointsOf(const ViewedScene& viewed,
                         const std::vector<const sim::SceneInstance*>& instances) {
   const std::string key = KeyOf(viewed, instances);
-  const auto file = viewed.scene.folder / (key + ".crossnav.viewpoints");
+  const std::string name = key + ".crossnav.viewpoints";
   const bool has_folder = !viewed.scene.folder.empty() && !instances.empty();
-  if (has_folder) {
+  for (const auto& file : sim::CachePlaces(viewed.scene.folder, name)) {
+    if (!has_folder) break;
     const auto text = ReadTextFile(file);
     if (auto known = text ? Read(*text, key, instances.size()) : std::nullopt) return *known;
   }
@@ -77,7 +78,7 @@ Viewpoints ViewpointsOf(const ViewedScene& viewed,
     viewpoints.push_back(
         sim::Viewpoints(viewed.scene, viewed.navmesh, viewed.caster, *instance, viewed.sensor));
   }
-  if (has_folder) (void)WriteFileAtomically(file, Text(key, viewpoints));
+  if (has_folder) sim::WriteCache(viewed.scene.folder, name, Text(key, viewpoints));
   return viewpoints;
 }
 

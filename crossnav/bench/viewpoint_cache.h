@@ -21,9 +21,8 @@ struct ViewedScene {
   const SensorConfig& sensor;
 };
 
-/// Viewpoints of each of the instances; read from `<scene's folder>/<hash>.crossnav.viewpoints`
-/// where that is of the same mesh, navmesh, camera and instances, found and written there
-/// otherwise. A folder that cannot be written to only costs the next program the time.
+/// Viewpoints of each of the instances; read from `<hash>.crossnav.viewpoints` (sim/scene_cache.h)
+/// where that is of the same mesh, navmesh, camera and instances, found and written otherwise.
 std::vector<std::vector<Vector3d>> ViewpointsOf(
     const ViewedScene& viewed, const std::vector<const sim::SceneInstance*>& instances);
 

@@ -12,8 +12,8 @@
 #include <xxhash.h>
 
 #include "crossnav/core/check.h"
-#include "crossnav/core/write_file.h"
 #include "crossnav/sim/navmesh_detail.h"
+#include "crossnav/sim/scene_cache.h"
 #include "crossnav/sim/surface_path.h"
 #include "crossnav/sim/walk_graph.h"
 
@@ -148,9 +148,10 @@ Result<NavMesh> NavMesh::BuildCached(const Scene& scene, const NavMeshSettings& 
   char name[64];
   std::snprintf(name, sizeof(name), "%016llx.crossnav.navmesh",
                 static_cast<unsigned long long>(key));
-  const std::filesystem::path file = scene.folder / name;
-  const auto bytes = ReadBytes(file);
-  if (DetourMesh mesh = LoadTiles(bytes, key)) {
+  for (const std::filesystem::path& file : CachePlaces(scene.folder, name)) {
+    const auto bytes = ReadBytes(file);
+    DetourMesh mesh = LoadTiles(bytes, key);
+    if (!mesh) continue;
     NavMesh navmesh;
     navmesh.impl_->settings = settings;
     navmesh.impl_->mesh = std::move(mesh);
@@ -158,10 +159,9 @@ Result<NavMesh> NavMesh::BuildCached(const Scene& scene, const NavMeshSettings& 
     if (navmesh.impl_->Init() && !navmesh.impl_->triangles.empty()) return navmesh;
   }
   auto built = Build(scene, settings);
-  // A folder that cannot be written to only costs the next program the build time.
   if (built && !scene.folder.empty()) {
     const auto tiles = SaveTiles(*built->impl_->mesh, key);
-    (void)WriteFileAtomically(file, {reinterpret_cast<const char*>(tiles.data()), tiles.size()});
+    WriteCache(scene.folder, name, {reinterpret_cast<const char*>(tiles.data()), tiles.size()});
   }
   return built;
 }

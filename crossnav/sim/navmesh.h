@@ -82,7 +82,7 @@ class NavMesh {
   NavMesh(NavMesh&&) noexcept;
 
   static Result<NavMesh> Build(const Scene& scene, const NavMeshSettings& settings);
-  /// As Build, cached in `<folder>/<hash>.crossnav.navmesh`, keyed by a hash of mesh and settings.
+  /// As Build, cached as `<hash>.crossnav.navmesh` (scene_cache.h), a hash of mesh and settings.
   static Result<NavMesh> BuildCached(const Scene& scene, const NavMeshSettings& settings);
 
   const NavMeshSettings& settings() const;

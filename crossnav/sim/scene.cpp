@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <xxhash.h>
 
@@ -75,14 +76,16 @@ Result<SceneFiles> FindSceneFiles(const fs::path& folder) {
 Result<void> AddSemantics(const SceneFiles& files, const CategoryTable& categories, Scene& scene) {
   const auto text = ReadFile(files.text);
   if (!text) return tl::unexpected(text.error());
-  const auto lines = ParseSemanticText(*text, files.text.string());
+  const auto lines = ParseSemanticText(*text, files.text.string(), &scene.notes);
   if (!lines) return tl::unexpected(lines.error());
   auto semantic = ReadGlb(files.semantic, {.raw_vertex_colours = true});
   if (!semantic) return tl::unexpected(semantic.error());
   ToWorld(semantic->mesh);
   semantic->mesh.triangle_instance = InstancesByColour(*semantic, *lines);
   scene.mesh.triangle_instance = TransferInstances(semantic->mesh, scene.mesh, kMaxTransfer_m);
+  std::set<int> named;
   for (const SemanticLine& line : *lines) {
+    if (!named.insert(line.id).second) continue;
     const auto category = categories.find(line.name);
     scene.instances.push_back({line.id, line.name,
                                category == categories.end() ? "" : category->second, line.region,

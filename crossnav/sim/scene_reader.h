@@ -20,9 +20,10 @@ struct SemanticLine {
   int region = 0;
 };
 
-/// Parses a semantic text; errors name `where` and the line.
-Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text,
-                                                    const std::string& where);
+/// Parses a semantic text; errors name `where` and the line. An id or a colour that is used twice,
+/// as in some scenes of HM3D, is a note.
+Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text, const std::string& where,
+                                                    std::vector<std::string>* notes = nullptr);
 
 /// "raw name<TAB>category" lines. Errors name `where` and the line.
 Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::string& where);

@@ -41,10 +41,26 @@ const char* ParseSemanticLine(std::string_view line, SemanticLine& out) {
   return nullptr;
 }
 
+/// Ids and colours that were used before: one note for a file, however many there are.
+struct Repetitions {
+  int count = 0;
+  std::string first;
+
+  void Add(const std::string& at, const char* kind, int line_before) {
+    if (count++ == 0) {
+      first = at + ": " + kind + " is already used in line " + std::to_string(line_before);
+    }
+  }
+  std::string Text() const {
+    return first + (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : "") +
+           "; the first line with an id names it, the first with a colour has its surfaces";
+  }
+};
+
 }  // namespace
 
-Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text,
-                                                    const std::string& where) {
+Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text, const std::string& where,
+                                                    std::vector<std::string>* notes) {
   if (TakeLine(text).find("HM3D Semantic Annotations") == std::string_view::npos) {
     return Fail(ErrorCode::kMalformed, "the header \"HM3D Semantic Annotations\" is missing",
                 where + ", line 1");
@@ -52,6 +68,7 @@ Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text,
   std::vector<SemanticLine> lines;
   std::map<int, int> line_of_id;
   std::map<std::uint32_t, int> line_of_colour;
+  Repetitions again;
   for (int number = 2; !text.empty(); ++number) {
     const std::string_view line = TakeLine(text);
     if (line.empty()) continue;
@@ -60,16 +77,13 @@ Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text,
     if (const char* reason = ParseSemanticLine(line, parsed)) {
       return Fail(ErrorCode::kMalformed, reason, at);
     }
-    if (const auto [it, is_new] = line_of_id.emplace(parsed.id, number); !is_new) {
-      return Fail(ErrorCode::kMalformed,
-                  "instance id is already used in line " + std::to_string(it->second), at);
-    }
-    if (const auto [it, is_new] = line_of_colour.emplace(parsed.colour, number); !is_new) {
-      return Fail(ErrorCode::kMalformed,
-                  "colour is already used in line " + std::to_string(it->second), at);
-    }
+    const auto [id, is_new_id] = line_of_id.emplace(parsed.id, number);
+    const auto [colour, is_new_colour] = line_of_colour.emplace(parsed.colour, number);
+    if (!is_new_id) again.Add(at, "instance id", id->second);
+    if (!is_new_colour) again.Add(at, "colour", colour->second);
     lines.push_back(std::move(parsed));
   }
+  if (again.count > 0 && notes != nullptr) notes->push_back(again.Text());
   return lines;
 }
 

@@ -77,6 +77,24 @@ TEST_F(EvalCli, AnObjectNavFileIsJudgedAsTheFieldDoes) {
   EXPECT_EQ(Json::parse(header)["config"]["eval"]["success"], "viewpoint");
 }
 
+TEST_F(EvalCli, AnEpisodeThatStartsOffTheNavmeshIsInvalidAndNoFigureCountsIt) {
+  Json file = Episodes();
+  file["episodes"][0]["start_position"] = {500, 0, 500};
+  WriteText(At("e.json"), file.dump());
+  const Outcome outcome =
+      Run("eval --json --scenes scenes --episodes e.json --out run" + std::string(kSmall));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json document = Json::parse(outcome.out);
+  EXPECT_EQ(document["episodes"], 3);
+  EXPECT_EQ(document["invalid"], 1);
+  EXPECT_EQ(document["failed"], Json::object());
+  EXPECT_NE(outcome.err.find("failed (invalid)"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the start lies off the navmesh"), std::string::npos) << outcome.err;
+  const Outcome text = Run("metrics run/results.jsonl");
+  EXPECT_NE(text.out.find("invalid: 1 episodes"), std::string::npos) << text.out;
+  EXPECT_EQ(Run("report run --out report").exit_code, 0);
+}
+
 TEST_F(EvalCli, InterruptedEvalGoesOnAndGivesTheSameFile) {
   const std::string eval =
       std::string("eval --quiet --scenes scenes --episodes e.json --out run") + kSmall;

@@ -66,6 +66,41 @@ TEST_F(EpisodeGenerator, CountsPerStageOfTheFirstTransitionAreExact) {
   EXPECT_EQ(stages, (std::map<int, int>{{0, 4}, {1, 3}, {3, 2}}));
 }
 
+TEST_F(EpisodeGenerator, SceneBySceneNoMoreThanOneIsLoadedAndEveryCountIsMet) {
+  const std::vector<std::string> ids = {scene_id_, scene_id_, scene_id_};
+  int loads = 0;
+  const auto load = [&](const std::string& id) {
+    ++loads;
+    return SceneContext::Load(folder_->path(), id, test::SmallConfig());
+  };
+  const auto file = GenerateByScene(ids, load, test::SmallConfig(), {9, 0.9, 5, {3, 0, 2}});
+  ASSERT_TRUE(file) << file.error().Message();
+  std::map<int, int> stages;
+  std::set<std::string> different;
+  for (const Episode& episode : file->episodes) {
+    ++stages[episode.first_transition_stage];
+    different.insert(episode.episode_id);
+    EXPECT_TRUE(CheckCertificate(*context_, episode, test::SmallConfig()).empty());
+  }
+  EXPECT_EQ(stages, (std::map<int, int>{{0, 4}, {1, 3}, {3, 2}}));
+  EXPECT_EQ(different.size(), 9u);
+  EXPECT_EQ(loads, 3);
+  EXPECT_FALSE(file->goals_by_category.empty());
+}
+
+TEST_F(EpisodeGenerator, SceneBySceneWhatOneCannotGiveIsAskedOfAllOnceMore) {
+  const std::vector<std::string> ids = {scene_id_};
+  int loads = 0;
+  const auto load = [&](const std::string& id) {
+    ++loads;
+    return SceneContext::Load(folder_->path(), id, test::SmallConfig());
+  };
+  RunConfig config = test::SmallConfig();
+  config.dataset.min_first_goal_m = 1000;
+  EXPECT_FALSE(GenerateByScene(ids, load, config, {2, 0, 5}).has_value());
+  EXPECT_EQ(loads, 2);
+}
+
 TEST_F(EpisodeGenerator, CrossFloorFollowsFromFloorsAlone) {
   const auto file = Generate(8, 0.5, 6);
   ASSERT_TRUE(file) << file.error().Message();

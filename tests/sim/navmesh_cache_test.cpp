@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "crossnav/sim/navmesh.h"
@@ -50,6 +51,24 @@ TEST(NavMeshCache, OtherSettingsOrAnotherMeshHaveAnotherFile) {
   scene.mesh_hash += 1;
   (void)NavMesh::BuildCached(scene, {});
   EXPECT_EQ(CachesIn(temp.path()).size(), 3U);
+}
+
+TEST(NavMeshCache, AFolderThatCannotBeWrittenToHasItsCacheElsewhere) {
+  const TempFolder temp, cache;
+  const char* before = std::getenv("XDG_CACHE_HOME");
+  const std::string old = before == nullptr ? "" : before;
+  ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+  Scene scene = TwoFloors();
+  scene.folder = temp.path() / "file";  // not even the administrator can write below a file
+  std::ofstream(scene.folder) << "x";
+  const auto built = NavMesh::BuildCached(scene, {});
+  ASSERT_TRUE(built.has_value());
+  const auto files = CachesIn(cache.path() / "crossnav" / "scenes");
+  ASSERT_EQ(files.size(), 1U);
+  const auto written = fs::last_write_time(files[0]);
+  EXPECT_EQ(NavMesh::BuildCached(scene, {})->Hash(), built->Hash());
+  EXPECT_EQ(fs::last_write_time(files[0]), written);
+  before == nullptr ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", old.c_str(), 1);
 }
 
 TEST(NavMeshCache, DamagedFilesAreBuiltAnew) {

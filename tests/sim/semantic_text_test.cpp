@@ -46,10 +46,20 @@ TEST(SemanticText, MalformedLinesAreNamedByFileAndLine) {
             "x.semantic.txt, line 3: the region is not a number");
   EXPECT_EQ(ErrorOf(good + "2,1F3D87\n"),
             "x.semantic.txt, line 3: expected id,HEXRGB,\"name\",region");
-  EXPECT_EQ(ErrorOf(good + "1,1F3D87,\"door\",0\n"),
-            "x.semantic.txt, line 3: instance id is already used in line 2");
-  EXPECT_EQ(ErrorOf(good + "2,593A3A,\"door\",0\n"),
-            "x.semantic.txt, line 3: colour is already used in line 2");
+}
+
+TEST(SemanticText, IdsAndColoursThatAreUsedTwiceAreANote) {
+  const std::string text = std::string(kHeader) +
+                           "1,593A3A,\"wall\",0\n1,1F3D87,\"door\",0\n"
+                           "2,593A3A,\"bed\",0\n3,0000FF,\"rug\",0\n";
+  std::vector<std::string> notes;
+  const auto lines = ParseSemanticText(text, "x.semantic.txt", &notes);
+  ASSERT_TRUE(lines.has_value()) << lines.error().Message();
+  EXPECT_EQ(lines->size(), 4U);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0],
+            "x.semantic.txt, line 3: instance id is already used in line 2 (and 1 more); the first "
+            "line with an id names it, the first with a colour has its surfaces");
 }
 
 TEST(CategoryTable, BuiltInNamesAreExactNeverSubstrings) {
