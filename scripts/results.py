@@ -5,7 +5,8 @@
   scripts/results.py SUITE [--jobs N] [--out FILE] [EVAL OPTION...]
 
 e.g. scripts/results.py crossnav-mfmon-1-val-pack --jobs 2. What was run before is not run again:
-a run that was cut off goes on. CROSSNAV names the program.
+a run that was cut off goes on. A suite with tracks gets a section for each track, and no pooled
+figure (--homes and --buildings as for `suite run`). CROSSNAV names the program.
 """
 
 import argparse
@@ -71,38 +72,46 @@ def paper_tables(report: str, methods: tuple) -> list:
     return lines
 
 
-def page(suite: str, options: list, runs: dict, comparisons: list, papers: list,
-         commit: str) -> str:
+def section(runs: dict, comparisons: list, papers: list, depth: int) -> list:
+    """Tables of a suite or of one track; `runs`: documents of `metrics` by variant."""
     any_run = next(iter(runs.values()))
     required = any_run["groups"]["cfr"]["episodes"]
-    command = " ".join(["scripts/results.py", suite, *options])
-    lines = [
-        "# Results", "",
-        f"The suite `{suite}`: {any_run['episodes']} episodes of {any_run['goals']} goals, "
-        f"{required} of which require a floor change. Values in percent, with 95 % intervals by "
-        f"bootstrap over episodes. Ground-truth perception. Measured at `{commit}`, written by", "",
-        f"```\n{command}\n```", ""]
-    if any_run["episodes"] < 100:
-        lines += ["Fewer than a hundred episodes are an anecdote: read the intervals.", ""]
+    lines = [f"{any_run['episodes']} episodes of {any_run['goals']} goals, {required} of which "
+             "require a floor change.", ""]
     names = ("SR", "SPL", "PR", "PPL")
     lines += table("variant", names, [row(f"`{v}`", r["metrics"], names) for v, r in runs.items()])
-    lines += ["Episodes that require a floor change:", ""]
-    lines += table("variant", names, [row(f"`{v}`", r["groups"]["cfr"]["metrics"], names)
-                                      for v, r in runs.items()])
+    if required:
+        lines += ["Episodes that require a floor change:", ""]
+        lines += table("variant", names, [row(f"`{v}`", r["groups"]["cfr"]["metrics"], names)
+                                          for v, r in runs.items()])
     goals = range(1, any_run["goals"] + 1)
-    lines += ["By goal, of the episodes that reached it:", ""]
+    lines += ["By stage, of those that reached it:", ""]
     names = tuple(f"{m}_cond_{k}" for m in ("SR", "SPL") for k in goals)
     lines += table("variant", names, [row(f"`{v}`", r["metrics"], names) for v, r in runs.items()])
     lines += ["Pairwise, episode by episode, resampled by house; positive where the second is "
-              "better:", ""]
-    for comparison in comparisons:
-        pair = f"`{comparison['before']}` to `{comparison['after']}`"
-        differences = comparison["differences"]
-        shown = [f"{n} {percent(differences[n], 'difference')}" for n in ("SR", "SPL")]
-        lines.append(f"- {pair}: " + ", ".join(shown))
-    lines += ["", "## The paper's tables", "",
-              "Its methods on this suite, and its own figures, which were taken on HM3D with "
-              "networks and are no target.", "", *papers]
+              "better:", "", *map(comparison_line, comparisons)]
+    return lines + ["", "#" * depth + " The paper's tables", "",
+                    "Its methods on these episodes, and its own figures, which were taken on HM3D "
+                    "with networks and are no target.", "", *papers]
+
+
+def comparison_line(comparison: dict) -> str:
+    differences = comparison["differences"]
+    shown = [f"{n} {percent(differences[n], 'difference')}" for n in ("SR", "SPL")]
+    return f"- `{comparison['before']}` to `{comparison['after']}`: " + ", ".join(shown)
+
+
+def page(suite: str, options: list, tracks: dict, commit: str) -> str:
+    """`tracks`: (runs, comparisons, papers) by track, "" for a suite without tracks."""
+    command = " ".join(["scripts/results.py", suite, *options])
+    lines = [
+        "# Results", "",
+        f"The suite `{suite}`. Values in percent, with 95 % intervals by bootstrap over episodes. "
+        f"Ground-truth perception. Measured at `{commit}`, written by", "",
+        f"```\n{command}\n```", ""]
+    for name, measured in tracks.items():
+        lines += [*([f"## Track {name}", ""] if name else []),
+                  *section(*measured, depth=3 if name else 2), ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -112,12 +121,24 @@ def report_of(folders: list, place: Path) -> dict:
                                "--quiet"))
 
 
-def run_suite(suite: str, place: Path, jobs: str, options: list) -> tuple:
-    """(metrics by variant, comparisons)"""
+def run_suite(suite: str, jobs: str, options: list) -> None:
+    for variant in (*reversed(OURS), *reversed(METHODS)):
+        crossnav("suite", "run", suite, "--variant", variant, "--jobs", jobs, *options)
+
+
+def tracks_of(place: Path) -> dict:
+    """Folders of the tracks that `suite run` made, by name; the suite's own where it has none."""
+    if (place / "manifest.json").exists():
+        return {"": place}
+    manifests = sorted(place.glob("*/manifest.json"))
+    return {manifest.parent.name: manifest.parent for manifest in manifests} or {"": place}
+
+
+def measured(place: Path) -> tuple:
+    """(metrics by variant, comparisons) of a track's folder."""
     runs, comparisons = {}, []
     for variants in (OURS, METHODS):
         for variant in reversed(variants):
-            crossnav("suite", "run", suite, "--variant", variant, "--jobs", jobs, *options)
             folder = place / "runs" / variant
             runs[variant] = json.loads(crossnav("metrics", str(folder / "results.jsonl"), "--json",
                                                 "--quiet"))
@@ -150,13 +171,16 @@ def main() -> None:
     parser.add_argument("--commit", default=head(), help="which CROSSNAV is of, if not HEAD")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results.md")
     args, options = parser.parse_known_args()
-    place = Path("out/suites") / args.suite
-    runs, comparisons = run_suite(args.suite, place, str(args.jobs), options)
-    report_of([place / "runs" / method for method in METHODS], place / "paper")
-    papers = paper_tables((place / "paper/report.md").read_text(encoding="utf-8"), METHODS)
-    papers += run_single(place, runs["full"]["episodes"], str(args.jobs), options)
-    args.out.write_text(page(args.suite, options, runs, comparisons, papers, args.commit),
-                        encoding="utf-8")
+    suite = Path("out/suites") / args.suite
+    run_suite(args.suite, str(args.jobs), options)
+    tracks = {}
+    for name, place in tracks_of(suite).items():
+        runs, comparisons = measured(place)
+        report_of([place / "runs" / method for method in METHODS], place / "paper")
+        papers = paper_tables((place / "paper/report.md").read_text(encoding="utf-8"), METHODS)
+        papers += run_single(place, runs["full"]["episodes"], str(args.jobs), options)
+        tracks[name] = runs, comparisons, papers
+    args.out.write_text(page(args.suite, options, tracks, args.commit), encoding="utf-8")
     print(args.out)
 
 

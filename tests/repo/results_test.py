@@ -4,6 +4,7 @@
 program, which logs its calls and answers with canned figures."""
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -17,6 +18,11 @@ with open("calls.txt", "a") as log:
     log.write(" ".join(words) + "\\n")
 figure = dict(value=.5, low=.4, high=.6)
 metrics = dict(SR=figure, SPL=figure, PR=figure, PPL=figure)
+if words[:2] == ["suite", "run"] and "tracks" in words[2]:
+    for name in ("bim", "drawn"):
+        place = pathlib.Path("out/suites") / words[2] / name
+        place.mkdir(parents=True, exist_ok=True)
+        (place / "manifest.json").write_text("{}")
 if words[0] == "metrics":
     print(json.dumps(dict(episodes=24, goals=3, metrics=metrics,
                           groups=dict(cfr=dict(episodes=8, metrics=metrics)))))
@@ -37,18 +43,33 @@ if words[0] == "report":
 '''
 
 
+def run(root: pathlib.Path, suite: str):
+    """(calls, page) of scripts/results.py for `suite`."""
+    program = root / "crossnav"
+    program.write_text(PROGRAM.replace("{python}", sys.executable))
+    program.chmod(0o755)
+    subprocess.run([sys.executable, str(SCRIPT), suite, "--jobs", "3", "--commit", "abc",
+                    "--out", "page.md", "--set", "a=1"], cwd=root, check=True,
+                   env={**os.environ, "CROSSNAV": str(program)}, capture_output=True)
+    return (root / "calls.txt").read_text(), (root / "page.md").read_text()
+
+
 class Results(unittest.TestCase):
+    def test_each_track_has_a_section_and_no_figure_is_pooled(self):
+        with tempfile.TemporaryDirectory() as folder:
+            calls, page = run(pathlib.Path(folder), "suite-tracks")
+        head, bim, drawn = re.split("\n## Track (?:bim|drawn)\n", page)
+        self.assertNotIn("SR", head)
+        for name, part in (("bim", bim), ("drawn", drawn)):
+            self.assertIn("| `full` | 50.0", part)
+            self.assertIn("### The paper's tables", part)
+            self.assertIn(f"metrics out/suites/suite-tracks/{name}/runs/full/results.jsonl", calls)
+            self.assertIn(f"--scenes out/suites/suite-tracks/{name}/scenes", calls)
+        self.assertEqual(calls.count("suite run"), 7)
+
     def test_every_row_of_every_table_is_run_and_written(self):
         with tempfile.TemporaryDirectory() as folder:
-            root = pathlib.Path(folder)
-            program = root / "crossnav"
-            program.write_text(PROGRAM.replace("{python}", sys.executable))
-            program.chmod(0o755)
-            subprocess.run([sys.executable, str(SCRIPT), "suite-x", "--jobs", "3", "--commit", "abc",
-                            "--out", "page.md", "--set", "a=1"], cwd=root, check=True,
-                           env={**os.environ, "CROSSNAV": str(program)}, capture_output=True)
-            calls = (root / "calls.txt").read_text()
-            page = (root / "page.md").read_text()
+            calls, page = run(pathlib.Path(folder), "suite-x")
         for variant in ("full", "no-history-poi", "no-history-poi-pure", "planar", "onemap",
                         "paper-no-history-poi", "paper"):
             self.assertIn(f"suite run suite-x --variant {variant} --jobs 3 --set a=1\n", calls)

@@ -93,8 +93,32 @@ def _per_cent(row: dict[str, Any]) -> str:
     return text
 
 
+def _tracks(report: Report, run: str) -> list[str]:
+    """Tracks of a run that has several; a run of one has it in its name."""
+    groups = report.figures[report.figures.run == run].group.unique()
+    tracks = [group for group in groups if group.startswith("track:") and group.count(":") == 1]
+    return tracks if len(tracks) > 1 else []
+
+
+def _track_card(report: Report, run: dict[str, Any], tracks: list[str]) -> str:
+    """A card that pools nothing."""
+    big = ""
+    for track in tracks:
+        for label, group, metric in (("SR", track, "SR"), ("SPL", track, "SPL"),
+                                     ("SR, floor change", track + ":cfr", "SR")):
+            row = report.figure(run["name"], group, metric)
+            value = "-" if math.isnan(row["value"]) else f"{100 * row['value']:.1f} %"
+            big += (f"<span>{_text(track[len('track:'):])}: {label}<b>{value}</b>"
+                    f"n = {row['episodes']}</span>")
+    return (f'<div class="card"><h3>{_text(run["name"])}</h3><div class="big">{big}</div>'
+            f"<small>variant {_text(run['variant'] or 'unknown')}; plots and figures of this run "
+            f"pool its tracks</small></div>")
+
+
 def _card(report: Report, run: dict[str, Any]) -> str:
     name = run["name"]
+    if tracks := _tracks(report, name):
+        return _track_card(report, run, tracks)
     big = ""
     for label, group, metric in (("SR", "all", "SR"), ("SPL", "all", "SPL"),
                                  ("SR, floor change", "cfr", "SR")):
@@ -131,7 +155,8 @@ def _figure_table(report: Report) -> str:
                 cells += f'<td class="n">{_per_cent(row)}</td>'
                 paper = "" if math.isnan(row["paper"]) else f"{100 * row['paper']:.1f}"
                 cells += f'<td class="n">{paper}</td>' * bool(has_paper[group])
-            rows += f"<tr><td>{_text(run['name'])}</td><td>{metric}</td>{cells}</tr>"
+            pooled = " (tracks pooled)" if _tracks(report, run["name"]) else ""
+            rows += f"<tr><td>{_text(run['name'] + pooled)}</td><td>{metric}</td>{cells}</tr>"
     return (f'<div class="scroll"><table><thead><tr><th>run</th><th>figure [%]</th>{head}</tr>'
             f"</thead><tbody>{rows}</tbody></table></div>")
 
