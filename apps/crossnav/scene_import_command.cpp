@@ -69,6 +69,41 @@ bool IsIfc(const std::string& input) {
   return ending == ".ifc";
 }
 
+/// What is told of an import: log lines, text, document.
+Json Told(const homes::ImportReport& report) {
+  Json log = Json::array();
+  for (const std::string& note : report.notes) log.push_back(report.scene_id + ": " + note);
+  for (const homes::Storey& storey : report.storeys) {
+    if (storey.is_reached) continue;
+    log.push_back(fmt::format(
+        "{}: warning: no way leads to '{}' at {:.2f} m; look at its staircase and doors",
+        report.scene_id, storey.name, storey.floor_m));
+  }
+  return {{"log", std::move(log)}, {"text", ReportText(report)}, {"document", ReportJson(report)}};
+}
+
+Result<Json> Import(const homes::ImportOptions& import) {
+  const auto report = homes::ImportScene(import);
+  if (!report) return tl::unexpected(report.error());
+  return Told(*report);
+}
+
+/// As Import, in a process that ends when the limit is reached. Names need not be UTF-8.
+Result<Json> ImportIfc(homes::ImportOptions import, int seconds) {
+  const IfcLimit limit{seconds};
+  const std::string file = import.input.string();
+  auto building = ReadIfc(file, limit);
+  if (!building) return tl::unexpected(building.error());
+  import.building = std::move(*building);
+  const auto told = RunBefore(limit.deadline, TooLate(file, limit), [&]() -> Result<std::string> {
+    const auto done = Import(import);
+    if (!done) return tl::unexpected(done.error());
+    return done->dump(-1, ' ', false, Json::error_handler_t::replace);
+  });
+  if (!told) return tl::unexpected(told.error());
+  return Json::parse(*told);
+}
+
 }  // namespace
 
 Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
@@ -91,22 +126,12 @@ Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions&
     import.furnish = options.furnish;
     import.pack = pack ? &*pack : nullptr;
   }
-  if (IsIfc(options.input)) {
-    auto building = ReadIfc(options.input, options.seconds);
-    if (!building) return tl::unexpected(building.error());
-    import.building = std::move(*building);
-  }
-  const auto report = homes::ImportScene(import);
-  if (!report) return tl::unexpected(report.error());
-  for (const std::string& note : report->notes) console.Log(report->scene_id + ": " + note);
-  for (const homes::Storey& storey : report->storeys) {
-    if (storey.is_reached) continue;
-    console.Log(fmt::format(
-        "{}: warning: no way leads to '{}' at {:.2f} m; look at its staircase and doors",
-        report->scene_id, storey.name, storey.floor_m));
-  }
-  console.Print(ReportText(*report));
-  console.Document(ReportJson(*report));
+  const auto told =
+      IsIfc(options.input) ? ImportIfc(std::move(import), options.seconds) : Import(import);
+  if (!told) return tl::unexpected(told.error());
+  for (const Json& line : (*told)["log"]) console.Log(line.get<std::string>());
+  console.Print((*told)["text"].get<std::string>());
+  console.Document((*told)["document"]);
   return {};
 }
 

@@ -150,8 +150,9 @@ void AddScene(CLI::App& app, Options& o) {
                    "assets import made, where there is one")
       ->type_name("DIR|none");
   import
-      ->add_option("--seconds", o.scene_import.seconds,
-                   "Processor time that reading an .ifc may take")
+      ->add_option(
+          "--seconds", o.scene_import.seconds,
+          "Most seconds that importing an .ifc may take, by the clock and of processor time")
       ->check(CLI::Range(1, 86400));
 }
 

@@ -122,6 +122,98 @@ TEST_F(IfcCli, DamagedHugeAndHostileFilesAreRefusedInOneLine) {
   ExpectRefused("bomb.ifc", SmallIfc(bomb));
 }
 
+/// A reader that is none: prints `text`, then waits.
+std::string FakeReader(const fs::path& folder, const std::string& text, int waits_s) {
+  WriteText(folder / "answer", text);
+  const fs::path script = folder / "reader.sh";
+  WriteText(script, "#!/bin/sh\ncat '" + (folder / "answer").string() + "'\nexec sleep " +
+                        std::to_string(waits_s) + "\n");
+  fs::permissions(script, fs::perms::owner_all);
+  return "CROSSNAV_PYTHON='" + script.string() + "'";
+}
+
+/// Storeys that a hundred staircases join, of which each has to be tried.
+std::string ManyStaircases() {
+  Json building = {{"format", 1}, {"schema", "IFC4"}, {"notes", Json::array()}};
+  Json storeys = Json::array(), spaces = Json::array(), elements = Json::array();
+  for (int k = 0; k < 11; ++k) {
+    const double z = 3.0 * k;
+    storeys.push_back({{"name", "s"}, {"floor_m", z}});
+    spaces.push_back({{"names", {"hall"}},
+                      {"storey", k},
+                      {"floor_m", z},
+                      {"height_m", 2.7},
+                      {"outside", false},
+                      {"outline", Json::parse("[[0,0],[60,0],[60,40],[0,40]]")}});
+    for (int i = 0; i < 10 && k < 10; ++i) {
+      const double x = 3.0 + 5 * i, y = 5;
+      elements.push_back(
+          {{"kind", "stairs"},
+           {"names", {"stair"}},
+           {"storey", k},
+           {"axis", {1, 0}},
+           {"vertices", {x, y, z, x + 1, y, z, x + 1, y + 4, z + 3, x, y + 4, z + 3}},
+           {"triangles", {0, 1, 2, 0, 2, 3}},
+           {"colours", -1}});
+    }
+  }
+  building["storeys"] = storeys;
+  building["colours"] = Json::array();
+  building["spaces"] = spaces;
+  building["elements"] = elements;
+  return building.dump();
+}
+
+TEST_F(IfcCli, AnImportEndsAtItsLimitByTheClockWhateverTakesLong) {
+  WriteText(At("a.ifc"), SmallIfc());
+  const std::pair<std::string, int> readers[] = {{"", 60}, {ManyStaircases(), 0}};
+  for (const auto& [text, waits_s] : readers) {
+    const std::string before = FakeReader(folder_.path(), text, waits_s);
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome outcome = RunIn(folder_, "scene import a.ifc --out none --seconds 2", before);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+    EXPECT_NE(outcome.err.find("takes more than 2 s"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_LT(took.count(), 6);
+    EXPECT_FALSE(fs::exists(At("none")));
+  }
+}
+
+TEST_F(IfcCli, AFileCutAnywhereIsRefusedInOneLineOrReadAsFarAsItGoes) {
+  if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
+  const std::string whole = SmallIfc(), end = "\nENDSEC;\nEND-ISO-10303-21;\n";
+  constexpr std::size_t kCuts = 5;
+  for (std::size_t i = 1; i <= kCuts; ++i) {
+    const std::string cut = whole.substr(0, i * whole.size() / (kCuts + 1));
+    ExpectRefused("cut.ifc", cut);
+    WriteText(At("ended.ifc"), cut + end);
+    const Outcome outcome = Run("scene import ended.ifc --out ended");
+    EXPECT_LE(outcome.exit_code, 1) << outcome.err;
+    if (outcome.exit_code == 0) continue;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(At("ended"))) << i;
+  }
+}
+
+TEST_F(IfcCli, TheSameFileAndSeedGiveTheSameBytes) {
+  if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
+  WriteText(At("a.ifc"), SmallIfc());
+  for (const char* out : {"one", "two"}) {
+    const Outcome done =
+        Run(std::string("scene import a.ifc --furnish 3 --furniture none --out ") + out);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  }
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(At("one"))) {
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    const fs::path same = At("two") / fs::relative(entry.path(), At("one"));
+    EXPECT_EQ(ReadText(entry.path()), ReadText(same)) << same;
+  }
+  EXPECT_GE(files, 4);
+}
+
 TEST_F(IfcCli, TheDuplexHasTwoStoreysThatItsStairsJoin) {
   if (!fs::exists(kDuplex)) GTEST_SKIP() << "no " << kDuplex;
   if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
