@@ -78,6 +78,8 @@ def section(runs: dict, comparisons: list, papers: list, depth: int) -> list:
     required = any_run["groups"]["cfr"]["episodes"]
     lines = [f"{any_run['episodes']} episodes of {any_run['goals']} goals, {required} of which "
              "require a floor change.", ""]
+    if any_run["episodes"] < 100:
+        lines += ["Fewer than a hundred episodes are an anecdote: read the intervals.", ""]
     names = ("SR", "SPL", "PR", "PPL")
     lines += table("variant", names, [row(f"`{v}`", r["metrics"], names) for v, r in runs.items()])
     if required:
@@ -85,14 +87,15 @@ def section(runs: dict, comparisons: list, papers: list, depth: int) -> list:
         lines += table("variant", names, [row(f"`{v}`", r["groups"]["cfr"]["metrics"], names)
                                           for v, r in runs.items()])
     goals = range(1, any_run["goals"] + 1)
-    lines += ["By stage, of those that reached it:", ""]
+    lines += ["By goal, of the episodes that reached it:", ""]
     names = tuple(f"{m}_cond_{k}" for m in ("SR", "SPL") for k in goals)
     lines += table("variant", names, [row(f"`{v}`", r["metrics"], names) for v, r in runs.items()])
     lines += ["Pairwise, episode by episode, resampled by house; positive where the second is "
               "better:", "", *map(comparison_line, comparisons)]
     return lines + ["", "#" * depth + " The paper's tables", "",
                     "Its methods on these episodes, and its own figures, which were taken on HM3D "
-                    "with networks and are no target.", "", *papers]
+                    "with networks and are no target.", "",
+                    *(line.replace("### ", "#" * (depth + 1) + " ", 1) for line in papers)]
 
 
 def comparison_line(comparison: dict) -> str:
