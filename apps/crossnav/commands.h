@@ -24,9 +24,11 @@ struct CommonOptions {
   std::vector<std::string> overrides;  ///< key=value
 };
 
-/// The paper's defaults, then the file, then the variant, then the overrides.
+/// The paper's defaults, then the file, then the variant, then the overrides. `warnings` gets a
+/// line for each old key of a renamed setting; main() prints them once for every verb.
 Result<bench::RunConfig> LoadConfig(const CommonOptions& options,
-                                    const std::string& variant = "full");
+                                    const std::string& variant = "full",
+                                    std::vector<std::string>* warnings = nullptr);
 
 struct WorldOptions {
   std::uint64_t seed = 1;

@@ -4,8 +4,9 @@
 
 namespace crossnav::app {
 
-Result<bench::RunConfig> LoadConfig(const CommonOptions& options, const std::string& variant) {
-  return bench::ReadConfig({options.config_file, variant, options.overrides});
+Result<bench::RunConfig> LoadConfig(const CommonOptions& options, const std::string& variant,
+                                    std::vector<std::string>* warnings) {
+  return bench::ReadConfig({options.config_file, variant, options.overrides}, warnings);
 }
 
 }  // namespace crossnav::app

@@ -79,7 +79,9 @@ int Main(int argc, char** argv) {
   }
   Console console(options.common.json, options.common.quiet);
   // Not all verbs have use for settings, but none takes wrong ones.
-  const auto config = LoadConfig(options.common);
+  std::vector<std::string> warnings;
+  const auto config = LoadConfig(options.common, "full", &warnings);
+  for (const std::string& warning : warnings) console.Log("crossnav: warning: " + warning);
   auto ok = config ? options.command(console) : Result<void>(tl::unexpected(config.error()));
   if (ok) ok = console.CheckPrinted();
   console.EndProgress();

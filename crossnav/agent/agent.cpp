@@ -163,7 +163,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   for (const geometry::StairFlight& flight : world.flights) {
     if (!flight.IsWalked()) continue;
     for (std::size_t i = 1; i < flight.steps_world.size(); ++i)
-      world.ground.NoteWay(flight.steps_world[i - 1], flight.steps_world[i]);
+      world.ground.NoteStep(flight.steps_world[i - 1], flight.steps_world[i]);
     for (const Vector3d& p_end : {flight.p_foot_world, flight.p_top_world})
       world.levels_m.push_back(p_end.z());
   }
@@ -206,7 +206,7 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   clock.Stop("integrate");
   world.UpdateStates();
   if (world.full.before_forward)
-    world.ground.NoteWay(world.full.before_forward->p_world, agent.p_world);
+    world.ground.NoteStep(world.full.before_forward->p_world, agent.p_world);
   if (config.policy.profile == "full")
     for (const auto& key : world.full.unanswered.Look(obs, agent.p_world, world.map))
       world.ground.NoteUnanswered(key);

@@ -24,7 +24,7 @@ ExplorationPrices::ExplorationPrices(const Situation& now, const policy::Relevan
     : now_(now),
       config_(now.config.policy.explore),
       relevancy_(relevancy),
-      floor_prior_m_(config_.storey_bit_m * policy::UpperStoreyBits(now.goal.goal)) {}
+      floor_prior_m_(config_.floor_prior_m_per_bit * policy::UpperStoreyBits(now.goal.goal)) {}
 
 PricedCandidate ExplorationPrices::Of(ExplorationCandidate found, std::vector<VoxelKey> path,
                                       double path_m) {
@@ -46,27 +46,27 @@ PricedCandidate ExplorationPrices::Of(ExplorationCandidate found, std::vector<Vo
 
 ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& found,
                                                     double path_m) {
-  const double level_m = found.is_on_level ? 0 : config_.elsewhere_m;
+  const double level_m = found.is_on_level ? 0 : config_.other_floor_penalty_m;
   switch (found.type) {
     case ExplorationClass::kFlight:
       return {FlightPrice(RiseOf(now_, found.place)) + Doubt(found.candidate)};
     case ExplorationClass::kUninspected:
       return {config_.uninspected_m + level_m};
     case ExplorationClass::kHint:
-      return {config_.sighting_m};
+      return {config_.hint_bonus_m};
     case ExplorationClass::kHintFromAfar:
-      return {config_.sighting_m + kFromAfar_m};
+      return {config_.hint_bonus_m + kFromAfar_m};
     case ExplorationClass::kFrontier:
       break;
   }
   const bool is_small = found.candidate.size < config_.min_cluster;
-  Terms terms{level_m + (is_small ? config_.crumb_m : 0) + Doubt(found.candidate),
+  Terms terms{level_m + (is_small ? config_.small_frontier_penalty_m : 0) + Doubt(found.candidate),
               policy::FrontierWorth(now_.world.ground, found.place, relevancy_, config_)};
   // A frontier on the straight line to a hint may be priced by that line.
   const double rest_m = path_m + config_.start_m;
   if (found.to_hint_m &&
-      *found.to_hint_m + config_.sighting_m < terms.class_m + rest_m * (1 / terms.worth - 1))
-    terms = {*found.to_hint_m + config_.sighting_m, 1};
+      *found.to_hint_m + config_.hint_bonus_m < terms.class_m + rest_m * (1 / terms.worth - 1))
+    terms = {*found.to_hint_m + config_.hint_bonus_m, 1};
   return terms;
 }
 
@@ -87,9 +87,9 @@ double ExplorationPrices::FlightPrice(double rise_m) {
   if (std::abs(rise_m) < now_.config.map.voxel_m) return 0;  // first edge: direction not seen yet
   if (rise_m < 0) {
     has_found_descent_ = has_found_descent_ || !HasDescent();
-    return config_.elsewhere_m + floor_prior_m_;
+    return config_.other_floor_penalty_m + floor_prior_m_;
   }
-  return config_.elsewhere_m - (HasDescent() ? 0 : floor_prior_m_);
+  return config_.other_floor_penalty_m - (HasDescent() ? 0 : floor_prior_m_);
 }
 
 bool ExplorationPrices::HasDescent() const {
@@ -140,18 +140,20 @@ void ExplorationPrices::RaiseFlightsPastFloors(std::vector<PricedCandidate>* all
              std::abs(floor.rise_m) < std::abs(flight.rise_m) - now_.config.map.voxel_m;
     });
     if (!is_past) continue;
-    flight.target.score_m += config_.elsewhere_m + flight.spared_m;
+    flight.target.score_m += config_.other_floor_penalty_m + flight.spared_m;
     flight.target.candidate.score = -flight.target.score_m;
   }
 }
 
 double ExplorationPrices::LargestDiscount() const {
-  return std::min({0.0, config_.sighting_m, config_.elsewhere_m - std::abs(floor_prior_m_)}) -
+  return std::min({0.0, config_.hint_bonus_m,
+                   config_.other_floor_penalty_m - std::abs(floor_prior_m_)}) -
          config_.commit_m;
 }
 
 double ExplorationPrices::UpperBound(const PricedCandidate& priced) const {
-  return priced.target.score_m + (priced.is_flight ? config_.elsewhere_m + priced.spared_m : 0);
+  return priced.target.score_m +
+         (priced.is_flight ? config_.other_floor_penalty_m + priced.spared_m : 0);
 }
 
 }  // namespace crossnav::agent

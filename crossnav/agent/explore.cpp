@@ -69,7 +69,7 @@ std::optional<policy::Relevancy> FreshRelevancy(const Situation& now) {
   const auto& explore = now.config.policy.explore;
   const FullGoal& goal = now.goal.full;
   const bool is_stale =
-      goal.relevancy_step < 0 || now.world.step - goal.relevancy_step >= explore.resemblance_steps;
+      goal.relevancy_step < 0 || now.world.step - goal.relevancy_step >= explore.relevancy_steps;
   if (explore.scoring != "semantic" || !is_stale) return std::nullopt;
   policy::Relevancy fresh;
   fresh.Refresh(now.world.memory, now.world.memory.Similarity(now.goal.text));

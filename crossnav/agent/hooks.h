@@ -14,8 +14,8 @@ namespace crossnav::agent {
 /// A place that could be looked at next.
 struct ExplorationOption {
   policy::Candidate candidate;
-  double way_m = 0;    ///< to it; the turns before the first step count as metres
-  double score_m = 0;  ///< the policy's own: the way, and what the candidate's class adds
+  double path_m = 0;   ///< to it; the turns before the first step count as metres
+  double score_m = 0;  ///< price of the policy: path_m plus the price of the class
 };
 
 /// A claim that this frame makes about an object of the goal.

@@ -9,22 +9,22 @@
 
 namespace crossnav::agent {
 
-std::optional<ViewWay> WayToView(const geometry::VoxelMap& map, const geometry::VoxelKey& start,
-                                 const std::vector<geometry::VoxelKey>& voxels,
-                                 const planner::GraphRules& rules, const Config& config) {
+std::optional<ViewPath> PathToView(const geometry::VoxelMap& map, const geometry::VoxelKey& start,
+                                   const std::vector<geometry::VoxelKey>& voxels,
+                                   const planner::GraphRules& rules, const Config& config) {
   const auto& approach = config.policy.approach;
   for (const double range_m : {approach.range_m, 2 * approach.range_m}) {
-    ViewWay way;
-    way.standing =
+    ViewPath view;
+    view.standing =
         policy::Viewpoints(map, voxels, range_m, approach, config.sensor.camera_height_m);
-    if (way.standing.empty()) continue;
-    way.rules = rules;
-    way.plan = planner::FindPath(map, start, way.standing, way.rules, config.planner);
-    if (!way.plan.found()) {
-      way.rules.allow_inflated = true;
-      way.plan = planner::FindPath(map, start, way.standing, way.rules, config.planner);
+    if (view.standing.empty()) continue;
+    view.rules = rules;
+    view.plan = planner::FindPath(map, start, view.standing, view.rules, config.planner);
+    if (!view.plan.found()) {
+      view.rules.allow_inflated = true;
+      view.plan = planner::FindPath(map, start, view.standing, view.rules, config.planner);
     }
-    if (way.plan.found()) return way;
+    if (view.plan.found()) return view;
   }
   return std::nullopt;
 }
@@ -37,18 +37,18 @@ std::optional<ObservationPlace> FindObservationPlace(const geometry::VoxelMap& m
   if (!start) return std::nullopt;
   planner::GraphRules rules;
   rules.start_reach_vox = kBlindRing_vox;
-  const auto way = WayToView(map, *start, cluster.voxels, rules, config);
-  if (!way) return std::nullopt;
+  const auto view = PathToView(map, *start, cluster.voxels, rules, config);
+  if (!view) return std::nullopt;
   const double voxel_m = map.config().voxel_m;
   ObservationPlace place;
-  place.p_foot_world = CenterOf(way->plan.path.back(), voxel_m);
+  place.p_foot_world = CenterOf(view->plan.path.back(), voxel_m);
   // The voxel is one of the air above what carries the foot.
-  if (const auto support = planner::SupportZ(map, way->plan.path.back()))
+  if (const auto support = planner::SupportZ(map, view->plan.path.back()))
     place.p_foot_world.z() = (*support + 0.5) * voxel_m;
   const Vector3d to_center = cluster.p_center_world - place.p_foot_world;
   place.yaw_rad = std::atan2(to_center.y(), to_center.x());
-  for (std::size_t i = 1; i < way->plan.path.size(); ++i)
-    place.path_m += voxel_m * geometry::VoxelDistance(way->plan.path[i - 1], way->plan.path[i]);
+  for (std::size_t i = 1; i < view->plan.path.size(); ++i)
+    place.path_m += voxel_m * geometry::VoxelDistance(view->plan.path[i - 1], view->plan.path[i]);
   return place;
 }
 

@@ -16,16 +16,16 @@ namespace crossnav::agent {
 constexpr int kBlindRing_vox = 4;  // chosen: what lies under a camera one pitch step down
 
 /// Places to stand with a view, and the way to the cheapest that can be reached.
-struct ViewWay {
+struct ViewPath {
   std::vector<geometry::VoxelKey> standing;
   planner::Plan plan;
   planner::GraphRules rules;
 };
 
 /// Within the approach range of `voxels` if one can be reached there, else within twice that.
-std::optional<ViewWay> WayToView(const geometry::VoxelMap& map, const geometry::VoxelKey& start,
-                                 const std::vector<geometry::VoxelKey>& voxels,
-                                 const planner::GraphRules& rules, const Config& config);
+std::optional<ViewPath> PathToView(const geometry::VoxelMap& map, const geometry::VoxelKey& start,
+                                   const std::vector<geometry::VoxelKey>& voxels,
+                                   const planner::GraphRules& rules, const Config& config);
 
 struct ObservationPlace {
   Vector3d p_foot_world = Vector3d::Zero();

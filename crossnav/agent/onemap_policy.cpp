@@ -99,7 +99,7 @@ void UpdateObject(paper::Situation& now, const std::vector<policy::Sighting>& si
 }
 
 /// The way to where the object can be stopped at; without one it is forgotten.
-std::optional<Target> WayToObject(paper::Situation& now, const policy::OneMapView& view) {
+std::optional<Target> PathToObject(paper::Situation& now, const policy::OneMapView& view) {
   auto& object = now.goal.onemap.object;
   if (!object) return std::nullopt;
   Candidate candidate;
@@ -230,7 +230,7 @@ Decision Decide(StepState& given) {
                                 voxel_m};
   Decision decision;
   UpdateObject(now, given.sightings, view);
-  std::optional<Target> target = WayToObject(now, view);
+  std::optional<Target> target = PathToObject(now, view);
   if (!target && given.goal.paper.script.empty()) {
     target = ChooseGoal(now, view, &decision.shown);
     if (!target) {  // everything was checked: look at the places that answer best once more

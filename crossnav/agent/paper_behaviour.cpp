@@ -192,9 +192,9 @@ SessionVerdict CheckSession(Situation& now) {
   if (!now.goal.paper.session) return SessionVerdict::kNone;
   GoalState& goal = now.goal;
   policy::StairSession& session = *goal.paper.session;
-  auto& way = now.world.path_off_level_world;
-  if ((way.back() - now.agent.p_world).norm() > 0.5 * now.config.map.voxel_m)
-    way.push_back(now.agent.p_world);
+  auto& path = now.world.path_off_level_world;
+  if ((path.back() - now.agent.p_world).norm() > 0.5 * now.config.map.voxel_m)
+    path.push_back(now.agent.p_world);
   policy::PromoteStairs(session, now.world.stairs, now.world.map, now.config.policy.stair);
   const auto status =
       policy::AdvanceSession(session, now.world.map, now.agent.p_world, now.config.policy.stair);

@@ -104,7 +104,7 @@ bool LevelHasWork(const Situation& now, double level_m) {
 }
 
 /// Flights walked before whose other end has something left to explore.
-std::vector<Candidate> WayBackEntrances(const Situation& now) {
+std::vector<Candidate> ReturnEntrances(const Situation& now) {
   std::vector<Candidate> back;
   for (Candidate& candidate : OpenEntrances(now, now.world.level_m, true)) {
     const auto& flights = now.world.flights;
@@ -230,7 +230,7 @@ std::optional<Target> ChooseExploration(Situation& now, std::vector<Candidate>* 
     return std::nullopt;
   };
   if (auto target = try_classes(OpenEntrances(now, now.world.level_m, false))) return target;
-  if (auto target = try_classes(WayBackEntrances(now))) return target;
+  if (auto target = try_classes(ReturnEntrances(now))) return target;
   now.goal.paper.commitment.reset();
   return std::nullopt;
 }
@@ -269,11 +269,11 @@ std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
     candidate.size = static_cast<int>(poi.voxels.size());
     candidate.score = poi.score;
     if (!now.start) return std::nullopt;
-    auto way = WayToView(now.world.map, *now.start, poi.voxels, WholeMapRules(now), now.config);
-    if (!way) return std::nullopt;
-    candidate.standing = std::move(way->standing);
+    auto view = PathToView(now.world.map, *now.start, poi.voxels, WholeMapRules(now), now.config);
+    if (!view) return std::nullopt;
+    candidate.standing = std::move(view->standing);
     *index = i;
-    return MakeTarget(std::move(candidate), std::move(way->plan), way->rules);
+    return MakeTarget(std::move(candidate), std::move(view->plan), view->rules);
   };
   if (now.goal.paper.active_history >= 0) {
     if (auto target = try_poi(now.goal.paper.active_history)) return target;

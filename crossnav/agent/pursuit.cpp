@@ -164,7 +164,7 @@ PathCheck CheckPath(const Situation& now) {
     const VoxelKey &from = route.path[i - 1], &to = route.path[i];
     int z = 0;
     check.is_closed =
-        ground.SideOf(from, to.x - from.x, to.y - from.y, &z) != planner::Side::kGround ||
+        ground.OutcomeOf(from, to.x - from.x, to.y - from.y, &z) != planner::StepOutcome::kGround ||
         z != to.z;
   }
   return check;

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "crossnav/bench/renamed_settings.h"
 #include "crossnav/bench/result_records.h"
 #include "crossnav/core/config_visitor.h"
 #include "crossnav/core/nearest.h"
@@ -123,36 +124,53 @@ struct ScalarSetter {
   }
 };
 
-/// Sets one key; returns the problem, or nothing.
-std::string SetKey(const std::vector<ConfigField>& fields, const std::string& key,
-                   const Scalar& value) {
-  const auto field = std::find_if(fields.begin(), fields.end(),
-                                  [&](const ConfigField& f) { return f.key == key; });
-  if (field == fields.end()) return "unknown key \"" + key + "\"" + DidYouMean(key, KeysOf(fields));
-  const std::string problem = std::visit(ScalarSetter{*field}, field->value, value);
-  return problem.empty() ? "" : "key \"" + key + "\" " + problem;
-}
+/// Sets fields from one source: a file, or all overrides together.
+struct SettingsReader {
+  SettingsReader(RunConfig& config, const std::string& source)
+      : fields(FieldsOf(config)), source(source), renamed(source) {}
 
-void AddProblem(std::string problem, std::vector<std::string>& problems) {
-  if (!problem.empty()) problems.push_back(std::move(problem));
-}
+  void Set(const std::string& key, const Scalar& value) {
+    const std::string present = renamed.PresentKey(key);
+    const auto field = std::find_if(fields.begin(), fields.end(),
+                                    [&](const ConfigField& f) { return f.key == present; });
+    if (field == fields.end()) {
+      problems.push_back("unknown key \"" + key + "\"" + DidYouMean(key, KeysOf(fields)));
+      return;
+    }
+    const std::string problem = std::visit(ScalarSetter{*field}, field->value, value);
+    if (!problem.empty()) problems.push_back("key \"" + key + "\" " + problem);
+  }
 
-void ApplyTable(const toml::table& table, const std::string& prefix,
-                const std::vector<ConfigField>& fields, std::vector<std::string>& problems) {
+  /// All problems as one error. Without a problem the warnings are appended to `warnings`.
+  Result<void> Finish(std::vector<std::string>* warnings) {
+    problems.insert(problems.end(), renamed.problems().begin(), renamed.problems().end());
+    if (!problems.empty()) return Fail(ErrorCode::kInvalid, Join(problems, "\n  "), source);
+    if (warnings != nullptr)
+      warnings->insert(warnings->end(), renamed.warnings().begin(), renamed.warnings().end());
+    return {};
+  }
+
+  std::vector<ConfigField> fields;
+  std::string source;
+  RenamedSettings renamed;
+  std::vector<std::string> problems;
+};
+
+void ApplyTable(const toml::table& table, const std::string& prefix, SettingsReader& reader) {
   for (const auto& [name, node] : table) {
     const std::string key = prefix + std::string(name.str());
     if (const auto* inner = node.as_table()) {
-      ApplyTable(*inner, key + ".", fields, problems);
+      ApplyTable(*inner, key + ".", reader);
     } else if (const auto* flag = node.as_boolean()) {
-      AddProblem(SetKey(fields, key, flag->get()), problems);
+      reader.Set(key, flag->get());
     } else if (const auto* whole = node.as_integer()) {
-      AddProblem(SetKey(fields, key, whole->get()), problems);
+      reader.Set(key, whole->get());
     } else if (const auto* number = node.as_floating_point()) {
-      AddProblem(SetKey(fields, key, number->get()), problems);
+      reader.Set(key, number->get());
     } else if (const auto* text = node.as_string()) {
-      AddProblem(SetKey(fields, key, text->get()), problems);
+      reader.Set(key, text->get());
     } else {
-      problems.push_back("key \"" + key + "\" must be a single value");
+      reader.problems.push_back("key \"" + key + "\" must be a single value");
     }
   }
 }
@@ -176,11 +194,6 @@ Scalar ParseOverride(const std::string& text) {
     return text.substr(1, text.size() - 2);
   }
   return text;
-}
-
-Result<void> ReportProblems(const std::vector<std::string>& problems, const std::string& where) {
-  if (problems.empty()) return {};
-  return Fail(ErrorCode::kInvalid, Join(problems, "\n  "), where);
 }
 
 /// Fields never change through a const config: the callers only read.
@@ -233,7 +246,8 @@ constexpr Variant kVariants[] = {
 
 }  // namespace
 
-Result<void> ApplyConfigText(std::string_view text, const std::string& name, RunConfig& config) {
+Result<void> ApplyConfigText(std::string_view text, const std::string& name, RunConfig& config,
+                             std::vector<std::string>* warnings) {
   if (auto ok = CheckTomlShape(text, name); !ok) return ok;
   toml::table table;
   try {
@@ -243,33 +257,33 @@ Result<void> ApplyConfigText(std::string_view text, const std::string& name, Run
                 name + ": line " + std::to_string(error.source().begin.line));
   }
   RunConfig changed = config;
-  std::vector<std::string> problems;
-  ApplyTable(table, "", FieldsOf(changed), problems);
-  if (auto ok = ReportProblems(problems, name); !ok) return ok;
+  SettingsReader reader(changed, name);
+  ApplyTable(table, "", reader);
+  if (auto ok = reader.Finish(warnings); !ok) return ok;
   config = std::move(changed);
   return {};
 }
 
-Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config) {
+Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config,
+                             std::vector<std::string>* warnings) {
   const auto text = ReadFile(path);
   if (!text) return tl::unexpected(text.error());
-  return ApplyConfigText(*text, path.string(), config);
+  return ApplyConfigText(*text, path.string(), config, warnings);
 }
 
-Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config) {
+Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config,
+                            std::vector<std::string>* warnings) {
   RunConfig changed = config;
-  const auto fields = FieldsOf(changed);
-  std::vector<std::string> problems;
+  SettingsReader reader(changed, "--set");
   for (const std::string& text : overrides) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      problems.push_back("\"" + text + "\" is not key=value");
+      reader.problems.push_back("\"" + text + "\" is not key=value");
       continue;
     }
-    const std::string key = text.substr(0, equals);
-    AddProblem(SetKey(fields, key, ParseOverride(text.substr(equals + 1))), problems);
+    reader.Set(text.substr(0, equals), ParseOverride(text.substr(equals + 1)));
   }
-  if (auto ok = ReportProblems(problems, "--set"); !ok) return ok;
+  if (auto ok = reader.Finish(warnings); !ok) return ok;
   config = std::move(changed);
   return {};
 }
@@ -294,20 +308,20 @@ RunConfig DefaultsOfProfile(const std::string& profile) {
   return config;
 }
 
-Result<RunConfig> ReadConfig(const ConfigSources& sources) {
-  const auto apply = [&](RunConfig config) -> Result<RunConfig> {
+Result<RunConfig> ReadConfig(const ConfigSources& sources, std::vector<std::string>* warnings) {
+  const auto apply = [&](RunConfig config, std::vector<std::string>* said) -> Result<RunConfig> {
     if (!sources.file.empty()) {
-      if (auto ok = ApplyConfigFile(sources.file, config); !ok) return tl::unexpected(ok.error());
+      if (auto ok = ApplyConfigFile(sources.file, config, said); !ok)
+        return tl::unexpected(ok.error());
     }
     if (auto ok = ApplyVariant(sources.variant, config); !ok) return tl::unexpected(ok.error());
-    if (auto ok = ApplyOverrides(sources.overrides, config); !ok) {
+    if (auto ok = ApplyOverrides(sources.overrides, config, said); !ok)
       return tl::unexpected(ok.error());
-    }
     return config;
   };
-  auto config = apply({});
+  auto config = apply({}, warnings);
   if (!config || config->noise.profile == "none") return config;
-  return apply(DefaultsOfProfile(config->noise.profile));
+  return apply(DefaultsOfProfile(config->noise.profile), nullptr);
 }
 
 std::string DumpToml(const RunConfig& config) {

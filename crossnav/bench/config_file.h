@@ -16,14 +16,18 @@
 namespace crossnav::bench {
 
 /// Applies a TOML file. On error `config` is unchanged; `where` names the file, `what` every
-/// problem with its key, one a line.
-Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config);
+/// problem with its key, one a line. Old keys of renamed settings are read; each adds a line to
+/// `warnings`.
+Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config,
+                             std::vector<std::string>* warnings = nullptr);
 
 /// As ApplyConfigFile from text; `name` stands for the file in messages.
-Result<void> ApplyConfigText(std::string_view toml, const std::string& name, RunConfig& config);
+Result<void> ApplyConfigText(std::string_view toml, const std::string& name, RunConfig& config,
+                             std::vector<std::string>* warnings = nullptr);
 
 /// Applies overrides such as "policy.poi.use_history=false", in order, all or none.
-Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config);
+Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig& config,
+                            std::vector<std::string>* warnings = nullptr);
 
 /// A named set of settings; docs/cli.md lists them.
 Result<void> ApplyVariant(std::string_view variant, RunConfig& config);
@@ -37,7 +41,8 @@ struct ConfigSources {
 
 /// The defaults, those of the noise profile that the sources name, then the sources. Under a
 /// profile `map.clearing` is "evidence" unless a source says otherwise.
-Result<RunConfig> ReadConfig(const ConfigSources& sources);
+Result<RunConfig> ReadConfig(const ConfigSources& sources,
+                             std::vector<std::string>* warnings = nullptr);
 
 /// `config` with the settings that its noise profile stands for: what to apply the sources to again
 /// where they named a profile.

@@ -8,7 +8,7 @@
 #include "crossnav/core/check.h"
 #include "crossnav/geometry/classify.h"
 #include "crossnav/geometry/frame.h"
-#include "crossnav/geometry/grazing.h"
+#include "crossnav/geometry/grazing_surface.h"
 #include "crossnav/geometry/integrate.h"
 #include "crossnav/geometry/map_data.h"
 

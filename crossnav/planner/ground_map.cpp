@@ -85,7 +85,7 @@ void GroundMap::Touch(int x, int y) {
   const int reach = std::max(bridge_, inflation_);
   for (int ty = (y - reach) >> 3; ty <= (y + reach) >> 3; ++ty)
     for (int tx = (x - reach) >> 3; tx <= (x + reach) >> 3; ++tx)
-      if (const std::int32_t tile = TileAt(tx * kSide, ty * kSide); tile >= 0)
+      if (const std::int32_t tile = TileAt(tx * kTileSide, ty * kTileSide); tile >= 0)
         tiles_[static_cast<std::size_t>(tile)].changed_at = revision_ + 1;
 }
 
@@ -96,9 +96,10 @@ void GroundMap::Set(const VoxelKey& key, bool is_surface, bool is_air) {
   const int hi = tile.words ? std::max(tile.first_word + tile.words - 1, word) : word;
   if (hi - lo + 1 != tile.words) {
     Tile grown{lo, hi - lo + 1, {}, {}, tile.changed_at};
-    grown.surface.resize(std::size_t{kSide * kSide} * static_cast<std::size_t>(grown.words));
+    grown.surface.resize(std::size_t{kTileSide * kTileSide} *
+                         static_cast<std::size_t>(grown.words));
     grown.air.resize(grown.surface.size());
-    for (int column = 0; column < kSide * kSide; ++column)
+    for (int column = 0; column < kTileSide * kTileSide; ++column)
       for (int w = 0; w < tile.words; ++w) {
         const int to = column * grown.words + w + tile.first_word - lo;
         const int from = column * tile.words + w;
@@ -132,7 +133,7 @@ std::uint64_t GroundMap::ChangedAround(int x, int y, int reach) const {
   std::uint64_t changed = 0;
   for (int ty = (y - reach) >> 3; ty <= (y + reach) >> 3; ++ty)
     for (int tx = (x - reach) >> 3; tx <= (x + reach) >> 3; ++tx)
-      if (const std::int32_t tile = TileAt(tx * kSide, ty * kSide); tile >= 0)
+      if (const std::int32_t tile = TileAt(tx * kTileSide, ty * kTileSide); tile >= 0)
         changed = std::max(changed, tiles_[static_cast<std::size_t>(tile)].changed_at);
   return changed;
 }
@@ -223,24 +224,24 @@ bool GroundMap::IsBodyBlocked(int x, int y, int z) const {
   return !blocked_.empty() && blocked_.contains({x, y, z});
 }
 
-Side GroundMap::SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const {
-  const Side side = SeenSideOf(key, dx, dy, ground_z);
-  if (side != Side::kUnknown || unanswered_.empty()) return side;
-  return unanswered_.contains({key.x + dx, key.y + dy, key.z}) ? Side::kDrop : side;
+StepOutcome GroundMap::OutcomeOf(const VoxelKey& key, int dx, int dy, int* ground_z) const {
+  const StepOutcome outcome = SeenOutcomeOf(key, dx, dy, ground_z);
+  if (outcome != StepOutcome::kUnknown || unanswered_.empty()) return outcome;
+  return unanswered_.contains({key.x + dx, key.y + dy, key.z}) ? StepOutcome::kDrop : outcome;
 }
 
-Side GroundMap::SeenSideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const {
+StepOutcome GroundMap::SeenOutcomeOf(const VoxelKey& key, int dx, int dy, int* ground_z) const {
   const int x = key.x + dx, y = key.y + dy;
   const Tile* tile = FindTile(x, y);
-  if (tile == nullptr) return Side::kUnknown;
-  if (IsBodyBlocked(x, y, key.z)) return Side::kBlocked;
+  if (tile == nullptr) return StepOutcome::kUnknown;
+  if (IsBodyBlocked(x, y, key.z)) return StepOutcome::kBlocked;
   if (const auto z = StandingNear(x, y, key.z, climb_)) {
     // A step up needs head-room where one comes from as well.
     const std::uint64_t own = Surfaces(key.x, key.y, key.z - kBelow);
     const int top = kBelow + std::max(0, *z - key.z) + height_ - 1 - kHeadSlack;
-    if ((own & Span(kBelow, std::min(63, top))) != 0) return Side::kBlocked;
+    if ((own & Span(kBelow, std::min(63, top))) != 0) return StepOutcome::kBlocked;
     *ground_z = *z;
-    return Side::kGround;
+    return StepOutcome::kGround;
   }
   // Down from the highest seen air that a foot could come from: what is the first that is not air?
   const std::uint64_t air = Air(x, y, key.z - kBelow), surface = Surfaces(x, y, key.z - kBelow);
@@ -249,27 +250,27 @@ Side GroundMap::SeenSideOf(const VoxelKey& key, int dx, int dy, int* ground_z) c
   while (at >= kBelow && (air >> at & 1) == 0) --at;
   // No air: a surface below tells nothing, it may be the ceiling of the storey underneath, and one
   // within the climb limit may be the riser of a step whose tread is hidden.
-  if (at < kBelow) return Side::kUnknown;
+  if (at < kBelow) return StepOutcome::kUnknown;
   while (at >= lowest && (air >> at & 1) != 0) --at;
-  if (at < lowest) return Side::kDrop;
-  if ((surface >> at & 1) == 0) return Side::kUnknown;
+  if (at < lowest) return StepOutcome::kDrop;
+  if ((surface >> at & 1) == 0) return StepOutcome::kUnknown;
   // A surface under too little seen air is ground to be seen; under something, it is none.
   const bool is_seen = (air >> (at + 1) & Span(0, kSeenAir - 1)) == Span(0, kSeenAir - 1);
   const bool is_under = (surface & Span(at + 1, std::min(63, at + height_ - kHeadSlack))) != 0;
   const bool is_bumped = !blocked_.empty() && blocked_.contains({x, y, key.z - kBelow + at + 1});
-  return is_seen || is_under || is_bumped ? Side::kBlocked : Side::kUnknown;
+  return is_seen || is_under || is_bumped ? StepOutcome::kBlocked : StepOutcome::kUnknown;
 }
 
 std::optional<VoxelKey> GroundMap::Bridge(const VoxelKey& key, int dx, int dy, int reach) const {
   for (int k = 1; k <= reach; ++k) {
     int z = 0;
-    switch (SideOf(key, k * dx, k * dy, &z)) {
-      case Side::kBlocked:
+    switch (OutcomeOf(key, k * dx, k * dy, &z)) {
+      case StepOutcome::kBlocked:
         return std::nullopt;
-      case Side::kGround:
+      case StepOutcome::kGround:
         return VoxelKey{key.x + k * dx, key.y + k * dy, z};
-      case Side::kUnknown:
-      case Side::kDrop:
+      case StepOutcome::kUnknown:
+      case StepOutcome::kDrop:
         break;
     }
   }
@@ -354,16 +355,16 @@ void GroundMap::NoteUnanswered(const VoxelKey& key) {
   ++revision_;
 }
 
-void GroundMap::NoteWay(const Vector3d& p_from_world, const Vector3d& p_to_world) {
-  const Vector3d way = p_to_world - p_from_world;
-  if (std::abs(way.z()) < kDoorstep_m) return;
-  const int samples = CellsCeil(2 * way.head<2>().norm(), voxel_m_) + 1;
+void GroundMap::NoteStep(const Vector3d& p_from_world, const Vector3d& p_to_world) {
+  const Vector3d offset = p_to_world - p_from_world;
+  if (std::abs(offset.z()) < kDoorstep_m) return;
+  const int samples = CellsCeil(2 * offset.head<2>().norm(), voxel_m_) + 1;
   const auto height_of = [this](double z_m) { return CellsNearest(z_m, voxel_m_); };
   const int lo = height_of(std::min(p_from_world.z(), p_to_world.z())) - 1;
   const int hi = height_of(std::max(p_from_world.z(), p_to_world.z())) + 1;
   bool is_new = false;
   for (int i = 0; i <= samples; ++i) {
-    const VoxelKey at = geometry::KeyOf(p_from_world + way * i / samples, voxel_m_);
+    const VoxelKey at = geometry::KeyOf(p_from_world + offset * i / samples, voxel_m_);
     for (int x = at.x - radius_; x <= at.x + radius_; ++x)
       for (int y = at.y - radius_; y <= at.y + radius_; ++y) {
         bool is_new_here = false;

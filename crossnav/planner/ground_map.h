@@ -20,7 +20,7 @@
 namespace crossnav::planner {
 
 /// What a step from a place to stand to a neighbouring column meets.
-enum class Side : std::uint8_t {
+enum class StepOutcome : std::uint8_t {
   kGround,   ///< a place to stand within the climb limit
   kBlocked,  ///< something that stops the body
   kUnknown,  ///< ground may be there: it was not seen yet
@@ -44,7 +44,7 @@ class GroundMap {
   std::optional<VoxelKey> StandingAt(const Vector3d& p_world_foot) const;
 
   /// What a step from `key` to the column (dx, dy) away meets; `ground_z` gets the height there.
-  Side SideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
+  StepOutcome OutcomeOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
 
   /// The next place to stand straight ahead over ground that was not seen, or seen as air: a tread
   /// that hides behind its riser, or that light falls through. At most `reach` columns away, within
@@ -75,7 +75,7 @@ class GroundMap {
 
   /// The body went from one foot position to the other, a step away. Where it rose or fell, the
   /// rises there are steps from then on, in both directions.
-  void NoteWay(const Vector3d& p_from_world, const Vector3d& p_to_world);
+  void NoteStep(const Vector3d& p_from_world, const Vector3d& p_to_world);
   bool WasWalked(const VoxelKey& key) const { return walked_.contains(key); }
 
   int climb() const { return climb_; }
@@ -96,7 +96,7 @@ class GroundMap {
   GroundPlaces& places() const { return places_; }
 
  private:
-  static constexpr int kSide = 8;
+  static constexpr int kTileSide = 8;
   /// 8 x 8 columns, each a run of 64-bit words: one for surfaces, one for seen air.
   struct Tile {
     int first_word = 0;
@@ -128,8 +128,8 @@ class GroundMap {
   std::uint64_t Air(int x, int y, int z_lo) const;
   std::uint64_t StandingBits(int x, int y, int z_lo) const;
   bool IsBodyBlocked(int x, int y, int z) const;
-  /// SideOf, as far as surfaces and air tell.
-  Side SeenSideOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
+  /// OutcomeOf, as far as surfaces and air tell.
+  StepOutcome SeenOutcomeOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
 
   double voxel_m_;
   int climb_, height_, inflation_, radius_, bridge_, diagonal_bridge_;

@@ -21,9 +21,9 @@ bool IsFrontOfSeat(const GroundMap& ground, const VoxelKey& from, const VoxelKey
   return !IsStepOfFlight(ground, from, to);
 }
 
-/// What a step from a place to a side meets, and the place that it leads to.
+/// Outcome of a step to a neighbouring column, and the place that it leads to.
 struct Step {
-  Side side = Side::kBlocked;
+  StepOutcome outcome = StepOutcome::kBlocked;
   std::optional<VoxelKey> to;
   bool is_front = false;  ///< of a seat
   bool is_judged_by_run = false;
@@ -32,17 +32,17 @@ struct Step {
 Step StepTo(const GroundMap& ground, const VoxelKey& from, int dx, int dy) {
   Step step;
   int z = 0;
-  step.side = ground.SideOf(from, dx, dy, &z);
-  switch (step.side) {
-    case Side::kBlocked:
+  step.outcome = ground.OutcomeOf(from, dx, dy, &z);
+  switch (step.outcome) {
+    case StepOutcome::kBlocked:
       break;
-    case Side::kGround: {
+    case StepOutcome::kGround: {
       step.to = VoxelKey{from.x + dx, from.y + dy, z};
       step.is_front = IsFrontOfSeat(ground, from, *step.to, &step.is_judged_by_run);
       break;
     }
-    case Side::kUnknown:
-    case Side::kDrop:
+    case StepOutcome::kUnknown:
+    case StepOutcome::kDrop:
       step.to = ground.Bridge(from, dx, dy, ground.BridgeReach(dx, dy));
       break;
   }
@@ -115,10 +115,10 @@ const GroundPlaces::Steps& GroundPlaces::StepsFrom(const GroundMap& ground, std:
     const Step step = StepTo(ground, from, kStepSides[i][0], kStepSides[i][1]);
     is_judged_by_run = is_judged_by_run || step.is_judged_by_run;
     const auto bit = static_cast<std::uint8_t>(1U << i);
-    if (step.side == Side::kUnknown) steps.unseen |= bit;
+    if (step.outcome == StepOutcome::kUnknown) steps.unseen |= bit;
     steps.to[i] = step.to ? IndexOf(*step.to) : -1;
     if (!step.to) continue;
-    if (step.side != Side::kGround) steps.bridges |= bit;
+    if (step.outcome != StepOutcome::kGround) steps.bridges |= bit;
     if (step.is_front) steps.fronts |= bit;
     if (IsOneWay(ground, from, *step.to, &is_judged_by_run)) steps.one_way |= bit;
   }

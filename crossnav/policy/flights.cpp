@@ -97,12 +97,12 @@ int NextId(const std::vector<geometry::StairFlight>& flights) {
   return next;
 }
 
-const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
+const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& path_world,
                                       const StairEvidence& evidence, double voxel_m,
                                       std::vector<geometry::StairFlight>* flights) {
-  const bool is_up = way_world.back().z() > way_world.front().z();
+  const bool is_up = path_world.back().z() > path_world.front().z();
   geometry::StairFlight walked;
-  walked.steps_world = way_world;
+  walked.steps_world = path_world;
   if (!is_up) std::reverse(walked.steps_world.begin(), walked.steps_world.end());
   walked.p_foot_world = walked.steps_world.front();
   walked.p_top_world = walked.steps_world.back();

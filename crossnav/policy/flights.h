@@ -10,10 +10,10 @@
 
 namespace crossnav::policy {
 
-/// Notes a walk from one level to another. `way_world`: foot positions, from the last on flat
+/// Notes a walk from one level to another. `path_world`: foot positions, from the last on flat
 /// ground before to the first after, at least two. Gives the record: a new one, or that of the
 /// flight whose ends it shares. Flights on the way that were only seen until now become part of it.
-const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& way_world,
+const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& path_world,
                                       const StairEvidence& evidence, double voxel_m,
                                       std::vector<geometry::StairFlight>* flights);
 

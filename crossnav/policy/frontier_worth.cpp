@@ -33,12 +33,13 @@ double UnseenBeyond(const planner::GroundMap& ground, const VoxelKey& place, dou
     bool is_beyond = false;
     for (int r = 1; r <= reach; ++r) {
       int z = 0;
-      const planner::Side side = ground.SideOf(place, static_cast<int>(std::lround(r * cos)),
-                                               static_cast<int>(std::lround(r * sin)), &z);
-      if (side == planner::Side::kUnknown) {
+      const planner::StepOutcome outcome =
+          ground.OutcomeOf(place, static_cast<int>(std::lround(r * cos)),
+                           static_cast<int>(std::lround(r * sin)), &z);
+      if (outcome == planner::StepOutcome::kUnknown) {
         is_beyond = true;
         unseen_vox2 += r * kRay_rad;
-      } else if (is_beyond || side != planner::Side::kGround || r > kBefore_vox) {
+      } else if (is_beyond || outcome != planner::StepOutcome::kGround || r > kBefore_vox) {
         break;
       }
     }

@@ -40,11 +40,11 @@ double UnseenAlong(const planner::GroundMap& ground, const VoxelKey& place, doub
   double unseen_vox2 = 0;
   for (int r = 1; r <= reach_vox; ++r) {
     int z = 0;
-    const planner::Side side = ground.SideOf(place, static_cast<int>(std::lround(r * cos)),
-                                             static_cast<int>(std::lround(r * sin)), &z);
-    if (side == planner::Side::kUnknown) {
+    const planner::StepOutcome outcome = ground.OutcomeOf(
+        place, static_cast<int>(std::lround(r * cos)), static_cast<int>(std::lround(r * sin)), &z);
+    if (outcome == planner::StepOutcome::kUnknown) {
       unseen_vox2 += r * width_rad;
-    } else if (unseen_vox2 > 0 || side != planner::Side::kGround) {
+    } else if (unseen_vox2 > 0 || outcome != planner::StepOutcome::kGround) {
       break;
     }
   }

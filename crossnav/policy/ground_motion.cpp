@@ -22,9 +22,9 @@ constexpr int kWindow = 30;          // chosen: places of the way that are looke
 
 /// Cost-to-go [m] around the near part of a way: what is left from its end on, for every position
 /// from which that can be walked to.
-class WayAhead {
+class CostToGo {
  public:
-  WayAhead(const GroundMap& ground, const planner::PlannerConfig& planner,
+  CostToGo(const GroundMap& ground, const planner::PlannerConfig& planner,
            const std::vector<VoxelKey>& path, const planner::GroundRules& rules)
       : ground_(ground),
         search_(ground, planner, path[std::min<std::size_t>(path.size(), kWindow) - 1], rules) {
@@ -95,9 +95,10 @@ std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d
       z = *next;
     } else if (key.x != here.x || key.y != here.y) {
       int unused = 0;
-      const planner::Side side = ground.SideOf({key.x, key.y, z}, 0, 0, &unused);
-      if (side == planner::Side::kBlocked) return std::nullopt;
-      if (side == planner::Side::kDrop && !GoesOn(ground, p, z, yaw_rad)) return std::nullopt;
+      const planner::StepOutcome outcome = ground.OutcomeOf({key.x, key.y, z}, 0, 0, &unused);
+      if (outcome == planner::StepOutcome::kBlocked) return std::nullopt;
+      if (outcome == planner::StepOutcome::kDrop && !GoesOn(ground, p, z, yaw_rad))
+        return std::nullopt;
       penalty += kUnseenCost / 3;
     }
     const double clear_m = room(p, z);
@@ -111,10 +112,10 @@ std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d
 
 class LatticeSearch {
  public:
-  LatticeSearch(const GroundMap& ground, const WayAhead& way, const AgentPose& agent,
+  LatticeSearch(const GroundMap& ground, const CostToGo& cost_to_go, const AgentPose& agent,
                 const MotionConfig& config, const ActionConfig& action)
       : ground_(ground),
-        way_(way),
+        cost_to_go_(cost_to_go),
         agent_(agent),
         config_(config),
         action_(action),
@@ -122,7 +123,7 @@ class LatticeSearch {
 
   std::vector<Action> Run(int z_start) {
     Add({agent_.p_world.head<2>(), z_start, 0, 0, -1, Action::kStop, 0});
-    const double start_m = way_.At(nodes_[0].p, z_start);
+    const double start_m = cost_to_go_.At(nodes_[0].p, z_start);
     int best = -1;
     const double worth = start_m / action_.forward_m - config_.min_gain_steps;
     double best_value = worth;
@@ -131,7 +132,7 @@ class LatticeSearch {
       open_.pop();
       const Node node = nodes_[static_cast<std::size_t>(index)];
       if (node.cost > seen_[CellOf(node)] + 1e-9) continue;
-      const double rest_m = way_.At(node.p, node.z);
+      const double rest_m = cost_to_go_.At(node.p, node.z);
       // The best place so far is kept for the case that the horizon is never reached.
       if (rest_m / action_.forward_m < best_value - 1e-9) {
         best_value = rest_m / action_.forward_m;
@@ -162,7 +163,7 @@ class LatticeSearch {
     if (!is_new && node.cost >= it->second - 1e-9) return;
     it->second = node.cost;
     nodes_.push_back(node);
-    open_.push({-(node.cost + way_.At(node.p, node.z) / action_.forward_m),
+    open_.push({-(node.cost + cost_to_go_.At(node.p, node.z) / action_.forward_m),
                 static_cast<int>(nodes_.size()) - 1});
   }
 
@@ -202,7 +203,7 @@ class LatticeSearch {
   }
 
   const GroundMap& ground_;
-  const WayAhead& way_;
+  const CostToGo& cost_to_go_;
   const AgentPose& agent_;
   const MotionConfig& config_;
   const ActionConfig& action_;
@@ -220,8 +221,8 @@ std::vector<Action> MotionAlong(const GroundMap& ground, const std::vector<Voxel
                                 const planner::GroundRules& rules) {
   if (path.empty()) return {};
   // The search goes from the end of the path to the agent: a step up is a step down in it.
-  const WayAhead way(ground, planner, path, rules);
-  return LatticeSearch(ground, way, agent, config, action).Run(path.front().z);
+  const CostToGo cost_to_go(ground, planner, path, rules);
+  return LatticeSearch(ground, cost_to_go, agent, config, action).Run(path.front().z);
 }
 
 bool IsStepClear(const GroundMap& ground, const AgentPose& agent, const MotionConfig& config,

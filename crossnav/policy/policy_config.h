@@ -70,36 +70,36 @@ struct MotionConfig {
   double bump_m = 0.20;              // chosen: a forward step that moved less met something
 };
 
-/// policy.profile = full: what a candidate of a class must be nearer than one of the best class
-/// [m], and when the agent stops trying.
+/// Exploration of policy.profile = full. Settings named _m without another noun are prices: metres
+/// that a property of a candidate adds to its path.
 struct ExploreConfig {
   std::string scoring = "area";  ///< nearest | area | semantic (docs/navigation.md, "Frontiers")
-  int min_cluster = 4;           // chosen: columns; less is no way through for the body
-  double elsewhere_m = 12;       // chosen: another level, the length of a flight and its approach
-  double crumb_m = 40;           // chosen: frontiers under min_cluster: last
-  double room_m2 = 8;            // chosen: unseen ground that makes a frontier worth its whole way
-  double least_share = 0.1;      // chosen: what hardly any unseen ground is worth of it
-  double start_m = 1;            // chosen: what setting out costs, however near
-  double hint_confidence = 0.4;  // chosen: what is worth going nearer to, however small
-  double sighting_m = -8;        // chosen: the goal, perhaps: worth passing a frontier by
+  int min_cluster = 4;           // chosen: columns; a smaller gap does not let the body through
+  double other_floor_penalty_m = 12;     // chosen: length of a flight and its approach
+  double small_frontier_penalty_m = 40;  // chosen: frontiers under min_cluster come last
+  double room_m2 = 8;                    // chosen: unseen area at which a frontier has weight 1
+  double least_share = 0.1;              // chosen: minimum frontier weight, as a fraction
+  double start_m = 1;                    // chosen: fixed price of setting out
+  double hint_confidence = 0.4;  // chosen: minimum confidence of a hint, at any size in the image
+  double hint_bonus_m = -8;      // chosen: price of a hint; negative, so that it beats a frontier
   double uninspected_m = 10;     // chosen: ground seen from too far for the detector
-  double turn_back_m = 20;       // chosen: on a flight, what lies the other way
+  double turn_back_m = 20;       // chosen: candidates behind the agent on a flight
   double doubt_m = 5;            // chosen: for each frontier nearby that did not open
   double doubt_range_m = 3;      // chosen: a few widths of a door
-  double commit_m = 2;           // chosen: what another target must be nearer than the chosen one
-  double inspect_range_m = 5;    // chosen: where a detector answers at all for a chair
-  double view_range_m = 4.0;     // chosen: unseen ground that far beyond a frontier counts
+  double commit_m = 2;           // chosen: hysteresis in favour of the current target
+  double inspect_range_m = 5;    // chosen: range at which a detector answers for a chair
+  double view_range_m = 4.0;     // chosen: depth of the unseen area counted behind a frontier
   int min_uninspected = 8;       // chosen: columns of 25 around
-  int resemblance_steps = 12;    // chosen: between two questions to the memory, scoring = semantic
+  int relevancy_steps = 12;      // chosen: interval of memory queries, scoring = semantic
   int reconsider_steps = 6;      // chosen: the grace period of a commitment
   int progress_steps = 24;       // chosen: a turn around, twice
-  int max_choices = 6;           // chosen: a target chosen so often and never reached is given up
+  int max_choices = 6;           // chosen: limit of choices of a target that is never reached
   double same_place_m = 0.5;     // chosen: half the width of a door
-  double glance_m2 = 3;          // chosen: unseen ground that is worth a turn to the side
-  double glance_range_m = 4;     // chosen: of it that counts
-  double storey_bit_m = 25;      // chosen: way that twice the odds of a storey are worth
-  double furniture_m = 1.1;      // chosen: nothing that is climbed by mistake is higher
-  double storey_m = 1.8;         // chosen: more than a landing, less than a floor
+  double glance_m2 = 3;          // chosen: unseen area that is worth a turn to the side
+  double glance_range_m = 4;     // chosen: depth of that area
+  double floor_prior_m_per_bit = 25;  // chosen: path worth a doubling of a floor's odds
+  double furniture_m = 1.1;  // chosen: height limit of furniture that is climbed by mistake
+  double storey_m = 1.8;     // chosen: more than a landing, less than a floor
 };
 
 struct PolicyConfig {
@@ -179,13 +179,13 @@ template <class V>
 void Visit(V& visit, ExploreConfig& c) {
   visit("scoring", c.scoring, {"nearest", "area", "semantic"});
   visit("min_cluster", c.min_cluster, 1, 100000);
-  visit("elsewhere_m", c.elsewhere_m, 0.0, 100000.0);
-  visit("crumb_m", c.crumb_m, 0.0, 100000.0);
+  visit("other_floor_penalty_m", c.other_floor_penalty_m, 0.0, 100000.0);
+  visit("small_frontier_penalty_m", c.small_frontier_penalty_m, 0.0, 100000.0);
   visit("room_m2", c.room_m2, 0.01, 10000.0);
   visit("least_share", c.least_share, 0.001, 1.0);
   visit("start_m", c.start_m, 0.0, 1000.0);
   visit("hint_confidence", c.hint_confidence, 0.0, 1.0);
-  visit("sighting_m", c.sighting_m, -100000.0, 100000.0);
+  visit("hint_bonus_m", c.hint_bonus_m, -100000.0, 100000.0);
   visit("uninspected_m", c.uninspected_m, 0.0, 100000.0);
   visit("turn_back_m", c.turn_back_m, 0.0, 100000.0);
   visit("doubt_m", c.doubt_m, 0.0, 1000.0);
@@ -194,14 +194,14 @@ void Visit(V& visit, ExploreConfig& c) {
   visit("inspect_range_m", c.inspect_range_m, 0.1, 100.0);
   visit("view_range_m", c.view_range_m, 0.0, 100.0);
   visit("min_uninspected", c.min_uninspected, 1, 25);
-  visit("resemblance_steps", c.resemblance_steps, 1, 100000);
+  visit("relevancy_steps", c.relevancy_steps, 1, 100000);
   visit("reconsider_steps", c.reconsider_steps, 1, 100000);
   visit("progress_steps", c.progress_steps, 1, 100000);
   visit("max_choices", c.max_choices, 1, 100000);
   visit("same_place_m", c.same_place_m, 0.0, 100.0);
   visit("glance_m2", c.glance_m2, 0.0, 100000.0);
   visit("glance_range_m", c.glance_range_m, 0.0, 100.0);
-  visit("storey_bit_m", c.storey_bit_m, 0.0, 1000.0);
+  visit("floor_prior_m_per_bit", c.floor_prior_m_per_bit, 0.0, 1000.0);
   visit("furniture_m", c.furniture_m, 0.0, 100.0);
   visit("storey_m", c.storey_m, 0.1, 100.0);
 }

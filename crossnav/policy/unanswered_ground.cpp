@@ -35,10 +35,10 @@ bool IsHole(const Observation& obs, int u, int v, int reach) {
 
 bool IsKnownAir(VoxelMap::Cursor& cursor, const Vector3d& from_world, const Vector3d& to_world,
                 double voxel_m) {
-  const Vector3d way = to_world - from_world;
-  const int samples = std::max(1, static_cast<int>(std::ceil(way.norm() / voxel_m)));
+  const Vector3d ray = to_world - from_world;
+  const int samples = std::max(1, static_cast<int>(std::ceil(ray.norm() / voxel_m)));
   for (int i = 0; i <= samples; ++i) {
-    const auto state = cursor.At(geometry::KeyOf(from_world + way * i / samples, voxel_m)).state;
+    const auto state = cursor.At(geometry::KeyOf(from_world + ray * i / samples, voxel_m)).state;
     if (state == geometry::VoxelState::kUnknown || geometry::IsSurface(state)) return false;
   }
   return true;

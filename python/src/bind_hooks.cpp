@@ -80,7 +80,8 @@ void BindQuestions(nb::module_& m) {
           "(3,) [m]: what it is about.")
       .def_prop_ro(
           "size", [](const ExplorationOption& o) { return o.candidate.size; }, "Voxels.")
-      .def_ro("way_m", &ExplorationOption::way_m, "To it [m], turns included.")
+      .def_ro("path_m", &ExplorationOption::path_m, "Path length [m], turns included.")
+      .def_ro("way_m", &ExplorationOption::path_m, "Old name of path_m, until version 0.4.")
       .def_ro("score_m", &ExplorationOption::score_m, "The policy's own score; the least wins.");
   nb::enum_<ClaimVerdict>(m, "ClaimVerdict", "What is made of a claim.")
       .value("AGREED", ClaimVerdict::kAgreed, "STOP here and now.")

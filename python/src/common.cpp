@@ -15,7 +15,10 @@ bench::RunConfig ConfigOf(const Settings& settings) {
   const nb::object pair = nb::module_::import_("crossnav._config").attr("toml_of")(settings.value);
   const auto toml = nb::cast<std::string>(pair[0]);
   const auto name = nb::cast<std::string>(pair[1]);
-  Unwrap(bench::ApplyConfigText(toml, name, config));
+  std::vector<std::string> warnings;
+  Unwrap(bench::ApplyConfigText(toml, name, config, &warnings));
+  for (const std::string& warning : warnings)
+    if (PyErr_WarnEx(PyExc_FutureWarning, warning.c_str(), 1) != 0) nb::raise_python_error();
   if (config.noise.profile != "none") {  // whose settings lie below those of the user
     config = bench::DefaultsOfProfile(config.noise.profile);
     Unwrap(bench::ApplyConfigText(toml, name, config));

@@ -20,7 +20,7 @@ class Own(crossnav.Hooks):
 
     def score_exploration(self, goal: str, agent: crossnav.AgentPose,
                           options: Sequence[crossnav.ExplorationOption]) -> Sequence[float]:
-        assert goal and all(o.way_m >= 0 and o.kind for o in options)
+        assert goal and all(o.path_m >= 0 and o.kind for o in options)
         self.options = max(self.options, len(options))
         return [o.score_m for o in options]
 

@@ -47,6 +47,12 @@ def test_a_value_out_of_range_is_an_error() -> None:
         crossnav.Config({"map.voxel_m": [1, 2]})
 
 
+def test_an_old_key_is_read_with_a_warning_that_names_both_keys() -> None:
+    with pytest.warns(FutureWarning, match="crumb_m.*small_frontier_penalty_m"):
+        config = crossnav.Config({"policy.explore.crumb_m": 7})
+    assert config.to_dict()["policy"]["explore"]["small_frontier_penalty_m"] == 7
+
+
 def test_a_variant_changes_what_it_names() -> None:
     settings = crossnav.Config(variant="no-history-poi").to_dict()
     assert settings["policy"]["poi"]["use_history"] is False

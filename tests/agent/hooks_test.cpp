@@ -33,7 +33,7 @@ struct Prefers : Hooks {
                                        std::span<const ExplorationOption> options) override {
     std::vector<double> scores;
     for (const ExplorationOption& option : options) {
-      EXPECT_GE(option.way_m, 0);
+      EXPECT_GE(option.path_m, 0);
       scores.push_back(score(option));
     }
     most = std::max(most, options.size());
@@ -70,7 +70,7 @@ TEST(Hooks, TheLeastScoreIsGoneTo) {
   // Whatever the options are, what is chosen is the one that the hook likes best.
   double best = 0;
   Vector3d p_best_world = Vector3d::Zero();
-  Prefers far([&](const ExplorationOption& option) { return -option.way_m; });
+  Prefers far([&](const ExplorationOption& option) { return -option.path_m; });
   const auto remember = far.score;
   far.score = [&](const ExplorationOption& option) {
     const double score = remember(option);

@@ -54,6 +54,18 @@ TEST_F(Cli, EveryVerbHasHelpWithAnExample) {
   }
 }
 
+TEST_F(Cli, AnOldKeyOfASettingIsReadWithOneWarning) {
+  const Outcome outcome = Run("doctor --json --set policy.explore.crumb_m=7");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(Json::parse(outcome.out).contains("version"));
+  const std::string start =
+      "crossnav: warning: --set: key \"policy.explore.crumb_m\" is now "
+      "\"policy.explore.small_frontier_penalty_m\"";
+  const std::size_t at = outcome.err.find(start);
+  ASSERT_NE(at, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find(start, at + 1), std::string::npos) << outcome.err;
+}
+
 TEST_F(Cli, DoctorPrintsOneJsonDocument) {
   const Outcome outcome = Run("doctor --json");
   EXPECT_EQ(outcome.exit_code, 0);

@@ -170,6 +170,59 @@ TEST(ConfigFile, AblationsOfHistoryPoisChangeTheirSettingsAndNoOther) {
   EXPECT_EQ(changed("paper-no-history-poi"), (Settings{off, {"/policy/profile", "\"paper\""}}));
 }
 
+TEST(ConfigFile, AnOldKeyOfASettingIsReadWithAWarningThatNamesBothKeys) {
+  RunConfig config;
+  std::vector<std::string> warnings;
+  ASSERT_TRUE(ApplyConfigText("[policy.explore]\ncrumb_m = 7\n", "a.toml", config, &warnings));
+  EXPECT_EQ(config.agent.policy.explore.small_frontier_penalty_m, 7);
+  ASSERT_TRUE(ApplyOverrides({"policy.explore.elsewhere_m=1", "policy.explore.resemblance_steps=3",
+                              "policy.explore.sighting_m=-2", "policy.explore.storey_bit_m=4"},
+                             config, &warnings));
+  EXPECT_EQ(config.agent.policy.explore.other_floor_penalty_m, 1);
+  EXPECT_EQ(config.agent.policy.explore.relevancy_steps, 3);
+  EXPECT_EQ(config.agent.policy.explore.hint_bonus_m, -2);
+  EXPECT_EQ(config.agent.policy.explore.floor_prior_m_per_bit, 4);
+  ASSERT_EQ(warnings.size(), 5U);
+  EXPECT_EQ(warnings[0],
+            "a.toml: key \"policy.explore.crumb_m\" is now "
+            "\"policy.explore.small_frontier_penalty_m\"; the old key is read until version 0.4");
+}
+
+TEST(ConfigFile, WarningsOfOldKeysComeOnceUnderANoiseProfileToo) {
+  std::vector<std::string> warnings;
+  const std::vector<std::string> overrides{"policy.explore.crumb_m=7", "noise.profile=realsense",
+                                           "policy.explore.crumb_m=8"};
+  const auto config = ReadConfig({{}, "full", overrides}, &warnings);
+  ASSERT_TRUE(config) << config.error().Message();
+  EXPECT_EQ(config->agent.policy.explore.small_frontier_penalty_m, 8);
+  EXPECT_EQ(warnings.size(), 1U);
+}
+
+TEST(ConfigFile, OldAndPresentKeyOfOneSettingInOneSourceAreRefused) {
+  const std::string old_key = "policy.explore.crumb_m", key = "small_frontier_penalty_m";
+  RunConfig config;
+  std::vector<std::string> warnings;
+  const auto file = ApplyConfigText("[policy.explore]\ncrumb_m = 7\n" + key + " = 8\n", "a.toml",
+                                    config, &warnings);
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().what.find(old_key), std::string::npos) << file.error().what;
+  EXPECT_NE(file.error().what.find(key), std::string::npos) << file.error().what;
+  EXPECT_FALSE(ApplyOverrides({old_key + "=7", "policy.explore." + key + "=8"}, config, &warnings));
+  EXPECT_EQ(ConfigHash(config), ConfigHash(RunConfig{}));
+  EXPECT_TRUE(warnings.empty());
+  // An override may replace a setting of the file, under either key.
+  ASSERT_TRUE(ApplyConfigText("[policy.explore]\ncrumb_m = 7\n", "a.toml", config, &warnings));
+  ASSERT_TRUE(ApplyOverrides({"policy.explore." + key + "=8"}, config, &warnings));
+  EXPECT_EQ(config.agent.policy.explore.small_frontier_penalty_m, 8);
+}
+
+TEST(ConfigFile, AMistakeInAnOldKeysValueNamesTheKeyAsGiven) {
+  RunConfig config;
+  const auto ok = ApplyOverrides({"policy.explore.crumb_m=-1"}, config);
+  ASSERT_FALSE(ok);
+  EXPECT_NE(ok.error().what.find("\"policy.explore.crumb_m\" must be in"), std::string::npos);
+}
+
 // The paper's single-object protocol is its frozen configuration: one goal, and nothing else.
 TEST(ConfigFile, TheSingleObjectProtocolOfThePaperChangesTheNumberOfGoalsOnly) {
   RunConfig config;

@@ -78,13 +78,13 @@ TEST(GroundMap, TellsGroundWallsDropsAndTheUnseen) {
     SetState(map, {0, -1, z}, VoxelState::kTraversableFake);  // air, the floor below hidden
   const GroundMap ground = GroundOf(map);
   int z = 0;
-  EXPECT_EQ(ground.SideOf({0, 0, 1}, 0, 1, &z), Side::kBlocked);
-  EXPECT_EQ(ground.SideOf({1, 0, 1}, 0, 1, &z), Side::kGround);
+  EXPECT_EQ(ground.OutcomeOf({0, 0, 1}, 0, 1, &z), StepOutcome::kBlocked);
+  EXPECT_EQ(ground.OutcomeOf({1, 0, 1}, 0, 1, &z), StepOutcome::kGround);
   EXPECT_EQ(z, 4);
-  EXPECT_EQ(ground.SideOf({2, 0, 1}, 0, 1, &z), Side::kBlocked);
-  EXPECT_EQ(ground.SideOf({2, 0, 1}, 1, 0, &z), Side::kDrop);
-  EXPECT_EQ(ground.SideOf({0, 0, 1}, 0, -1, &z), Side::kUnknown);
-  EXPECT_EQ(ground.SideOf({1, 0, 1}, 0, -1, &z), Side::kUnknown);
+  EXPECT_EQ(ground.OutcomeOf({2, 0, 1}, 0, 1, &z), StepOutcome::kBlocked);
+  EXPECT_EQ(ground.OutcomeOf({2, 0, 1}, 1, 0, &z), StepOutcome::kDrop);
+  EXPECT_EQ(ground.OutcomeOf({0, 0, 1}, 0, -1, &z), StepOutcome::kUnknown);
+  EXPECT_EQ(ground.OutcomeOf({1, 0, 1}, 0, -1, &z), StepOutcome::kUnknown);
 }
 
 // Open risers: light falls below a tread whose top hides behind its edge (found in generated U
@@ -101,7 +101,7 @@ TEST(GroundMap, ATreadThatHidesBetweenSeenAirIsUnseenGroundAndIsBridged) {
   AddGround(map, 6, 0, 9, 3, 3);
   const GroundMap ground = GroundOf(map);
   int z = 0;
-  EXPECT_EQ(ground.SideOf({2, 1, 1}, 1, 0, &z), Side::kUnknown);
+  EXPECT_EQ(ground.OutcomeOf({2, 1, 1}, 1, 0, &z), StepOutcome::kUnknown);
   EXPECT_EQ(ground.Bridge({2, 1, 1}, 1, 0, 4), (VoxelKey{6, 1, 4}));
   EXPECT_FALSE(ground.Bridge({2, 1, 1}, 1, 0, 3));
   EXPECT_TRUE(CostsFrom(ground, {0, 1, 1}).contains({8, 1, 4}));
@@ -116,7 +116,7 @@ TEST(GroundMap, TheCeilingOfTheStoreyBelowIsNoWall) {
     for (int y = 0; y < 3; ++y) SetState(map, {x, y, -3}, VoxelState::kOccupied);
   const GroundMap ground = GroundOf(map);
   int z = 0;
-  EXPECT_EQ(ground.SideOf({2, 1, 1}, 1, 0, &z), Side::kUnknown);
+  EXPECT_EQ(ground.OutcomeOf({2, 1, 1}, 1, 0, &z), StepOutcome::kUnknown);
 }
 
 // The last riser below a landing, seen from below: the tread behind it is not (house 16).
@@ -128,7 +128,7 @@ TEST(GroundMap, ARiserWithoutSeenAirAboveIsUnseenGround) {
   AddGround(map, 4, 0, 6, 3, 2);
   const GroundMap ground = GroundOf(map);
   int z = 0;
-  EXPECT_EQ(ground.SideOf({2, 1, 1}, 1, 0, &z), Side::kUnknown);
+  EXPECT_EQ(ground.OutcomeOf({2, 1, 1}, 1, 0, &z), StepOutcome::kUnknown);
   EXPECT_EQ(ground.Bridge({2, 1, 1}, 1, 0, 4), (VoxelKey{4, 1, 3}));
 }
 
@@ -238,7 +238,8 @@ std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& s
       for (int dx = -1; dx <= 1; ++dx)
         for (int dy = -1; dy <= 1; ++dy) {
           int z = 0;
-          if ((dx == 0 && dy == 0) || ground.SideOf(from, dx, dy, &z) != Side::kGround) continue;
+          if ((dx == 0 && dy == 0) || ground.OutcomeOf(from, dx, dy, &z) != StepOutcome::kGround)
+            continue;
           const VoxelKey to{from.x + dx, from.y + dy, z};
           if (to.x < 0 || to.y < 0 || to.x >= side || to.y >= side) continue;
           const Clearance room = ground.ClearanceOf(to);

@@ -120,7 +120,7 @@ class Walker {
     map_.Integrate(frame.depth_m, sensor_.Intrinsics(), T_world_camera);
     map_.ObserveBody(p_foot_world, sensor_.camera_height_m);
     ground_.Update(map_.UpdateStates());
-    if (last_) ground_.NoteWay(*last_, p_foot_world);
+    if (last_) ground_.NoteStep(*last_, p_foot_world);
     last_ = p_foot_world;
   }
 
@@ -137,10 +137,10 @@ std::vector<Vector3d> StepsBetween(const sim::NavMesh& navmesh, const Vector3d& 
                                    const Vector3d& to_world) {
   constexpr double kStep_m = 0.25;
   std::vector<Vector3d> steps{*navmesh.Snap(from_world)};
-  const Vector3d way = to_world - from_world;
-  const int count = static_cast<int>(way.head<2>().norm() / kStep_m);
+  const Vector3d offset = to_world - from_world;
+  const int count = static_cast<int>(offset.head<2>().norm() / kStep_m);
   for (int i = 1; i <= count; ++i) {
-    const Vector3d step = kStep_m * Vector3d(way.x(), way.y(), 0).normalized();
+    const Vector3d step = kStep_m * Vector3d(offset.x(), offset.y(), 0).normalized();
     steps.push_back(navmesh.WalkStraight(steps.back(), steps.back() + step));
   }
   return steps;

@@ -98,10 +98,10 @@ TEST(FlightSurvey, TheFarSideOfAWalkedFlightIsTheSameFlight) {
     wide.insert(wide.end(), side.begin(), side.end());
   }
   const StairEvidence evidence = EvidenceOf(wide);
-  std::vector<Vector3d> way;
-  for (int i = 0; i <= 16; ++i) way.emplace_back(1.9 + 0.2 * i, 0.5, 0.1 * i);
+  std::vector<Vector3d> path;
+  for (int i = 0; i <= 16; ++i) path.emplace_back(1.9 + 0.2 * i, 0.5, 0.1 * i);
   std::vector<StairFlight> flights;
-  NoteWalk(way, evidence, kVoxel_m, &flights);
+  NoteWalk(path, evidence, kVoxel_m, &flights);
   FlightSurvey().Update(evidence, {}, {5, 0, 1.6}, kVoxel_m, &flights);
   EXPECT_EQ(flights.size(), 1u);
 }
@@ -111,9 +111,9 @@ TEST(FlightSurvey, WhatWasWalkedIsNotSeenOnceMore) {
   std::vector<StairFlight> flights;
   FlightSurvey survey;
   survey.Update(evidence, {}, {0, 0, 0}, kVoxel_m, &flights);
-  std::vector<Vector3d> way;
-  for (int i = 0; i <= 16; ++i) way.emplace_back(1.9 + 0.2 * i, 0.5, 0.1 * i);
-  NoteWalk(way, evidence, kVoxel_m, &flights);
+  std::vector<Vector3d> path;
+  for (int i = 0; i <= 16; ++i) path.emplace_back(1.9 + 0.2 * i, 0.5, 0.1 * i);
+  NoteWalk(path, evidence, kVoxel_m, &flights);
   survey.Update(evidence, {}, {5, 0, 1.6}, kVoxel_m, &flights);
   ASSERT_EQ(flights.size(), 1u);
   EXPECT_TRUE(flights[0].IsWalked());

@@ -10,16 +10,16 @@ namespace {
 
 using geometry::StairFlight;
 
-std::vector<Vector3d> Way(double from_x, double to_x, double rise_m) {
-  std::vector<Vector3d> way;
+std::vector<Vector3d> Path(double from_x, double to_x, double rise_m) {
+  std::vector<Vector3d> path;
   for (int i = 0; i <= 10; ++i)
-    way.emplace_back(from_x + (to_x - from_x) * i / 10, 1.0, rise_m * i / 10);
-  return way;
+    path.emplace_back(from_x + (to_x - from_x) * i / 10, 1.0, rise_m * i / 10);
+  return path;
 }
 
 TEST(Flights, AWalkGivesAFlightFromFootToTop) {
   std::vector<geometry::StairFlight> flights;
-  NoteWalk(Way(0, 4, 2.8), {}, 0.1, &flights);
+  NoteWalk(Path(0, 4, 2.8), {}, 0.1, &flights);
   ASSERT_EQ(flights.size(), 1u);
   EXPECT_EQ(flights[0].p_foot_world, Vector3d(0, 1, 0));
   EXPECT_EQ(flights[0].p_top_world, Vector3d(4, 1, 2.8));
@@ -30,8 +30,8 @@ TEST(Flights, AWalkGivesAFlightFromFootToTop) {
 
 TEST(Flights, TheWayBackIsTheSameFlight) {
   std::vector<geometry::StairFlight> flights;
-  NoteWalk(Way(0, 4, 2.8), {}, 0.1, &flights);
-  auto back = Way(0.3, 4.2, 2.8);
+  NoteWalk(Path(0, 4, 2.8), {}, 0.1, &flights);
+  auto back = Path(0.3, 4.2, 2.8);
   std::reverse(back.begin(), back.end());
   NoteWalk(back, {}, 0.1, &flights);
   ASSERT_EQ(flights.size(), 1u);
@@ -41,14 +41,14 @@ TEST(Flights, TheWayBackIsTheSameFlight) {
 
 TEST(Flights, ANeighbouringFlightIsAnother) {
   std::vector<geometry::StairFlight> flights;
-  NoteWalk(Way(0, 4, 2.8), {}, 0.1, &flights);
-  NoteWalk(Way(4, 0, 2.8), {}, 0.1, &flights);
+  NoteWalk(Path(0, 4, 2.8), {}, 0.1, &flights);
+  NoteWalk(Path(4, 0, 2.8), {}, 0.1, &flights);
   EXPECT_EQ(flights.size(), 2u);
 }
 
 TEST(Flights, WhatLiesOnOneIsBesideIt) {
   std::vector<geometry::StairFlight> flights;
-  NoteWalk(Way(0, 4, 2.8), {}, 0.1, &flights);
+  NoteWalk(Path(0, 4, 2.8), {}, 0.1, &flights);
   EXPECT_TRUE(IsBeside(flights[0], {2, 1.4, 1.5}));
   EXPECT_TRUE(IsBeside(flights[0], {4, 1, 2.8}));
   EXPECT_FALSE(IsBeside(flights[0], {2, 1.4, 2.8}));  // the gallery above its middle
@@ -58,7 +58,7 @@ TEST(Flights, WhatLiesOnOneIsBesideIt) {
 StairFlight Seen(double from_x, double to_x, double rise_m, int id) {
   StairFlight flight;
   flight.id = id;
-  flight.steps_world = Way(from_x, to_x, rise_m);
+  flight.steps_world = Path(from_x, to_x, rise_m);
   flight.p_foot_world = flight.steps_world.front();
   flight.p_top_world = flight.steps_world.back();
   return flight;
@@ -68,7 +68,7 @@ TEST(Flights, AWalkTakesOverWhatWasOnlySeen) {
   std::vector<StairFlight> flights = {Seen(1, 4, 2.1, 5), Seen(10, 14, 2.8, 6)};
   flights[0].seen_from_world = {{0, 0, 0}};
   NoteTry({2, 1, 1}, {{-1, 0, 0}, true, geometry::TryEnding::kUnreachable}, &flights);
-  NoteWalk(Way(0, 4, 2.8), {}, 0.1, &flights);
+  NoteWalk(Path(0, 4, 2.8), {}, 0.1, &flights);
   ASSERT_EQ(flights.size(), 2u);
   EXPECT_TRUE(flights[0].IsWalked());
   EXPECT_EQ(flights[0].id, 5);

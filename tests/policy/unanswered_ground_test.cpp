@@ -66,7 +66,7 @@ TEST(UnansweredGround, BeyondTheEdgeOfAWorldIsNothingToBeSeen) {
   const auto edge = given.ground.StandingAt(Vector3d(kEdge_m - 0.05, 0.05, 0));
   ASSERT_TRUE(edge);
   int z = 0;
-  EXPECT_EQ(given.ground.SideOf(*edge, 1, 0, &z), planner::Side::kDrop);
+  EXPECT_EQ(given.ground.OutcomeOf(*edge, 1, 0, &z), planner::StepOutcome::kDrop);
 }
 
 TEST(UnansweredGround, AFrameOrTwoSettleNothing) {

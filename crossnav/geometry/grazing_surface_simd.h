@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The inner loops of looking into gaps between pixels (grazing.h), vectorised with Highway, chosen
-// at run time: which segments of surface lie in a gap, and which voxels they pass. In double, in
-// the order of BackProjectToVoxels and WalkRay, so that every instruction set gives the same.
-// Internal.
+// The inner loops of looking into gaps between pixels (grazing_surface.h), vectorised with Highway,
+// chosen at run time: which segments of surface lie in a gap, and which voxels they pass. In
+// double, in the order of BackProjectToVoxels and WalkRay, so that every instruction set gives the
+// same. Internal.
 #pragma once
 
 #include <array>

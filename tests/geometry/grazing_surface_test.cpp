@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which gaps between pixels are looked into, against looking into all.
-#include "crossnav/geometry/grazing.h"
+#include "crossnav/geometry/grazing_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Segments in gaps and the voxels they pass, against one gap at a time and WalkRay.
-#include "crossnav/geometry/gap_lanes.h"
+#include "crossnav/geometry/grazing_surface_simd.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -113,7 +113,7 @@ void OnEveryInstructionSet(F&& check) {
   }
 }
 
-TEST(GapLanes, SegmentsAreThoseOfOneGapAtATimeOnEveryInstructionSet) {
+TEST(GrazingSurfaceSimd, SegmentsAreThoseOfOneGapAtATimeOnEveryInstructionSet) {
   Rng rng(3);
   MapConfig config;
   std::size_t found = 0, gap_count = 0;
@@ -153,7 +153,7 @@ Segments RandomSegments(Rng& rng) {
   return segments;
 }
 
-TEST(GapLanes, VoxelsMetAreThoseOfWalkRayOnEveryInstructionSet) {
+TEST(GrazingSurfaceSimd, VoxelsMetAreThoseOfWalkRayOnEveryInstructionSet) {
   Rng rng(4);
   std::size_t met_count = 0;
   for (int round = 0; round < 200; ++round) {
@@ -179,7 +179,7 @@ TEST(GapLanes, VoxelsMetAreThoseOfWalkRayOnEveryInstructionSet) {
   EXPECT_GT(met_count, 5000U);
 }
 
-TEST(GapLanes, WhatNoKeyCanNameIsNotWalked) {
+TEST(GrazingSurfaceSimd, WhatNoKeyCanNameIsNotWalked) {
   Segments segments;
   for (const double far : {kNone, 1e300, -1e12, std::numeric_limits<double>::infinity()}) {
     segments.a[1][static_cast<std::size_t>(segments.count)] = far;

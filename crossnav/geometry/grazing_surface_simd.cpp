@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/geometry/gap_lanes.h"
+#include "crossnav/geometry/grazing_surface_simd.h"
 
 #include <bit>
 #include <limits>
 
 // This file is compiled once per instruction set by the include below.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "crossnav/geometry/gap_lanes.cpp"  // NOLINT
-#include <hwy/foreach_target.h>                               // IWYU pragma: keep
+#define HWY_TARGET_INCLUDE "crossnav/geometry/grazing_surface_simd.cpp"  // NOLINT
+#include <hwy/foreach_target.h>                                          // IWYU pragma: keep
 
 #include <hwy/highway.h>
 
@@ -200,7 +200,7 @@ struct Walkers {
     return hn::Lt(sum, Set(kMost_vox));
   }
 
-  HWY_INLINE M IsOnItsWay() const {
+  HWY_INLINE M IsWalking() const {
     return hn::Or(hn::Or(hn::Ne(cell[0], last[0]), hn::Ne(cell[1], last[1])),
                   hn::Ne(cell[2], last[2]));
   }
@@ -258,10 +258,10 @@ void WalkSegmentsLanes(const Segments& segments, const VoxelHashes& wanted,
     const M used =
         hn::And(walkers.IsInReach(), hn::FirstN(d, static_cast<std::size_t>(segments.count - i)));
     for (;;) {
-      const M on_its_way = hn::And(used, walkers.IsOnItsWay());
-      if (hn::AllFalse(d, on_its_way)) break;
-      Meet(walkers.cell, on_its_way, wanted, met);
-      walkers.Go(on_its_way);
+      const M is_walking = hn::And(used, walkers.IsWalking());
+      if (hn::AllFalse(d, is_walking)) break;
+      Meet(walkers.cell, is_walking, wanted, met);
+      walkers.Go(is_walking);
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/geometry/grazing.h"
+#include "crossnav/geometry/grazing_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "crossnav/geometry/gap_lanes.h"
+#include "crossnav/geometry/grazing_surface_simd.h"
 
 namespace crossnav::geometry {
 namespace {
