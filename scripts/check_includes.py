@@ -65,7 +65,7 @@ ADAPTERS = {
     "Recast and Detour": (r"^recastnavigation/", ["crossnav/sim/navmesh*",
                                                   "crossnav/sim/walk_graph.cpp"]),
     "Highway": (r"^hwy/", ["crossnav/memory/row_kernels.cpp", "crossnav/geometry/end_rows.cpp",
-                            "crossnav/geometry/*_lanes.cpp", "crossnav/sim/*_lanes.cpp"]),
+                            "crossnav/geometry/*_lanes.cpp", "crossnav/geometry/grazing_surface_simd.cpp", "crossnav/sim/*_lanes.cpp"]),
     "libjpeg": (r"^jpeglib", ["crossnav/sim/image_codec.cpp", "crossnav/trace/preview.cpp"]),
     "Basis Universal": (r"^transcoder/", ["crossnav/sim/basis_image.cpp"]),
     "libpng": (r"^png", ["crossnav/core/png_image.cpp"]),
