@@ -288,6 +288,11 @@ struct GraphBenchOptions {
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console);
 
+struct SensorTrialOptions {
+  std::string data;                 ///< folder
+  std::string perception = "none";  ///< none | networks
+};
+
 Result<void> Doctor(const CommonOptions& common, Console& console);
 
 }  // namespace crossnav::app

@@ -382,6 +382,7 @@ void AddTools(CLI::App& app, Options& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->check(CLI::IsMember(NoiseKinds()));
   noise->add_option("--out", o.noise.out, "JSON to write, for scripts/plot_noise.py");
+  AddSensorTrials(*bench, o);
 }
 
 }  // namespace

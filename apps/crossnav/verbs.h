@@ -42,6 +42,7 @@ struct Options {
   StairsOptions stairs;
   NoiseSweepOptions noise;
   GraphBenchOptions graph_bench;
+  SensorTrialOptions sensor_trials;
   ServeOptions serve;
   Command command;
 };
@@ -54,5 +55,8 @@ CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const ch
 void AddSceneVerbs(CLI::App& app, Options& options);
 /// Runs, their results, maps, networks and tools.
 void AddRunVerbs(CLI::App& app, Options& options);
+
+/// `bench sensors`.
+void AddSensorTrials(CLI::App& bench, Options& options);
 
 }  // namespace crossnav::app

@@ -26,8 +26,10 @@ Result<Images> LoadImages(const FolderFrame& frame, double depth_unit_m) {
 template <class T>
 Result<CameraModel> CameraOf(const std::optional<Pinhole>& typed,
                              const std::optional<Pinhole>& usual, const Image<T>& image,
-                             const std::string& where) {
-  const bool is_usual_size = image.width == 640 && image.height == 480;
+                             const Folder& folder) {
+  const std::string where = folder.path.string();
+  const bool is_usual_size =
+      folder.are_intrinsics_of_images || (image.width == 640 && image.height == 480);
   if (!typed && (!usual || !is_usual_size)) {
     return Fail(ErrorCode::kInvalid,
                 "the intrinsics of " + std::to_string(image.width) + " x " +
@@ -39,11 +41,10 @@ Result<CameraModel> CameraOf(const std::optional<Pinhole>& typed,
 }
 
 Result<Rig> RigOf(const Folder& folder, const RecordingOptions& options, const Images& images) {
-  const std::string where = folder.path.string();
-  auto colour = CameraOf(options.colour, folder.colour, images.rgb, where);
+  auto colour = CameraOf(options.colour, folder.colour, images.rgb, folder);
   if (!colour) return tl::unexpected(colour.error());
-  auto depth =
-      CameraOf(options.depth ? options.depth : options.colour, folder.depth, images.depth_m, where);
+  auto depth = CameraOf(options.depth ? options.depth : options.colour, folder.depth,
+                        images.depth_m, folder);
   if (!depth) return tl::unexpected(depth.error());
   return Rig{*colour, *depth, options.T_colour_depth.value_or(Pose::Identity())};
 }

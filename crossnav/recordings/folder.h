@@ -23,8 +23,9 @@ struct Folder {
   std::vector<FolderFrame> frames;  ///< in the order of time
   PoseTrack poses;                  ///< camera (or robot) to the folder's world
   PoseLimits limits;
-  bool are_poses_of_depth = false;       ///< else of the colour camera
-  std::optional<Pinhole> colour, depth;  ///< of 640 x 480 px; empty: the user must say
+  bool are_poses_of_depth = false;        ///< else of the colour camera
+  std::optional<Pinhole> colour, depth;   ///< of 640 x 480 px; empty: the user must say
+  bool are_intrinsics_of_images = false;  ///< of the images as they are, whatever their size
   double depth_unit_m = 0.001;
   std::string up = "z";
 };
@@ -36,6 +37,9 @@ Result<Folder> OpenSevenScenes(const std::filesystem::path& path, const Recordin
 /// color/N.png, depth/N.pgm (or .png), and a row of pose.txt for each N from 1: x y z qx qy qz qw.
 /// One pose a frame, no times.
 Result<Folder> OpenNumbered(const std::filesystem::path& path, const RecordingOptions& options);
+/// K.txt, poses.txt (a 4 x 4 matrix a row, camera to world, y up), images/NAME.png, depth/NAME.png
+/// in the order of their names. One pose a frame, no times.
+Result<Folder> OpenMatrixFrames(const std::filesystem::path& path, const RecordingOptions& options);
 
 Result<Recording> ReadFolder(const Folder& folder, const RecordingOptions& options,
                              const FrameVisitor& visit);

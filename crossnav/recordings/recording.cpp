@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 constexpr const char* kKnown =
     "; it must be a TUM RGB-D folder (rgb.txt, depth.txt, groundtruth.txt), a sequence of 7-Scenes "
     "(frame-000000.color.png, .depth.png, .pose.txt), a folder of numbered frames (color, depth, "
-    "pose.txt), or a ROS 2 bag (.mcap, or the folder with its metadata.yaml)";
+    "pose.txt), one of frames with a matrix each (images, depth, K.txt, poses.txt), or a ROS 2 bag "
+    "(.mcap, or the folder with its metadata.yaml)";
 
 bool Holds(const fs::path& folder, const std::vector<const char*>& names) {
   std::error_code error;
@@ -38,6 +39,7 @@ OpenFolder ReaderOf(const fs::path& path) {
   if (Holds(path, {"groundtruth.txt", "rgb.txt", "depth.txt"})) return OpenTum;
   if (HoldsFile(path, ".pose.txt")) return OpenSevenScenes;
   if (Holds(path, {"pose.txt"})) return OpenNumbered;
+  if (Holds(path, {"poses.txt"}) && Holds(path, {"K.txt"})) return OpenMatrixFrames;
   return nullptr;
 }
 

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// `bench sensors`: frames of real sensors, mapped and judged by frames that were held out, by what
+// is level, and by what people can see in them (docs/recordings.md, "Held to real sensors").
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "crossnav/bench/held_out.h"
+#include "crossnav/bench/timing.h"
+#include "crossnav/core/read_file.h"
+#include "crossnav/geometry/treads.h"
+#include "crossnav/policy/live_poi.h"
+#include "crossnav/policy/stair_geometry.h"
+#include "crossnav/recordings/depth_image.h"
+#include "crossnav/recordings/frames.h"
+#include "crossnav/scenegraph/storeys.h"
+#include "perception_source.h"
+#include "verbs.h"
+
+namespace crossnav::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr int kHeldOut = 4;  // every fourth frame, from the fourth
+constexpr double kFloorBand_m = 0.25;
+
+// Of the stairs' clouds, by least squares of the points on depth times pixel [px].
+constexpr CameraIntrinsics kStairCamera = {512, 424, 365.4, 365.4, 254.3, 209.1};
+
+Json FlightJson(const geometry::TreadFlight& flight) {
+  return {
+      {"treads", flight.treads.size()}, {"riser_m", flight.riser_m}, {"tread_m", flight.tread_m}};
+}
+
+/// Storeys of the map, and the plane through what lies near the lowest one's height.
+Json FloorJson(const geometry::VoxelMap& map) {
+  const auto storeys = scenegraph::FindStoreys(map);
+  if (storeys.empty()) return {{"storeys", 0}};
+  const double voxel_m = map.config().voxel_m, level_m = storeys.front().height_m;
+  std::vector<geometry::VoxelKey> ground;
+  map.ForEach([&](const geometry::VoxelKey& key, const geometry::Voxel& voxel) {
+    if (IsSurface(voxel.state) && std::abs((key.z + 1) * voxel_m - level_m) <= kFloorBand_m)
+      ground.push_back(key);
+  });
+  const policy::PlaneFit fit = policy::FitPlane(ground, voxel_m);
+  return {{"storeys", storeys.size()},
+          {"height_m", level_m},
+          {"area_m2", storeys.front().area_m2},
+          {"tilt_deg", RadToDeg(std::atan(fit.gradient.norm()))},
+          {"residual_m", fit.residual_m}};
+}
+
+/// Map, held-out frames and, with networks, plants of one recording with poses.
+class RoomTrial {
+ public:
+  RoomTrial(const bench::RunConfig& config, perception::PerceptionSuite* suite)
+      : config_(config), suite_(suite), map_(config.agent.map) {}
+
+  Result<void> Add(const Observation& obs) {
+    const bool is_held_out = frames_++ % kHeldOut == kHeldOut - 1;
+    const auto flight = geometry::FindTreads(obs.depth_m, obs.camera, obs.T_world_camera);
+    flights_ += !flight.treads.empty();
+    if (suite_ != nullptr)
+      if (auto ok = Look(obs); !ok) return ok;
+    if (is_held_out) {
+      held_out_.push_back(obs);
+      return {};
+    }
+    map_.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
+    map_.UpdateStates();
+    return {};
+  }
+
+  Json Document() const {
+    bench::HeldOutResult result;
+    for (const Observation& obs : held_out_) bench::AddHeldOut(map_, obs, &result);
+    const double rays = std::max(1.0, static_cast<double>(result.rays));
+    Json json = {{"frames", frames_},
+                 {"held_out", held_out_.size()},
+                 {"rays", result.rays},
+                 {"known_share", static_cast<double>(result.known) / rays},
+                 {"predicted_share", static_cast<double>(result.errors_m.size()) / rays},
+                 {"median_error_m", bench::PercentileOf(result.errors_m, 0.5)},
+                 {"p90_error_m", bench::PercentileOf(result.errors_m, 0.9)},
+                 {"violated_share", static_cast<double>(result.violations) / rays},
+                 {"floor", FloorJson(map_)},
+                 {"frames_with_stairs_by_geometry", flights_},
+                 {"plants", nullptr}};
+    if (suite_ != nullptr) json["plants"] = Plants();
+    return json;
+  }
+
+ private:
+  Result<void> Look(const Observation& obs) {
+    auto found = suite_->detector->Detect(obs, "plant");
+    if (!found) return tl::unexpected(found.error());
+    for (perception::Detection& detection : *found)
+      if (auto ok = suite_->segmenter->Segment(obs, detection); !ok) return ok;
+    const auto& object = config_.agent.policy.object;
+    plants_.Update(
+        policy::LiftDetections(*found, obs, config_.agent.map, object, object.detector_confidence),
+        object, config_.agent.map.voxel_m, frames_);
+    return {};
+  }
+
+  Json Plants() const {
+    Json all = Json::array();
+    for (const policy::LivePoi* poi : plants_.Stable(config_.agent.policy.object)) {
+      const Vector3d& p = poi->p_center_world;
+      all.push_back({{"centre", {p.x(), p.y(), p.z()}},
+                     {"frames", poi->frames},
+                     {"confidence", poi->confidence}});
+    }
+    return all;
+  }
+
+  const bench::RunConfig& config_;
+  perception::PerceptionSuite* suite_;
+  geometry::VoxelMap map_;
+  policy::LivePois plants_;
+  std::vector<Observation> held_out_;
+  int frames_ = 0, flights_ = 0;
+};
+
+Result<Json> TryRoom(const fs::path& folder, const recordings::RecordingOptions& options,
+                     const bench::RunConfig& config, perception::PerceptionSuite* suite) {
+  RoomTrial trial(config, suite);
+  const auto read = recordings::ReadRecording(
+      folder, options, [&](const auto&, const auto& frame) { return trial.Add(frame.obs); });
+  if (!read) return tl::unexpected(read.error());
+  return trial.Document();
+}
+
+/// Third line of the stairs' IMU files: pitch down and roll in degrees come first.
+Result<Pose> PoseOfImu(const fs::path& file) {
+  const auto text = ReadFile(file, 1 << 16);
+  if (!text) return tl::unexpected(text.error());
+  double pitch_deg = 0, roll_deg = 0;
+  std::size_t line = text->find('\n');
+  if (line != std::string::npos) line = text->find('\n', line + 1);
+  if (line == std::string::npos ||
+      std::sscanf(text->c_str() + line + 1, "%lf,%lf", &pitch_deg, &roll_deg) != 2)
+    return Fail(ErrorCode::kMalformed, "line 3 must begin with pitch and roll", file.string());
+  const double pitch = DegToRad(pitch_deg), roll = DegToRad(roll_deg);
+  Eigen::Matrix3d R;  // columns: the camera's right, down and forward in x ahead, y left, z up
+  R.col(0) = Vector3d(-std::sin(roll) * std::sin(pitch), -std::cos(roll),
+                      -std::sin(roll) * std::cos(pitch));
+  R.col(2) = Vector3d(std::cos(pitch), 0, -std::sin(pitch));
+  R.col(1) = R.col(2).cross(R.col(0));
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() = R;
+  return T_world_camera;
+}
+
+Result<Json> TryStairs(const fs::path& folder) {
+  Json frames = Json::array();
+  for (const char* name : {"0000", "0001"}) {
+    const fs::path file = folder / (std::string(name) + "_depth.png");
+    const auto bytes = ReadFile(file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto raw = recordings::DecodeDepth16(recordings::BytesOf(*bytes), file.string());
+    if (!raw) return tl::unexpected(raw.error());
+    if (raw->width != kStairCamera.width_px || raw->height != kStairCamera.height_px)
+      return Fail(ErrorCode::kMismatch, "must be 512 x 424 px", file.string());
+    const auto T_world_camera = PoseOfImu(folder / (std::string(name) + "_imu.txt"));
+    if (!T_world_camera) return tl::unexpected(T_world_camera.error());
+    Json frame = FlightJson(
+        geometry::FindTreads(recordings::DepthOf(*raw, 0.001), kStairCamera, *T_world_camera));
+    frame["frame"] = name;
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+std::string RoomText(const char* name, const Json& room) {
+  const Json& floor = room["floor"];
+  std::string text = fmt::format(
+      "{}: {} frames, {} held out\n  depth: median error {:.3f} m, 90th percentile {:.3f} m, of "
+      "{:.1f} % of {} rays; free space violated by {:.2f} %\n  floors: {}",
+      name, room["frames"].get<int>(), room["held_out"].get<int>(),
+      room["median_error_m"].get<double>(), room["p90_error_m"].get<double>(),
+      100 * room["predicted_share"].get<double>(), room["rays"].get<int>(),
+      100 * room["violated_share"].get<double>(), floor["storeys"].get<int>());
+  if (floor.contains("height_m"))
+    text += fmt::format(" at {:.2f} m, {:.1f} m2, tilt {:.2f} degrees, residual {:.3f} m",
+                        floor["height_m"].get<double>(), floor["area_m2"].get<double>(),
+                        floor["tilt_deg"].get<double>(), floor["residual_m"].get<double>());
+  text += fmt::format("\n  frames in which geometry claims stairs: {}\n",
+                      room["frames_with_stairs_by_geometry"].get<int>());
+  if (room["plants"].is_null()) return text + "  plants: not looked for (--perception networks)\n";
+  for (const Json& plant : room["plants"])
+    text += fmt::format("  plant at ({:.2f}, {:.2f}, {:.2f}), {} frames, best {:.2f}\n",
+                        plant["centre"][0].get<double>(), plant["centre"][1].get<double>(),
+                        plant["centre"][2].get<double>(), plant["frames"].get<int>(),
+                        plant["confidence"].get<double>());
+  return text;
+}
+
+std::string StairsText(const Json& frames) {
+  std::string text;
+  for (const Json& frame : frames)
+    text += fmt::format("stairs {}: {} treads, riser {:.3f} m, tread {:.3f} m\n",
+                        frame["frame"].get<std::string>(), frame["treads"].get<int>(),
+                        frame["riser_m"].get<double>(), frame["tread_m"].get<double>());
+  return text;
+}
+
+Result<void> BenchSensors(const SensorTrialOptions& options, const CommonOptions& common,
+                          Console& console) {
+  CommonOptions all = common;
+  if (options.perception == "networks") all.overrides.push_back("eval.perception=networks");
+  const auto config = LoadConfig(all);
+  if (!config) return tl::unexpected(config.error());
+  std::optional<perception::PerceptionSuite> suite;
+  const auto source = PerceptionSource::Read(*config);
+  if (!source) return tl::unexpected(source.error());
+  if (auto made = source->MakeSuite()) {
+    if (!*made) return tl::unexpected(made->error());
+    suite = std::move(**made);
+  }
+  recordings::RecordingOptions five;
+  five.colour = recordings::Pinhole{518, 519, 325.5, 253.5};
+  const fs::path data = options.data;
+  Json document = Json::object();
+  std::string text;
+  std::error_code error;
+  const std::pair<const char*, recordings::RecordingOptions> rooms[] = {{"hololens", {}},
+                                                                        {"rgbd", five}};
+  for (const auto& [name, recording] : rooms) {
+    if (!fs::exists(data / name, error)) continue;
+    auto room = TryRoom(data / name, recording, *config, suite ? &*suite : nullptr);
+    if (!room) return tl::unexpected(room.error());
+    text += RoomText(name, *room);
+    document[name] = std::move(*room);
+  }
+  if (fs::exists(data / "stairs", error)) {
+    auto stairs = TryStairs(data / "stairs");
+    if (!stairs) return tl::unexpected(stairs.error());
+    text += StairsText(*stairs);
+    document["stairs"] = std::move(*stairs);
+  }
+  if (document.empty())
+    return Fail(ErrorCode::kNotFound, "holds none of the folders hololens, rgbd and stairs",
+                options.data);
+  console.Print(text);
+  console.Document(document);
+  return {};
+}
+
+}  // namespace
+
+void AddSensorTrials(CLI::App& bench, Options& o) {
+  CLI::App* sensors = AddVerb(
+      bench, o, "sensors", "Maps of real frames against frames held out, and treads of real stairs",
+      "crossnav bench sensors data --perception networks --set networks.detector=deimv2_femto_coco",
+      [&o](Console& c) { return BenchSensors(o.sensor_trials, o.common, c); });
+  sensors
+      ->add_option("DATA", o.sensor_trials.data,
+                   "Folder with hololens, rgbd and stairs, or some of them")
+      ->required();
+  sensors
+      ->add_option("--perception", o.sensor_trials.perception,
+                   "none (geometry alone), or networks: looks for plants, too")
+      ->check(CLI::IsMember({"none", "networks"}));
+}
+
+}  // namespace crossnav::app
