@@ -190,6 +190,11 @@ TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {
     EXPECT_GT(fs::file_size(At(std::string("run/") + name)), 100u) << name;
   }
   EXPECT_EQ(Run("replay export run/r.mcap --out run/r.html").exit_code, 0);
+  const std::string compare = "replay export run/r.mcap --compare run/r.mcap --out ";
+  EXPECT_EQ(Run(compare + "run/two.html").exit_code, 0);
+  EXPECT_GT(fs::file_size(At("run/two.html")), fs::file_size(At("run/r.html")));
+  ExpectFailure(compare + "run/two.rrd", {"--compare", ".html"});
+  ExpectFailure("replay export run/r.mcap --compare run/no.mcap --out run/n.html", {"no.mcap"});
   EXPECT_EQ(Run("metrics run/results.jsonl --json").exit_code, 0);
   const std::string settings = " --set ground_truth.feature_dim=64";
   const Outcome info = Run("map info run/m.map --json" + settings);

@@ -188,8 +188,8 @@ TEST(ReplayPage, HoldsEverythingAndAsksForNothing) {
   ASSERT_TRUE(replay);
   const std::string page = ReplayPage(*replay);
   EXPECT_EQ(page, ReplayPage(*replay));
-  for (const char* sign : {"http://", "https://", "@REPLAY_DATA@", "/*SCRIPT*/", "/*STYLE*/",
-                           "\nimport ", "\nexport ", "<link", " src=\"", "fetch("}) {
+  for (const char* sign : {"http://", "https://", "@REPLAY_DATA@", "@OTHER_DATA@", "/*SCRIPT*/",
+                           "/*STYLE*/", "\nimport ", "\nexport ", "<link", " src=\"", "fetch("}) {
     EXPECT_EQ(page.find(sign), std::string::npos) << sign;
   }
   simdjson::dom::parser parser;
@@ -201,6 +201,28 @@ TEST(ReplayPage, HoldsEverythingAndAsksForNothing) {
     ASSERT_EQ(data[key].get_array().get(list), simdjson::SUCCESS);
     EXPECT_EQ(list.size(), Sample().frames.size()) << key;
   }
+}
+
+TEST(ReplayPage, OfTwoRunsOfAnEpisodeHoldsBoth) {
+  const test::TempFolder folder;
+  const fs::path a = folder.path() / "a.mcap", b = folder.path() / "b.mcap";
+  WriteSample(a);
+  auto writer = ReplayWriter::Open(b, Sample().info);
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(writer->Write({Sample().frames[0].trace}));
+  ASSERT_TRUE(writer->Close());
+  ASSERT_TRUE(ExportComparison(a, b, folder.path() / "two.html"));
+  const std::string page = BytesOf(folder.path() / "two.html");
+  EXPECT_EQ(page.find("@OTHER_DATA@"), std::string::npos);
+  EXPECT_GT(page.size(), ReplayPage(*ReadReplay(a)).size());
+  ReplayInfo other = Sample().info;
+  other.episode_id = "of-another";
+  writer = ReplayWriter::Open(b, other);
+  ASSERT_TRUE(writer && writer->Close());
+  const auto refused = ExportComparison(a, b, folder.path() / "no.html");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().Message().find("of-another"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder.path() / "no.html"));
 }
 
 TEST(ReplayPage, CannotBeBrokenByTexts) {
