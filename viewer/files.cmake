@@ -10,5 +10,7 @@ set(VIEWER_SCRIPTS
   src/panels.js
   src/sight.js
   src/timeline.js
+  src/compare.js
+  src/controls.js
   src/main.js)
 set(VIEWER_FILES src/index.html src/style.css ${VIEWER_SCRIPTS})

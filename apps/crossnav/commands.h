@@ -229,7 +229,7 @@ Result<void> ShowMetrics(const MetricsOptions& options, const CommonOptions& com
                          Console& console);
 
 struct ReplayOptions {
-  std::string file, out;
+  std::string file, out, compare;
 };
 Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& common,
                           Console& console);

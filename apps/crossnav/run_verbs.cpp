@@ -179,6 +179,8 @@ void AddResults(CLI::App& app, Options& o) {
                            "crossnav replay export episode.mcap --out episode.html",
                            [&o](Console& c) { return ReplayExport(o.replay, o.common, c); });
   page->add_option("REPLAY", o.replay.file, "Replay (.mcap)")->required();
+  page->add_option("--compare", o.replay.compare,
+                   "Another replay of the same episode: the page shows where they part");
   page->add_option("--out,--to", o.replay.out,
                    "Page to write (.html), or Rerun recording (.rrd, by the Python package)")
       ->required();

@@ -17,7 +17,7 @@
 namespace crossnav::trace {
 namespace {
 
-constexpr std::string_view kDataMark = "@REPLAY_DATA@";
+constexpr std::string_view kDataMark = "@REPLAY_DATA@", kOtherMark = "@OTHER_DATA@";
 constexpr double kDepthMaxM = 10;  // chosen: the map's depth limit
 
 std::string Base64(std::string_view bytes) {
@@ -122,13 +122,16 @@ std::string EscapeForScript(const std::string& json) {
 
 }  // namespace
 
-std::string ReplayPage(const Replay& replay) {
+std::string ReplayPage(const Replay& replay, const Replay* other) {
   const std::string_view page = ReplayPageTemplate();
-  const std::size_t mark = page.find(kDataMark);
-  CROSSNAV_CHECK(mark != std::string_view::npos, "the page's template has no place for the data");
+  const std::size_t mark = page.find(kDataMark), other_mark = page.find(kOtherMark);
+  CROSSNAV_CHECK(mark < other_mark && other_mark != std::string_view::npos,
+                 "the page's template has no place for the data");
   std::string out(page.substr(0, mark));
   out += EscapeForScript(PageData(replay));
-  out += page.substr(mark + kDataMark.size());
+  out += page.substr(mark + kDataMark.size(), other_mark - mark - kDataMark.size());
+  out += other == nullptr ? "null" : EscapeForScript(PageData(*other));
+  out += page.substr(other_mark + kOtherMark.size());
   return out;
 }
 
@@ -137,6 +140,22 @@ Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
   const auto replay = ReadReplay(mcap_path);
   if (!replay) return tl::unexpected(replay.error());
   return WriteFileAtomically(html_path, ReplayPage(*replay));
+}
+
+Result<void> ExportComparison(const std::filesystem::path& mcap_path,
+                              const std::filesystem::path& other_path,
+                              const std::filesystem::path& html_path) {
+  const auto replay = ReadReplay(mcap_path), other = ReadReplay(other_path);
+  for (const auto* read : {&replay, &other})
+    if (!*read) return tl::unexpected(read->error());
+  const ReplayInfo &a = replay->info, &b = other->info;
+  if (a.scene_id != b.scene_id || a.episode_id != b.episode_id || a.goals != b.goals)
+    return Fail(ErrorCode::kMismatch,
+                "is of episode " + b.episode_id + " in " + b.scene_id + ", and " +
+                    mcap_path.string() + " of episode " + a.episode_id + " in " + a.scene_id +
+                    "; compare replays of one episode",
+                other_path.string());
+  return WriteFileAtomically(html_path, ReplayPage(*replay, &*other));
 }
 
 }  // namespace crossnav::trace

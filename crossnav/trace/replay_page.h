@@ -11,11 +11,16 @@
 
 namespace crossnav::trace {
 
-/// The page's HTML.
-std::string ReplayPage(const Replay& replay);
+/// The page's HTML. `other`: a second run of the same episode, to compare with.
+std::string ReplayPage(const Replay& replay, const Replay* other = nullptr);
 
 /// Reads the replay at `mcap_path` and writes the page to `html_path` (whole, or not at all).
 Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
+                              const std::filesystem::path& html_path);
+
+/// The same of two replays of one episode; replays of two episodes are an error.
+Result<void> ExportComparison(const std::filesystem::path& mcap_path,
+                              const std::filesystem::path& other_path,
                               const std::filesystem::path& html_path);
 
 }  // namespace crossnav::trace

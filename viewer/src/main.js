@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together: reads the embedded data, draws on demand, listens to keys and pointer.
 import { OrbitCamera } from "./camera.js";
-import { bytesOfBase64, figure, floorLevels, floorOf, inflate, openingOf, words } from "./data.js";
+import { CompareBar } from "./compare.js";
+import { connectKeys, connectPointer, connectTools, fillFloors } from "./controls.js";
+import { bytesOfBase64, floorLevels, floorOf, inflate, openingOf, words } from "./data.js";
 import { Overlay } from "./overlay.js";
 import {
   CameraPanel, CandidatesPanel, GoalsHead, LogPanel, StatusPanel, VerificationPanel, byId, make,
 } from "./panels.js";
 import { Renderer } from "./renderer.js";
-import { FLIGHT_COLOUR, KINDS, PATH_COLOUR, SceneBuilder, kindOf, rgbOf } from "./scene.js";
+import { FLIGHT_COLOUR, KINDS, OTHER_RUN_COLOUR, PATH_COLOUR, SceneBuilder, rgbOf } from "./scene.js";
 import { SightLayer } from "./sight.js";
 import { Timeline } from "./timeline.js";
 import { VoxelHistory, blockFaces } from "./voxels.js";
@@ -19,29 +21,53 @@ const LAYERS = [
   ["flights", "flights of stairs", FLIGHT_COLOUR],
   ["candidates", "candidates and target", "#e64980"],
   ["goals", "true goals (agent unaware)", "#2f9e44"],
+  ["other", "where the other run went", OTHER_RUN_COLOUR],
 ];
 
 class ReplayApp {
-  constructor(replay) {
-    this.replay = replay;
+  /// `runs`: one replay, or two of the same episode.
+  constructor(runs) {
+    this.runs = runs;
     this.index = 0;
-    this.levels = floorLevels(replay.steps);
     this.view = {
-      levels: this.levels, spread: 0, cut: 1.5, floors: "auto", isFollowing: false,
+      spread: 0, cut: 1.5, floors: "auto", isFollowing: false,
       lowFloor: 0, highFloor: 7,
-      layers: { trajectory: true, path: true, flights: true, candidates: true, goals: true },
-      isShown: replay.states.map((s) => s.is_surface),
+      layers: { trajectory: true, path: true, flights: true, candidates: true, goals: true, other: true },
+      isShown: runs[0].states.map((s) => s.is_surface),
     };
     this.camera = new OrbitCamera();
-    this.builder = new SceneBuilder(replay, this.view);
+    this.compare = runs.length > 1 ? new CompareBar(this) : null;
+    this.useRun(0);
+    this.startRenderer();
+  }
+
+  /// Panels, time line and scene of one of the runs.
+  useRun(run) {
+    const replay = this.replay = this.runs[run];
+    this.run = run;
+    this.levels = this.view.levels = floorLevels(replay.steps);
+    if (typeof this.view.floors === "number") this.view.floors = "auto";
+    this.builder = new SceneBuilder(replay, this.view, this.runs[1 - run]);
     this.overlay = new Overlay(byId("labels"), this.builder);
     const seek = (i) => this.seek(i);
     this.candidates = new CandidatesPanel(replay, (i) => this.highlight(i));
     this.panels = [new CameraPanel(replay), new SightLayer(replay),
       new StatusPanel(replay, this.levels), this.candidates,
       new VerificationPanel(replay), new LogPanel(replay, seek), new GoalsHead(replay, seek)];
+    if (this.compare) this.panels.push(this.compare);
     this.timeline = new Timeline(byId("timeline"), replay, seek);
-    this.startRenderer();
+    fillHead(replay);
+    fillFloors(this);
+  }
+
+  /// The other run, at the step and from the place that are shown now.
+  async switchTo(run) {
+    if (run === this.run) return;
+    this.play(false);
+    this.useRun(run);
+    this.renderer?.clearBlocks();
+    await this.loadVoxels();
+    this.seek(this.index);
   }
 
   startRenderer() {
@@ -65,7 +91,6 @@ class ReplayApp {
       this.voxels = new VoxelHistory(new Uint8Array(0), ends.map(() => 0));
       showNotice(`The voxel map could not be unpacked (${error.message}); a newer browser can.`);
     }
-    this.showWhole();
   }
 
   showWhole() {
@@ -152,6 +177,7 @@ class ReplayApp {
     });
     this.timeline.show(this.index, colours);
     document.body.dataset.drawn = String(this.index);
+    document.body.dataset.calls = String(this.renderer?.calls ?? 0);
   }
 
   play(isPlaying) {
@@ -247,7 +273,7 @@ function fillLegend(app) {
         app.redraw();
       });
   }), patchRow(WALKABLE, "floor that can be walked"), patchRow(INFLATED, "floor too near an obstacle"));
-  byId("legend-layers").replaceChildren(...LAYERS.map(([key, name, colour]) =>
+  byId("legend-layers").replaceChildren(...LAYERS.filter(([key]) => key !== "other" || app.compare).map(([key, name, colour]) =>
     legendRow(colour, name, true, (isOn) => {
       view.layers[key] = isOn;
       app.redraw();
@@ -264,101 +290,6 @@ function patchRow(colour, name) {
   return make("label", "fixed", [patch, make("span", "", name)]);
 }
 
-function connectTools(app) {
-  const floors = [["Auto", "auto", "the robot's floor and what is below it"], ["All", "all", ""],
-    ...app.levels.map((level, i) => [String(i + 1), i, `the floor at ${level.toFixed(2)} m alone`])];
-  byId("floors").replaceChildren(...floors.map(([name, which, title]) => {
-    const button = make("button", which === "auto" ? "on" : "", name);
-    button.dataset.floors = String(which);
-    button.title = title;
-    button.addEventListener("click", () => app.showFloors(which));
-    return button;
-  }));
-  byId("floors-row").hidden = byId("spread-row").hidden = app.levels.length < 2;
-  const slider = (id, apply) => {
-    const update = () => {
-      const value = Number(byId(id).value);
-      byId(`${id}-value`).textContent = `${value.toFixed(1)} m`;
-      apply(value);
-      app.redraw();
-    };
-    byId(id).addEventListener("input", update);
-    update();
-  };
-  slider("cut", (v) => { app.view.cut = v; });
-  slider("spread", (v) => { app.view.spread = v; });
-  byId("from-top").addEventListener("click", () => app.lookFromTop());
-  byId("whole").addEventListener("click", () => app.showWhole());
-  byId("follow").addEventListener("click", () => app.toggleFollow());
-  byId("back").addEventListener("click", () => app.seek(app.index - 1));
-  byId("forth").addEventListener("click", () => app.seek(app.index + 1));
-  byId("play").addEventListener("click", () => app.play(!app.isPlaying));
-  byId("speed").addEventListener("change", () => { if (app.isPlaying) app.play(true); });
-  byId("help-button").addEventListener("click", () => byId("help").showModal());
-  byId("theme").addEventListener("click", () => {
-    const root = document.documentElement;
-    const isDark = getComputedStyle(root).colorScheme === "dark";
-    root.dataset.theme = isDark ? "light" : "dark";
-    app.redraw();
-  });
-}
-
-function connectKeys(app) {
-  const actions = {
-    " ": () => app.play(!app.isPlaying),
-    ArrowLeft: (e) => app.seek(app.index - (e.shiftKey ? 10 : 1)),
-    ArrowRight: (e) => app.seek(app.index + (e.shiftKey ? 10 : 1)),
-    Home: () => app.seek(0),
-    End: () => app.seek(Infinity),
-    "[": () => app.seek(app.timeline.goalFrom(app.index, -1)),
-    "]": () => app.seek(app.timeline.goalFrom(app.index, 1)),
-    "?": () => byId("help").showModal(),
-    t: () => app.lookFromTop(),
-    f: () => app.toggleFollow(),
-    0: () => app.showWhole(),
-  };
-  window.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
-    if (event.target.matches("input, select")) return;
-    const floor = Number(event.key) - 1;
-    const isFloor = /^[1-9]$/.test(event.key) && floor < app.levels.length;
-    const action = isFloor ? () => app.showFloors(floor) : actions[event.key] ||
-      actions[event.key.toLowerCase()];
-    if (!action) return;
-    event.preventDefault();
-    action(event);
-  });
-}
-
-function connectPointer(app) {
-  const canvas = byId("labels"), tooltip = byId("tooltip");
-  canvas.addEventListener("contextmenu", (e) => e.preventDefault());
-  canvas.addEventListener("pointerdown", (e) => canvas.setPointerCapture(e.pointerId));
-  canvas.addEventListener("pointermove", (e) => {
-    const box = canvas.getBoundingClientRect();
-    if (e.buttons) {
-      if (e.shiftKey || e.buttons & 6) app.camera.pan(e.movementX, e.movementY, box.height);
-      else app.camera.orbit(e.movementX, e.movementY);
-      app.redraw();
-      return;
-    }
-    const spot = app.overlay.spotAt(e.clientX - box.left, e.clientY - box.top);
-    app.highlight(spot ? spot.index : -1);
-    tooltip.hidden = !spot;
-    if (!spot) return;
-    const c = spot.candidate;
-    tooltip.textContent = `${kindOf(c.kind).label}: score ${figure(c.score, 2)}, ` +
-      `path cost ${c.path_cost < 0 ? "not planned" : figure(c.path_cost, 1)}, ${c.size} voxels`;
-    tooltip.style.left = `${Math.min(spot.x + 14, box.width - 260)}px`;
-    tooltip.style.top = `${spot.y + 12}px`;
-  });
-  canvas.addEventListener("wheel", (e) => {
-    e.preventDefault();
-    app.camera.zoom(Math.exp(0.0012 * e.deltaY));
-    app.redraw();
-  }, { passive: false });
-}
-
 /// "#step=120&floors=2&top": a view that can be linked to.
 function applyHash(app) {
   const wanted = new URLSearchParams(location.hash.slice(1));
@@ -369,23 +300,36 @@ function applyHash(app) {
   byId("spread").dispatchEvent(new Event("input"));
   if (wanted.has("spread")) app.showWhole();
   if (wanted.has("top")) app.lookFromTop();
-  const step = wanted.get("step"), opening = openingOf(app.replay);
+  const step = wanted.get("step");
+  const opening = app.compare ? app.compare.opening() : openingOf(app.replay);
   app.seek(step === null ? opening.index : app.replay.steps.findIndex((s) => s.step >= Number(step)));
   if (step === null && opening.text) showNotice(opening.text);
 }
 
+/// The replay in an element of the page, or null: none is there, or it cannot be read.
+function embedded(id) {
+  try {
+    return JSON.parse(byId(id).textContent);
+  } catch (error) {
+    showNotice(`The page is damaged, its replay cannot be read (${error.message}). Export it again.`);
+    return null;
+  }
+}
+
 async function start() {
-  const replay = JSON.parse(byId("replay-data").textContent);
-  fillHead(replay);
-  if (!replay.is_complete) {
+  const runs = [embedded("replay-data"), embedded("other-data")].filter((replay) => replay);
+  if (runs.length === 0) return;
+  if (runs.some((replay) => !replay.is_complete)) {
     showNotice("The replay was cut off: it ends where the recording stopped.");
   }
-  if (replay.steps.length === 0) {
+  if (runs.some((replay) => replay.steps.length === 0)) {
+    fillHead(runs[0]);
     showNotice("The replay holds no step.");
     return;
   }
-  const app = new ReplayApp(replay);
+  const app = new ReplayApp(runs);
   await app.loadVoxels();
+  app.showWhole();
   connectTools(app);
   connectKeys(app);
   connectPointer(app);

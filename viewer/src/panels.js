@@ -52,8 +52,8 @@ export class CameraPanel {
     this.grey = null;
     this.token = 0;
     byId("depth-scale-max").textContent = `${replay.depth_max_m} m`;
-    this.canvas.addEventListener("mousemove", (e) => this.readDepth(e));
-    this.canvas.addEventListener("mouseleave", () => { this.readout.textContent = ""; });
+    this.canvas.onmousemove = (e) => this.readDepth(e);
+    this.canvas.onmouseleave = () => { this.readout.textContent = ""; };
   }
 
   show(index) {

@@ -179,6 +179,7 @@ export class Renderer {
     this.solidArray = floatArray(gl, [3, 3, 3], 0);
     this.blocks = new Map();
     this.corners = { buffer: gl.createBuffer(), faces: 0 };
+    this.calls = 0;  // draw calls of the last frame
   }
 
   setBlock(block, bytes) {
@@ -200,6 +201,15 @@ export class Renderer {
     gl.bufferData(gl.ARRAY_BUFFER, fourfold(bytes), gl.DYNAMIC_DRAW);
     entry.count = bytes.length / FACE_BYTES;
     this.ensureCorners(entry.count);
+  }
+
+  /// Forgets the map, as another run's is shown next.
+  clearBlocks() {
+    for (const { vao, buffer } of this.blocks.values()) {
+      this.gl.deleteVertexArray(vao);
+      this.gl.deleteBuffer(buffer);
+    }
+    this.blocks.clear();
   }
 
   /// Grows the indices that all blocks share: two triangles a face.
@@ -227,6 +237,7 @@ export class Renderer {
     gl.clearColor(...view.background, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
+    this.calls = 3;  // solids, lines twice
     this.drawFaces(view);
     this.drawTriangles(view, triangles);
     this.drawLines(view, lines);
@@ -254,6 +265,7 @@ export class Renderer {
       if (entry.count === 0) continue;
       gl.bindVertexArray(entry.vao);
       gl.drawElements(gl.TRIANGLES, 6 * entry.count, gl.UNSIGNED_INT, 0);
+      ++this.calls;
     }
   }
 

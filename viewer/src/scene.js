@@ -22,6 +22,7 @@ export const KINDS = {
 };
 const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";
+export const OTHER_RUN_COLOUR = "#868e96";
 export const FLIGHT_COLOUR = "#5f3a12";
 export const GOAL_COLOUR = "#2f9e44";
 export const OTHER_GOAL_COLOUR = "#5c6773";
@@ -37,9 +38,11 @@ export function rgbOf(hex) {
 
 export class SceneBuilder {
   /// view: {levels, spread, lowFloor, highFloor, layers}; read anew at each build.
-  constructor(replay, view) {
+  /// `other`: a second replay of the episode, or undefined.
+  constructor(replay, view, other) {
     this.replay = replay;
     this.view = view;
+    this.other = other;
   }
 
   lift(p) {
@@ -57,6 +60,7 @@ export class SceneBuilder {
     const step = this.replay.steps[index];
     const layers = this.view.layers;
     if (layers.goals) this.addGoals(out, step);
+    if (layers.other && this.other) this.addOther(out, index);
     if (layers.trajectory) this.addTrajectory(out, index);
     if (layers.flights) this.addFlights(out, index);
     if (layers.path) this.addPath(out, step);
@@ -73,12 +77,21 @@ export class SceneBuilder {
   }
 
   addTrajectory(out, index) {
-    const steps = this.replay.steps;
-    for (let i = 1; i <= index; ++i) {
-      const from = above(steps[i - 1].agent.p_world, 0.12), to = above(steps[i].agent.p_world, 0.12);
+    this.addWalk(out, this.replay.steps, index, 0.12, 3.2,
+      (step) => GOAL_COLOURS[step.goal_index % GOAL_COLOURS.length]);
+  }
+
+  /// Below this run's own, so that they are one line as long as the runs are the same.
+  addOther(out, index) {
+    this.addWalk(out, this.other.steps, index, 0.1, 5, () => OTHER_RUN_COLOUR);
+  }
+
+  addWalk(out, steps, index, height_m, width, colourOf) {
+    for (let i = 1; i <= Math.min(index, steps.length - 1); ++i) {
+      const from = above(steps[i - 1].agent.p_world, height_m);
+      const to = above(steps[i].agent.p_world, height_m);
       if (from.every((v, axis) => v === to[axis])) continue;
-      const colour = GOAL_COLOURS[steps[i].goal_index % GOAL_COLOURS.length];
-      this.addLine(out, from, to, rgbOf(colour), 1, 3.2);
+      this.addLine(out, from, to, rgbOf(colourOf(steps[i])), 1, width);
     }
   }
 

@@ -14,14 +14,14 @@ export class Timeline {
     this.marks = logLines(replay).filter((line) => line.kind !== "mode");
     canvas.setAttribute("aria-valuemin", "0");
     canvas.setAttribute("aria-valuemax", String(this.count - 1));
-    canvas.addEventListener("pointerdown", (e) => {
+    canvas.onpointerdown = (e) => {
       canvas.setPointerCapture(e.pointerId);
       this.seekTo(e);
-    });
-    canvas.addEventListener("pointermove", (e) => {
+    };
+    canvas.onpointermove = (e) => {
       if (e.buttons) this.seekTo(e);
       canvas.title = this.describe(this.indexAt(e));
-    });
+    };
   }
 
   get count() {

@@ -5,6 +5,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { OrbitCamera, projectPoint } from "../src/camera.js";
+import { partingOf, runNames } from "../src/compare.js";
 import { flightsAt, floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
 
@@ -173,4 +174,31 @@ test("the scripts can be joined: no top-level name stands in two files", () => {
     }
   }
   assert.ok(owner.size > 30);
+});
+
+/// A run of steps that go forward, changed from some index on.
+function runOf(count, changes = {}) {
+  const steps = Array.from({ length: count }, (_, i) => ({
+    goal: "bed", mode: "basic_explore", activity: "go_to", reason: "r", action: "move_forward",
+    agent: { p_world: [i / 4, 0, 0], yaw_rad: 0, pitch_rad: 0 },
+    candidates: [{ kind: "live_poi", p_world: [9, 0, 0], is_target: true }], ...changes[i],
+  }));
+  return { info: { variant: "full", config_hash: "0123456789" }, steps };
+}
+
+test("runs part where they first decide, and where they first act, differently", () => {
+  assert.deepEqual(partingOf(runOf(9), runOf(9)), { decision: -1, action: -1 });
+  assert.deepEqual(partingOf(runOf(9), runOf(9, { 3: { reason: "other" }, 5: { action: "turn_left" } })),
+    { decision: 3, action: 5 });
+  const target = { candidates: [{ kind: "live_poi", p_world: [8, 0, 0], is_target: true }] };
+  assert.deepEqual(partingOf(runOf(9), runOf(9, { 4: target })), { decision: 4, action: -1 });
+  assert.deepEqual(partingOf(runOf(9), runOf(7)), { decision: 7, action: 7 });
+});
+
+test("runs of one variant are told apart by their settings", () => {
+  const [a, b] = [runOf(1), runOf(1)];
+  b.info.config_hash = "fedcba9876";
+  assert.deepEqual(runNames([a, b]), ["full 01234567", "full fedcba98"]);
+  b.info.variant = "planar";
+  assert.deepEqual(runNames([a, b]), ["full", "planar"]);
 });

@@ -2,7 +2,7 @@
 // The page in a browser without a screen, opened from the disk: it draws, it asks nobody, keys work.
 // $CROSSNAV_SCREENSHOTS (a folder) keeps what was seen.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
@@ -39,6 +39,22 @@ async function show(name, hash = "", from = browser) {
   await page.waitForFunction(() => document.body.dataset.drawn !== undefined, null,
     { timeout: 90000 });
   return { page, trouble };
+}
+
+const DATA = /(<script id="replay-data"[^>]*>)(.*?)(<\/script>)/s;
+const OTHER = /(<script id="other-data"[^>]*>)(.*?)(<\/script>)/s;
+
+/// Writes the sample with its data changed, and perhaps a second run beside it, as `name`.
+function derive(name, edit, editOther) {
+  const html = readFileSync(samplePath("sample.html"), "utf8");
+  const data = html.match(DATA)[2];
+  const text = (change) => {
+    const replay = JSON.parse(data);
+    return JSON.stringify(change(replay) ?? replay).replace(/</g, "\\u003c");
+  };
+  let out = html.replace(DATA, (_, open, __, close) => open + text(edit) + close);
+  if (editOther) out = out.replace(OTHER, (_, open, __, close) => open + text(editOther) + close);
+  writeFileSync(samplePath("sample.html").replace("sample.html", name), out);
 }
 
 async function keep(page, name) {
@@ -190,4 +206,84 @@ test("without WebGL the rest still works", { skip }, async () => {
   } finally {
     await plain.close();
   }
+});
+
+test("two runs of an episode are compared where they part", { skip }, async () => {
+  derive("compare.html", () => {}, (replay) => {
+    replay.info.variant = "planar";
+    replay.steps.slice(60).forEach((step, i) => {
+      step.action = "turn_left";
+      step.reason = "another way";
+      step.agent.p_world[1] -= 0.02 * i;
+    });
+    replay.steps.length = 100;
+    replay.voxels.ends.length = 100;
+  });
+  const { page, trouble } = await show("compare.html");
+  assert.match(await page.textContent("#counter"), /^step 60 of/);
+  assert.match(await page.textContent("#parting"), /decide differently from step 60 and act differently from step 60/);
+  assert.match(await page.textContent("#other-now"), /^B planar here: .*turn left \(another way\)/);
+  await press(page, "Shift+ArrowRight", 70);
+  await keep(page, "compare-a");
+  await page.click("#run-1");
+  await page.waitForFunction(() => document.getElementById("run-1").classList.contains("on"));
+  await press(page, "ArrowRight", 71);
+  assert.match(await page.textContent("#reason"), /another way/);
+  assert.match(await page.textContent("#episode"), /planar/);
+  assert.ok((await coloursOf(page)) > 50);
+  await keep(page, "compare-b");
+  await press(page, "End", 99);
+  await page.click("#run-0");
+  await page.keyboard.press("ArrowLeft");
+  await press(page, "End", 0 + (await page.evaluate(() => JSON.parse(
+    document.getElementById("replay-data").textContent).steps.length - 1)));
+  assert.match(await page.textContent("#other-now"), /^B planar has ended/);
+  await press(page, "Home", 0);
+  assert.match(await page.textContent("#other-now"), /does the same here/);
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("one run shows nothing of a comparison", { skip }, async () => {
+  const { page } = await show("sample.html", "#step=3");
+  assert.equal(await page.locator("#compare").isVisible(), false);
+  assert.equal(await page.locator("#legend-layers input").count(), 5);
+  await page.close();
+});
+
+test("a damaged page says so", { skip }, async () => {
+  const html = readFileSync(samplePath("sample.html"), "utf8");
+  const at = html.search(DATA) + 5000;
+  writeFileSync(samplePath("sample.html").replace("sample.html", "damaged.html"),
+    html.slice(0, at) + html.slice(at + 40));
+  const page = await browser.newPage();
+  const trouble = [];
+  page.on("pageerror", (error) => trouble.push(error.message));
+  await page.goto("file://" + samplePath("damaged.html"));
+  await page.waitForFunction(() => !document.getElementById("notice").hidden);
+  assert.match(await page.textContent("#notice"), /damaged/);
+  await keep(page, "damaged");
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
+test("1,200 steps on two floors load in time, with few draw calls", { skip }, async () => {
+  derive("long.html", (replay) => {
+    const count = replay.steps.length, steps = 1200;
+    const again = (list) => Array.from({ length: steps }, (_, i) => list[i % count]);
+    for (const key of ["images", "depths", "sights", "maps"]) replay[key] = again(replay[key]);
+    replay.steps = Array.from({ length: steps }, (_, i) => ({ ...replay.steps[i % count], step: i }));
+    const ends = replay.voxels.ends;
+    replay.voxels.ends = Array.from({ length: steps }, (_, i) => ends[Math.min(i, count - 1)]);
+  });
+  const started = performance.now();
+  const { page, trouble } = await show("long.html", "#step=1199&floors=all");
+  const seconds = (performance.now() - started) / 1000;
+  const calls = Number(await page.evaluate(() => document.body.dataset.calls));
+  console.log(`1,200 steps: ${seconds.toFixed(1)} s, ${calls} draw calls`);
+  assert.ok(seconds < 5 * Number(process.env.CROSSNAV_SLOW || 1), `${seconds} s`);
+  assert.ok(calls > 3 && calls < 250, `${calls} draw calls`);
+  await keep(page, "long");
+  assert.deepEqual(trouble, []);
+  await page.close();
 });
