@@ -9,18 +9,24 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 target=$(cd "$1" && pwd)
-inside() { chroot "$target" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 "$@"; }
+mapfile -t pip_settings < <(env | grep '^PIP_' || true)
+inside() {
+  chroot "$target" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
+    "${pip_settings[@]}" PIP_FIND_LINKS= "$@"
+}
 seconds() { printf '%s s: %s\n' "$SECONDS" "$*"; }
 
 rm -rf "$target/try" && mkdir "$target/try"
 cp "$root"/build/portable/*.whl "$target/try/"
 cp "$root"/build/release/*.deb "$target/try/" 2>/dev/null || true
 cp /etc/resolv.conf "$target/etc/resolv.conf"
+[[ ! -e /etc/ssl/certs/ca-certificates.crt ]] ||
+  cp /etc/ssl/certs/ca-certificates.crt "$target/etc/ssl/certs/"
 [[ ! -e /etc/pip.conf ]] || cp /etc/pip.conf "$target/etc/pip.conf"
 mountpoint -q "$target/proc" || mount -t proc proc "$target/proc"
 trap 'umount "$target/proc"' EXIT
 
-inside sh -c '. /etc/os-release; echo "$PRETTY_NAME, $(python3 --version)"; ! command -v g++ gcc cc'
+inside sh -c '. /etc/os-release; echo "$PRETTY_NAME, $(python3 --version)"; ! command -v g++ gcc cc c++'
 inside python3 -m venv /try/venv
 wheel=$(inside sh -c 'cd /try; /try/venv/bin/pip download -q --no-deps --no-index -d /try/fits --find-links /try crossnav >&2; ls fits/*.whl')
 inside /try/venv/bin/pip install -q "/try/$wheel[gym,openvino]"
