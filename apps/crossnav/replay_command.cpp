@@ -5,6 +5,7 @@
 #include "crossnav/bench/output_path.h"
 #include "crossnav/trace/replay_page.h"
 #include "shell.h"
+#include "verbs.h"
 
 namespace crossnav::app {
 
@@ -30,6 +31,20 @@ Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& /*c
   console.Print(options.out + "\n");
   console.Document(nlohmann::ordered_json({{"file", options.out}}));
   return {};
+}
+
+void AddReplay(CLI::App& app, Options& o) {
+  CLI::App* replay = app.add_subcommand("replay", "Work with replays");
+  replay->require_subcommand(1);
+  CLI::App* page = AddVerb(*replay, o, "export", "A self-contained page, or a recording for Rerun",
+                           "crossnav replay export episode.mcap --out episode.html",
+                           [&o](Console& c) { return ReplayExport(o.replay, o.common, c); });
+  page->add_option("REPLAY", o.replay.file, "Replay (.mcap)")->required();
+  page->add_option("--compare", o.replay.compare,
+                   "Another replay of the same episode: the page shows where they part");
+  page->add_option("--out,--to", o.replay.out,
+                   "Page to write (.html), or Rerun recording (.rrd, by the Python package)")
+      ->required();
 }
 
 }  // namespace crossnav::app

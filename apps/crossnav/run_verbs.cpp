@@ -173,17 +173,7 @@ void AddResults(CLI::App& app, Options& o) {
                    "Run folders or result files of different variants on the same episodes")
       ->required();
 
-  CLI::App* replay = app.add_subcommand("replay", "Work with replays");
-  replay->require_subcommand(1);
-  CLI::App* page = AddVerb(*replay, o, "export", "A self-contained page, or a recording for Rerun",
-                           "crossnav replay export episode.mcap --out episode.html",
-                           [&o](Console& c) { return ReplayExport(o.replay, o.common, c); });
-  page->add_option("REPLAY", o.replay.file, "Replay (.mcap)")->required();
-  page->add_option("--compare", o.replay.compare,
-                   "Another replay of the same episode: the page shows where they part");
-  page->add_option("--out,--to", o.replay.out,
-                   "Page to write (.html), or Rerun recording (.rrd, by the Python package)")
-      ->required();
+  AddReplay(app, o);
 }
 
 /// What a recording does not say of itself, or says wrongly.

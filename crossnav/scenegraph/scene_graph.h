@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A map as a graph: building, floors, rooms, objects, and how they stand to each other. Plain data;
-// build_graph.h makes it, `crossnav map graph` writes it (apps/crossnav/graph_text.h). World frame, metres.
+// build_graph.h makes it, `crossnav map graph` writes it. World frame, metres.
 #pragma once
 
 #include <optional>
