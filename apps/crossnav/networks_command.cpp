@@ -206,9 +206,10 @@ Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& c
                         e.error.empty() ? "found" : e.error);
   }
   for (const networks::Backend& backend : networks::Backends())
-    text += backend.is_available ? fmt::format("{}: {} ({})\n", backend.name, backend.version,
-                                           fmt::join(backend.providers, ", "))
-                             : fmt::format("{}: not available; {}\n", backend.name, backend.get);
+    text += backend.is_available
+                ? fmt::format("{}: {} ({})\n", backend.name, backend.version,
+                              fmt::join(backend.providers, ", "))
+                : fmt::format("{}: not available; {}\n", backend.name, backend.get);
   console.Print(text);
   console.Document(Json({{"dir", NetworksDir(*config).string()},
                          {"networks", std::move(list)},
