@@ -193,8 +193,13 @@ TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {
   const std::string compare = "replay export run/r.mcap --compare run/r.mcap --out ";
   EXPECT_EQ(Run(compare + "run/two.html").exit_code, 0);
   EXPECT_GT(fs::file_size(At("run/two.html")), fs::file_size(At("run/r.html")));
-  ExpectFailure(compare + "run/two.rrd", {"--compare", ".html"});
-  ExpectFailure("replay export run/r.mcap --compare run/no.mcap --out run/n.html", {"no.mcap"});
+  const Outcome rerun = Run(compare + "run/two.rrd");
+  EXPECT_EQ(rerun.exit_code, 1);
+  EXPECT_NE(rerun.err.find("--compare"), std::string::npos) << rerun.err;
+  const Outcome missing = Run("replay export run/r.mcap --compare run/no.mcap --out run/none.html");
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_NE(missing.err.find("no.mcap"), std::string::npos) << missing.err;
+  EXPECT_FALSE(fs::exists(At("run/none.html")));
   EXPECT_EQ(Run("metrics run/results.jsonl --json").exit_code, 0);
   const std::string settings = " --set ground_truth.feature_dim=64";
   const Outcome info = Run("map info run/m.map --json" + settings);

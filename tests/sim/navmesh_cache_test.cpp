@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <string>
 
 #include "crossnav/sim/navmesh.h"
 #include "crossnav/sim/navmesh_detail.h"
@@ -21,7 +23,22 @@ std::vector<fs::path> CachesIn(const fs::path& folder) {
   return found;
 }
 
-TEST(NavMeshCache, TheCachedMeshAnswersAsTheBuiltOne) {
+/// Each test has a cache of the user of its own: one that an earlier run left would be found.
+class NavMeshCache : public ::testing::Test {
+ protected:
+  NavMeshCache() {
+    if (const char* before = std::getenv("XDG_CACHE_HOME")) before_ = before;
+    ::setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1);
+  }
+  ~NavMeshCache() override {
+    before_ ? ::setenv("XDG_CACHE_HOME", before_->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
+  }
+
+  TempFolder cache_;
+  std::optional<std::string> before_;
+};
+
+TEST_F(NavMeshCache, TheCachedMeshAnswersAsTheBuiltOne) {
   const TempFolder temp;
   Scene scene = TwoFloors();
   scene.folder = temp.path();
@@ -40,7 +57,7 @@ TEST(NavMeshCache, TheCachedMeshAnswersAsTheBuiltOne) {
   }
 }
 
-TEST(NavMeshCache, OtherSettingsOrAnotherMeshHaveAnotherFile) {
+TEST_F(NavMeshCache, OtherSettingsOrAnotherMeshHaveAnotherFile) {
   const TempFolder temp;
   Scene scene = TwoFloors();
   scene.folder = temp.path();
@@ -53,25 +70,21 @@ TEST(NavMeshCache, OtherSettingsOrAnotherMeshHaveAnotherFile) {
   EXPECT_EQ(CachesIn(temp.path()).size(), 3U);
 }
 
-TEST(NavMeshCache, AFolderThatCannotBeWrittenToHasItsCacheElsewhere) {
-  const TempFolder temp, cache;
-  const char* before = std::getenv("XDG_CACHE_HOME");
-  const std::string old = before == nullptr ? "" : before;
-  ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+TEST_F(NavMeshCache, AFolderThatCannotBeWrittenToHasItsCacheElsewhere) {
+  const TempFolder temp;
   Scene scene = TwoFloors();
   scene.folder = temp.path() / "file";  // not even the administrator can write below a file
   std::ofstream(scene.folder) << "x";
   const auto built = NavMesh::BuildCached(scene, {});
   ASSERT_TRUE(built.has_value());
-  const auto files = CachesIn(cache.path() / "crossnav" / "scenes");
+  const auto files = CachesIn(cache_.path() / "crossnav" / "scenes");
   ASSERT_EQ(files.size(), 1U);
   const auto written = fs::last_write_time(files[0]);
   EXPECT_EQ(NavMesh::BuildCached(scene, {})->Hash(), built->Hash());
   EXPECT_EQ(fs::last_write_time(files[0]), written);
-  before == nullptr ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", old.c_str(), 1);
 }
 
-TEST(NavMeshCache, DamagedFilesAreBuiltAnew) {
+TEST_F(NavMeshCache, DamagedFilesAreBuiltAnew) {
   const TempFolder temp;
   Scene scene = TwoFloors();
   scene.folder = temp.path();
@@ -87,7 +100,7 @@ TEST(NavMeshCache, DamagedFilesAreBuiltAnew) {
   }
 }
 
-TEST(NavMeshCache, NoFlippedByteGetsThrough) {
+TEST_F(NavMeshCache, NoFlippedByteGetsThrough) {
   const Scene scene = TwoFloors();
   const auto mesh = BuildDetour(scene, {});
   ASSERT_TRUE(mesh.has_value());
@@ -102,7 +115,7 @@ TEST(NavMeshCache, NoFlippedByteGetsThrough) {
   }
 }
 
-TEST(NavMeshCache, AFolderThatCannotBeWrittenToIsNoError) {
+TEST_F(NavMeshCache, AFolderThatCannotBeWrittenToIsNoError) {
   Scene scene = TwoFloors();
   scene.folder = "/nonexistent/folder";
   EXPECT_TRUE(NavMesh::BuildCached(scene, {}).has_value());
