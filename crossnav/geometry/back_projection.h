@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A depth pixel's point in the world, in voxels (paper, "RGB-D Projection and Sparse
-// Voxelization"). Double precision throughout: this arithmetic decides on which side of a voxel
-// face a return lies, so whoever needs the same voxel has to compute it in the same order.
+// Voxelization"). Double precision throughout: the order of operations decides on which side of a
+// voxel face a return lies, and is the same everywhere.
 #pragma once
 
 #include <cmath>
@@ -23,12 +23,12 @@ inline Vector3d BackProjectToVoxels(const CameraIntrinsics& K, const Pose& T_wor
 
 /// How far a pixel's ray reaches, and whether something was hit there.
 struct DepthReach {
-  double depth_m = 0;  ///< 0: the pixel says nothing
+  double depth_m = 0;  ///< 0: invalid pixel
   bool is_hit = false;
 };
 
-/// 0, NaN, inf and what lies nearer than the limits say nothing; beyond them the ray is free up to
-/// `depth_max_m` and ends nowhere.
+/// Depths of 0, NaN, inf or below the near limit are invalid. Beyond the far limit the ray is free
+/// up to `depth_max_m`, without an end voxel.
 inline DepthReach ReachOf(float depth_m, double depth_min_m, double depth_max_m) {
   if (!std::isfinite(depth_m) || depth_m < depth_min_m || !(depth_m > 0)) return {};
   if (depth_m > depth_max_m) return {depth_max_m, false};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One bit per voxel of an 8x8x8 block: eight 64-bit words, one per z slice; inside a slice x is the
+// One bit per voxel of an 8x8x8 block: eight 64-bit words, one per z slice; inside a slice x is
 // fastest. Bit i is cell i of sparse_grid.h.
 #pragma once
 

@@ -39,7 +39,7 @@ void ReadColumn(const MapData& map, const VoxelKey& block_key, int z_low, int co
   }
 }
 
-/// For each support slice of the block (from support_depth below it): what would inflate there.
+/// Obstacles for each support slice of the block (from support_depth below it).
 struct Obstacles {
   std::vector<Slice> any;          ///< by any surface
   std::vector<Slice> unconfirmed;  ///< by surfaces that are not confirmed stairs
@@ -50,8 +50,8 @@ Slice ColumnsFrom(int d) {
   return 0x0101010101010101ULL * ((0xffU << d) & 0xffU);
 }
 
-/// The slice whose bit (x, y) is bit (x + dx, y + dy) of a pair of neighbouring slices in x, for
-/// one row of blocks.
+/// Slice shifted by (dx, dy): its bit (x, y) is bit (x + dx, y + dy) of two slices that are
+/// neighbours in x, for one row of blocks.
 Slice ReadShiftedX(Slice here, Slice next, int dx) {
   if (dx == 0) return here;
   return (here & ColumnsFrom(dx)) >> dx | (next & ~ColumnsFrom(dx)) << (kBlockSide - dx);
@@ -200,7 +200,7 @@ void WriteSlice(const StatePlanes& planes, int z, GridEntry& entry,
   }
 }
 
-/// The keys whose states depend on the block's changed surfaces.
+/// Keys with states that depend on the block's changed surfaces.
 struct KeyBox {
   VoxelKey lo, hi;
 };

@@ -10,10 +10,10 @@
 
 namespace crossnav::geometry {
 
-/// Blocks whose states may depend on what is in map.changed; empties that list.
+/// Blocks with states that may depend on map.changed; empties that list.
 std::vector<GridEntry*> TakeStaleBlocks(MapData& map);
 
-/// Recomputes the entry's states and appends those that changed. Cost: a microsecond or two.
+/// Recomputes the entry's states and appends the changes. Cost: a microsecond or two.
 void ClassifyBlock(const MapData& map, GridEntry& entry, std::vector<StateChange>* changes);
 
 /// Sorts by key.

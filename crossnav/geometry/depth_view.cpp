@@ -9,7 +9,8 @@ namespace {
 
 constexpr int kPad = 64;  // chosen: vectors may read past the last pixel
 
-// In tiles. Each is at most twice the one before, so that shifted copies of that one leave no gap.
+// Radii in tiles. Each is at most twice its predecessor, so that shifted copies of the predecessor
+// leave no gap.
 constexpr std::array<int, 11> kRadii = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24};
 
 /// out[i] = max(in[i - by], in[i], in[i + by]) along a line, clamped at its ends.

@@ -26,7 +26,7 @@ class DepthView {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Depth up to which the pixel's ray is known [m]; 0 = it says nothing.
+  /// Depth up to which the pixel's ray is known [m]; 0 = invalid pixel.
   float ReachAt(int u, int v) const { return reach_m_[static_cast<std::size_t>(v) * width_ + u]; }
 
   float* Row(int v) { return &reach_m_[static_cast<std::size_t>(v) * width_]; }
@@ -72,7 +72,7 @@ class DepthView {
   float max_reach_m_ = 0;
   std::vector<float> reach_m_;
   std::vector<Level> levels_;
-  std::vector<Dilation> dilations_;  ///< growing; the last one is of any radius
+  std::vector<Dilation> dilations_;  ///< radii grow; the last entry serves any radius
   std::vector<float> scratch_;
 };
 

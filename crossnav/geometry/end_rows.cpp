@@ -23,8 +23,8 @@ using Wide = hn::CappedTag<double, 8>;
 using Reach = hn::Rebind<float, Wide>;
 using Index = hn::Rebind<std::int32_t, Wide>;
 
-// A row as float lanes compute it: from the camera's voxel, and how far from a face a point must
-// be so that rounding cannot have moved it to the other side.
+// A row for float lanes, relative to the camera's voxel. The margin is the distance to a face
+// beyond which rounding cannot change the voxel.
 struct NarrowRays {
   std::array<float, 3> fraction{}, base{}, step{};  // of RowRays; fraction is start's in its voxel
   std::array<std::int32_t, 3> origin{};             // start's voxel
@@ -56,7 +56,7 @@ inline NarrowRays NarrowOf(const RowRays& rays, int width) {
   narrow.least_m = std::max(FloatFrom(rays.depth_min_m), std::numeric_limits<float>::denorm_min());
   narrow.most_m = FloatUpTo(rays.depth_max_m);
   narrow.reach_most_m = static_cast<float>(rays.depth_max_m);
-  // Four roundings of the ray, two of the point, and what `fraction` lost.
+  // Four roundings of the ray, two of the point, and the rounding of `fraction`.
   narrow.doubt_vox = static_cast<float>(std::numeric_limits<float>::epsilon() *
                                         (4 * greatest * rays.depth_max_m + 2));
   return narrow;
@@ -191,9 +191,9 @@ struct RowPart {
 
 using Keys = hn::CappedTag<std::int32_t, 16>;
 
-// Appends `first` + i for every lane i that is chosen. A whole vector is stored, what lies behind
-// is overwritten: how many there are cannot be foreseen, and storing with a mask is slow on some
-// machines.
+// Appends `first` + i for every chosen lane i. A whole vector is stored and its tail overwritten by
+// the next call: masked stores are slow on some processors, and a count-dependent branch is
+// unpredictable.
 HWY_INLINE void Append(hn::Mask<Keys> chosen, int first, std::int32_t* out, int* found) {
   const Keys d;
   const auto places = hn::Add(hn::Iota(d, 0), hn::Set(d, first));
@@ -210,7 +210,7 @@ HWY_INLINE hn::Mask<Keys> Differ(RowPart a, RowPart b, int i) {
   return hn::Or(hn::Or(differ(a.x, b.x), differ(a.y, b.y)), differ(a.z, b.z));
 }
 
-// Where two voxels share no face, or only one is there; maybe where none is.
+// Where two voxels share no face, or a single one is missing; undefined where both are missing.
 HWY_INLINE hn::Mask<Keys> Apart(RowPart a, RowPart b, int i) {
   const Keys d;
   const auto none = hn::Set(d, kNoEnd);

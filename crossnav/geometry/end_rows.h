@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// End voxels of one image row, vectorised (Highway, chosen at run time). In float; where a voxel
-// face is so near that rounding could decide, again in double; where it could even there, the pixel
-// is named for the literal formula (back_projection.h), so that every instruction set gives the
-// same voxels. Internal.
+// End voxels of one image row, vectorised (Highway, chosen at run time). Computed in float; near a
+// voxel face, where rounding could decide, again in double; if rounding could still decide, the
+// pixel is left to the literal formula (back_projection.h). Every instruction set gives the same
+// voxels. Internal.
 #pragma once
 
 #include <array>
@@ -54,14 +54,14 @@ struct PixelWord {
   std::uint64_t bits = 0;
 };
 
-/// Those of `pixels` whose voxel in `row` and that `shift` pixels further in `next` share no face,
-/// or one of which is missing (maybe both are), into `out`, which has room for 64 and kRowEndsPad
-/// more. Returns how many.
+/// Selects from `pixels` where the voxel in `row` and the voxel `shift` pixels further in `next`
+/// share no face, or are missing. Writes to `out`, with room for 64 + kRowEndsPad; returns the
+/// count.
 int FindApart(const PixelWord& pixels, const RowEnds& row, const RowEnds& next, int shift,
               std::int32_t* out);
 
-/// Those of `pixels` that reach no farther than `farthest_m`, or the one beside or below does not.
-/// Reads up to 64 and kRowEndsPad floats of both rows from `pixels.first` on.
+/// Selects from `pixels` where the pixel or its right or lower neighbour reaches at most
+/// `farthest_m`. Reads up to 64 and kRowEndsPad floats of both rows from `pixels.first` on.
 std::uint64_t FindNear(const PixelWord& pixels, const float* reach_m, const float* below_m,
                        float farthest_m);
 

@@ -27,8 +27,8 @@ RowRays RaysOfRow(const DepthFrame& frame, const MapConfig& config, int v) {
   return rays;
 }
 
-/// Settles the pixels that ComputeRow left open, literally. Rays that go on beyond depth_max stay
-/// in `bounds` up to there: those of a row end on a line, its ends bound it.
+/// Settles the pixels that ComputeRow left open by the literal formula. Rays beyond depth_max
+/// extend `bounds` up to it: their ends form a line, so that its two ends bound a row.
 void SettleSpecial(const DepthFrame& frame, const MapConfig& config, int v, RowEnds* ends,
                    KeyBounds* bounds) {
   const auto key_at = [&](int u, double depth_m) {

@@ -24,8 +24,8 @@ void MergeForever(VoxelBlock& block) {
   block.free &= ~block.hit;
 }
 
-/// map.clearing = evidence: both counts speak of the recent past. A hit takes a pass back and the
-/// reverse, so that what has changed is believed after a few frames whatever was seen before.
+/// map.clearing = evidence: both counts cover the recent past. A hit cancels a pass and the
+/// reverse, so that a change is accepted after a few frames, whatever the history.
 void MergeCounted(VoxelBlock& block, const MapConfig& config) {
   if (!block.counts) block.counts = std::make_unique<HitCounts>();
   const int max_count = MaxCount(config);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one frame saw, collected in the blocks' frame masks, and how it becomes evidence
+// Observations of one frame, collected in the blocks' frame masks, and their conversion to evidence
 // (`map.clearing`). Occupied beats free within a frame. Internal to the map.
 #pragma once
 
@@ -50,7 +50,7 @@ class FrameMarker {
   KnownBlocks<VoxelBlock> blocks_;
 };
 
-/// Turns the frame masks into evidence, lists what changed, and empties them.
+/// Turns the frame masks into evidence, lists the changes, and empties the masks.
 void MergeFrame(MapData& map);
 
 /// True where more passes would leave the count as it is.

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kRounding_px = 0.01;  // chosen: far above that of a projection
 constexpr double kRounding = 1e-6;     // chosen: of a depth, far above that of its computation
-constexpr double kNear_m = 0.01;       // chosen: what is nearer may be seen anywhere
+constexpr double kNear_m = 0.01;       // chosen: a nearer voxel may appear at any pixel
 
-/// Occupied voxels that the frame passed, few of all: what is not among them needs no look at the
-/// map. By hash; a false "maybe" costs that look.
+/// Hash set of the few occupied voxels that the frame passed. Voxels outside need no map lookup; a
+/// false positive costs that lookup.
 class Contested {
  public:
   explicit Contested(const MapData& map) {
@@ -33,7 +33,7 @@ class Contested {
   }
   const std::vector<VoxelKey>& keys() const { return keys_; }
   const VoxelHashes& hashes() const { return hashes_; }
-  /// False if certainly none is one of the voxels between two that touch.
+  /// False only if no voxel of the set lies between two touching voxels.
   bool MaybeBetween(const VoxelKey& first, const VoxelKey& step) const {
     const int along = (step.x != 0 ? 1 : 0) | (step.y != 0 ? 2 : 0) | (step.z != 0 ? 4 : 0);
     for (int corner = (along - 1) & along; corner != 0; corner = (corner - 1) & along) {
@@ -50,15 +50,15 @@ class Contested {
   VoxelHashes hashes_;
 };
 
-/// A voxel in the image: the first pixels of gaps that its picture touches, on it or one before it,
-/// and up to which depth it reaches [m].
+/// Image footprint of a voxel: first pixels of the gaps that it touches, and its greatest depth
+/// [m].
 struct Sighting {
   PixelRect rect;
   float depth_m = 0;
 };
 
-/// Pixels by whose rays some contested voxel may be seen, and those beside them: a gap's segments
-/// lie between its rays, so that other gaps have nothing to spare.
+/// Pixels that may show a contested voxel, and their neighbours. Segments of a gap lie between its
+/// rays, so that no other gap can spare a voxel.
 class GapPixels {
  public:
   static constexpr int kWordPixels = 64;
@@ -89,8 +89,8 @@ class GapPixels {
   Sighting Everything() const {
     return {{0, 0, width_ - 1, height_ - 1}, std::numeric_limits<float>::infinity()};
   }
-  /// Surfaces in a gap begin at the nearer of its pixels or farther: drops pixels whose gaps lie
-  /// behind all that may be seen there.
+  /// Drops pixels with gaps behind every contested voxel there: a surface in a gap begins at its
+  /// nearer pixel or farther.
   void DropFar(const DepthView& view) {
     for (int v = 0; v < height_; ++v)
       for (int i = 0; i < words_; ++i) {
@@ -101,7 +101,7 @@ class GapPixels {
       }
   }
 
-  /// Row -1 has none.
+  /// Row -1 is empty.
   PixelWord At(int word, int v) const {
     if (v < 0) return {};
     return {word * kWordPixels, words_of_rows_[static_cast<std::size_t>(v) * words_ + word].bits};
@@ -144,13 +144,13 @@ class GapPixels {
   std::vector<Word> words_of_rows_;
 };
 
-/// From the first to the last of these pixels, of which there are some.
+/// Range from the first to the last pixel; not empty.
 RowSpan SpanOf(const PixelWord& pixels) {
   return {pixels.first + std::countr_zero(pixels.bits),
           pixels.first + static_cast<int>(std::bit_width(pixels.bits))};
 }
 
-/// The gaps at such pixels.
+/// Gaps at the selected pixels.
 class GapFinder {
  public:
   GapFinder(const DepthFrame& frame, const MapConfig& config, const GapPixels& where)
@@ -159,8 +159,8 @@ class GapFinder {
     above_.Resize(frame.depth_m.width);
   }
 
-  /// Calls visit(u, v, is_column, a, b) with a gap's first pixel and the end voxels of both; x is
-  /// kNoEnd where there is none.
+  /// Calls visit(u, v, is_column, a, b) with a gap's first pixel and both end voxels; x is kNoEnd
+  /// for a missing end.
   template <class F>
   void ForEach(F&& visit) {
     for (int v = 0; v < frame_.depth_m.height; ++v) {
@@ -177,13 +177,14 @@ class GapFinder {
   }
 
  private:
-  /// All but the image's last column, to the right of which is none.
+  /// All but the image's last column, which has no right neighbour.
   std::uint64_t NotLast(int word) const {
     const int last = frame_.depth_m.width - 1 - word * GapPixels::kWordPixels;
     return last < GapPixels::kWordPixels ? ~(std::uint64_t{1} << last) : ~std::uint64_t{0};
   }
 
-  /// The row's end voxels at the pixels that are asked of, in it or above, and one pixel more.
+  /// End voxels of the row at the selected pixels of this row and the row above, and one pixel
+  /// more.
   void ComputeNeeded(int v) {
     RowSpan span;
     for (int word = 0; word < where_.words(); ++word) {

@@ -26,8 +26,8 @@ using Points = std::array<std::array<double, Segments::kRoom>, 3>;
 // chosen: steps of the inverse depth from pixel to pixel may differ by this share on a plane. At an
 // edge in depth the steps on both sides are near zero against that of the edge.
 constexpr double kBend = 0.5;
-constexpr double kFarthest_m = 1000;   // chosen: what is farther is no surface of a house
-constexpr double kMost_vox = 1 << 30;  // chosen: half of what a key can name
+constexpr double kFarthest_m = 1000;   // chosen: no surface of a house is farther
+constexpr double kMost_vox = 1 << 30;  // chosen: half the range of VoxelKey
 
 HWY_INLINE V Set(double x) {
   return hn::Set(D(), x);
@@ -37,8 +37,8 @@ HWY_INLINE V Set(double x) {
 struct Lines {
   V u, v;
   M is_column;
-  hn::Vec<Index> pixel, step;  // of the image; from one of the line to the next
-  V at, size;                  // number in the image's row or column; how many that has
+  hn::Vec<Index> pixel, step;  // index in the image; offset to the next pixel of the line
+  V at, size;                  // index in the image's row or column; length of that
 };
 
 HWY_INLINE Lines LinesOf(const DepthImage& depth_m, const Gaps& gaps, int first) {
@@ -59,7 +59,7 @@ HWY_INLINE Lines LinesOf(const DepthImage& depth_m, const Gaps& gaps, int first)
 }
 
 // The inverse depth of pixel `i` of the lines, 0 and 1 being the gap's own; NaN outside the image
-// or where the pixel says nothing.
+// or for invalid pixels.
 HWY_INLINE V InverseAt(const DepthImage& depth_m, const Lines& lines, int i) {
   const D d;
   const Index di;
@@ -80,8 +80,8 @@ HWY_INLINE unsigned BitsOf(M mask) {
   return bytes[0];
 }
 
-// What is seen `t` pixels after the gap's first at that inverse depth, as (u, v, inverse depth):
-// the lanes `kept`, from number `n` of `out` on.
+// Image point `t` pixels after the gap's first pixel at that inverse depth, as (u, v, inverse
+// depth); appends the lanes `kept` to `out` from index `n` on.
 HWY_INLINE void Store(const Lines& lines, V t, V inverse_depth, unsigned kept, Points* out, int n) {
   const D d;
   alignas(64) double u[8], v[8], inverse[8];
@@ -106,8 +106,8 @@ struct Side {
   double first, towards;  // the place of `here`, and the step into the gap
 };
 
-// The surfaces seen on a side go on into the gap as planes: on to the next ray, which ends in front
-// of them, or to `depth_max_m`.
+// Planes seen on one side extend into the gap: to the next ray that ends in front of them, or to
+// `depth_max_m`.
 HWY_INLINE void ContinuePlanes(const Lines& lines, const Side& side, double depth_max_m, M asked,
                                Segments* out) {
   const D d;
@@ -175,7 +175,7 @@ void FindSegmentsLanes(const DepthFrame& frame, const MapConfig& config, const G
   BackProject(frame, config.voxel_m, out->count, &out->b);
 }
 
-// Some segments on their way, in WalkRay's terms.
+// State of WalkRay for a vector of segments.
 struct Walkers {
   V start[3], cell[3], last[3], step[3], up[3], inverse[3];
 
@@ -193,9 +193,9 @@ struct Walkers {
     }
   }
 
-  // False for what no key can name, which would never arrive.
+  // False for segments whose endpoints overflow VoxelKey; their walk would not end.
   HWY_INLINE M IsInReach() const {
-    V sum = hn::Zero(D());  // of distances, so that one that is no number makes it none
+    V sum = hn::Zero(D());  // of absolute values, so that a NaN makes the comparison false
     for (int a = 0; a < 3; ++a) sum = hn::Add(sum, hn::Add(hn::Abs(cell[a]), hn::Abs(last[a])));
     return hn::Lt(sum, Set(kMost_vox));
   }
@@ -205,7 +205,7 @@ struct Walkers {
                   hn::Ne(cell[2], last[2]));
   }
 
-  // When the next face of an axis is crossed.
+  // Time of crossing the next face of an axis.
   HWY_INLINE V TimeOf(int a) const {
     const V time = hn::Mul(hn::Sub(hn::Add(cell[a], up[a]), start[a]), inverse[a]);
     return hn::IfThenElse(hn::Ne(cell[a], last[a]), time,
@@ -222,7 +222,7 @@ struct Walkers {
   }
 };
 
-// Adds those of the voxels that may be in `wanted`.
+// Appends the voxels that may be in `wanted`.
 HWY_INLINE void Meet(const V (&cell)[3], M asked, const VoxelHashes& wanted,
                      std::vector<VoxelKey>* met) {
   const Index di;

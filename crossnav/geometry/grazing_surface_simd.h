@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The inner loops of looking into gaps between pixels (grazing_surface.h), vectorised with Highway,
-// chosen at run time: which segments of surface lie in a gap, and which voxels they pass. In
-// double, in the order of BackProjectToVoxels and WalkRay, so that every instruction set gives the
-// same. Internal.
+// Inner loops of grazing_surface.h, vectorised with Highway, chosen at run time: surface segments
+// in gaps between pixels, and the voxels along them. Scalar references: BackProjectToVoxels and
+// WalkRay; double precision in the same order of operations, so that every instruction set gives
+// the same voxels. Internal.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace crossnav::geometry {
 
-/// Some gaps between neighbouring pixels whose end voxels do not share a face: pixel (u, v) and the
-/// one to the right of it, or below it.
+/// A batch of gaps: neighbouring pixels with end voxels that share no face. Pixel (u, v) and its
+/// right or lower neighbour.
 struct Gaps {
   static constexpr int kRoom = 256;  // chosen: with their segments in the first cache
   std::array<std::int32_t, kRoom> u{}, v{};
-  std::array<std::int32_t, kRoom> is_column{};  ///< 1: the other pixel is the one below
+  std::array<std::int32_t, kRoom> is_column{};  ///< 1: the other pixel is below
   std::array<std::int32_t, kRoom> is_wide{};    ///< 1: their voxels do not even touch
   int count = 0;
 
@@ -38,13 +38,13 @@ struct Segments {
   int count = 0;
 };
 
-/// The surface in the gaps. On a plane the inverse depth is linear over the image: where it is, the
-/// plane goes from end to end. Where it is not, the surfaces on both sides go on into the gap as
-/// planes, up to the next ray, if that ends in front of them, or to the depth limit.
+/// Surface segments in the gaps. Inverse depth is linear over the image of a plane: where it is
+/// linear, one segment joins both ends. Elsewhere the planes of both sides extend into the gap, up
+/// to the next ray that ends in front of them or to the depth limit.
 void FindSegments(const DepthFrame& frame, const MapConfig& config, const Gaps& gaps,
                   Segments* segments);
 
-/// A set of voxels by hash, in which others are too.
+/// Hash set of voxels with false positives.
 class VoxelHashes {
  public:
   void Insert(const VoxelKey& key) {
@@ -70,8 +70,8 @@ class VoxelHashes {
   std::array<std::uint32_t, kBits / 32> words_{};
 };
 
-/// Adds to `met` those of the voxels that WalkRay visits along the segments which may be in
-/// `wanted`, some of them several times. Segments with ends that no key can name are left out.
+/// Appends to `met` the voxels along the segments, as WalkRay visits them, that may be in `wanted`;
+/// duplicates are possible. Skips segments whose endpoints overflow VoxelKey.
 void WalkSegments(const Segments& segments, const VoxelHashes& wanted, std::vector<VoxelKey>* met);
 
 }  // namespace crossnav::geometry

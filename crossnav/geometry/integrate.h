@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From a depth image to the frame masks: end voxels, and the voxels that rays pass before them.
-// Two ways to the second, with the same result under `map.rays = exact`: walking every pixel's ray,
-// or asking of every voxel in view whether some ray passes it, which visits a voxel once per frame
+// From a depth image to the frame masks: end voxels, and the voxels that rays pass before them. Two
+// algorithms find the passed voxels, with the same result under `map.rays = exact`: ray casting
+// walks every pixel's ray; projection tests every voxel in view against the rays, once per frame
 // instead of once per pixel. Internal to the map.
 #pragma once
 
@@ -26,19 +26,19 @@ struct KeyBounds {
   }
 };
 
-/// End voxels of pixels of row v, and how far they reach (see DepthView). Those that were computed
-/// literally are added to `bounds`, be they beyond depth_max.
+/// End voxels of pixels of row v, and their reach (see DepthView). Pixels settled by the literal
+/// formula extend `bounds`, even beyond depth_max.
 void ComputeEnds(const DepthFrame& frame, const MapConfig& config, int v, RowSpan pixels,
                  RowEnds* ends, float* reach_m, KeyBounds* bounds);
 
 /// Marks the end voxels of the frame and lists them in map.pixels.
 KeyBounds CollectEnds(MapData& map, const DepthFrame& frame);
 
-/// Marks what rays pass, ray by ray. Cost: pixels x voxels along a ray.
+/// Marks passed voxels, ray by ray. Cost: pixels x voxels along a ray.
 void CollectFreeByWalking(MapData& map, const DepthFrame& frame);
 
-/// The same, voxel by voxel; needs map.view of this frame. `fast`: a voxel that only few rays pass
-/// may be missed. Voxels whose evidence could not change are not asked.
+/// The same, voxel by voxel; needs map.view of this frame. `fast`: a voxel that few rays pass may
+/// be missed. Voxels with settled evidence are skipped.
 void CollectFreeByProjection(MapData& map, const DepthFrame& frame, const KeyBounds& bounds);
 
 /// True where projecting voxels costs less than walking rays: almost always, but for small images.

@@ -21,7 +21,7 @@ struct MapConfig {
   double depth_max_m = 10.0;       // chosen: likewise
   std::string rays = "fast";       ///< exact | fast
   std::string clearing = "never";  ///< never | evidence
-  int min_hits = 2;                // chosen: one stray return is not a wall
+  int min_hits = 2;                // chosen: a single stray return is not a wall
   double hit_ratio = 0.25;         // chosen: occupied while hits >= ratio x passes
   int max_hits = 6;                // chosen: five frames that look through an object remove it
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a VoxelMap is made of, shared by the room's own source files. Internal.
+// Parts of a VoxelMap, shared by the room's own source files. Internal.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct MapData {
   MapConfig config;
   MapCells cells;
   Grid grid;
-  std::vector<GridEntry*> changed;  ///< blocks whose evidence changed since UpdateStates()
+  std::vector<GridEntry*> changed;  ///< blocks with evidence changed since UpdateStates()
   std::vector<GridEntry*> frame;    ///< blocks the current frame touched
   RowEnds row_ends;                 ///< scratch
   DepthView view;                   ///< of the current frame

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Questions that frontiers, stairs and the planner ask of a map, besides VoxelMap's own: heights
-// and exploration levels, columns, neighbours. Nothing is cached; the map must not change
-// meanwhile. World frame, metres.
+// Queries of frontiers, stairs and the planner on a map, besides VoxelMap's own: heights and
+// exploration levels, columns, neighbours. Nothing is cached; the map must not change meanwhile.
+// World frame, metres.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ inline std::optional<double> StandingHeight(const VoxelMap& map, const VoxelKey&
   return (support.z + 1) * voxel_m;
 }
 
-/// True if whoever stands at `key` stands on `level`. Cost O(support depth).
+/// True if the support of `key` belongs to `level`. Cost O(support depth).
 inline bool IsOnLevel(const VoxelMap& map, const VoxelKey& key, const ExplorationLevel& level) {
   const std::optional<double> height_m = StandingHeight(map, key);
   return height_m.has_value() && std::abs(*height_m - level.height_m) <= level.tolerance_m;

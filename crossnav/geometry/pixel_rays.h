@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rays of a frame's pixels against single voxels, in double; what rounding could decide is left
-// to the literal arithmetic of ray_walk.h. Internal to the map.
+// The rays of a frame's pixels against single voxels, in double; cases within rounding are left to
+// the literal arithmetic of ray_walk.h. Internal to the map.
 #pragma once
 
 #include "crossnav/geometry/integrate.h"

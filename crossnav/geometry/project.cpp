@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which voxels does some pixel's ray pass before it ends? Blocks that no ray can reach are dropped
-// first; then a voxel is settled by the ray nearest to its centre where that ray goes on beyond it,
-// or by the greatest reach around it where all rays end before it. What remains, next to surfaces,
-// is asked ray by ray: all rays (`exact`), or some rows of them (`fast`).
+// Projection: the voxels that a pixel's ray passes before its end. Blocks out of every ray's reach
+// are dropped first. A voxel is passed if the ray nearest to its centre goes on beyond it, and is
+// not passed if the greatest reach around it ends before it. The remaining voxels, next to
+// surfaces, are tested ray by ray: all rays (`exact`), or some rows of them (`fast`).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -38,7 +38,7 @@ struct CubeView {
   PixelRect rect;                ///< empty: none
 };
 
-/// The first pixel after `bound` and the last one before it, in an image of `count`.
+/// First pixel after `bound` and last pixel before it, in a line of `count` pixels.
 int FirstPixel(double bound, int count) {
   if (bound < 0) return 0;
   return bound >= count ? count : static_cast<int>(bound) + 1;
@@ -151,7 +151,7 @@ class Projection {
                                  offset.z + (center - fraction_.z()));
   }
 
-  /// Voxels of the block whose evidence a passing ray could change.
+  /// Voxels of the block with evidence that a passing ray could change.
   BlockMask Open(const VoxelBlock* block) const {
     if (block == nullptr) return ~BlockMask();
     if (is_counted_)
@@ -262,7 +262,7 @@ class Projection {
       if (!IsKept(map_, KeyInBlock(block_key, cell))) mask->Reset(cell);
   }
 
-  /// The pixel whose ray is nearest to `p_camera`, if there is one.
+  /// Pixel with the ray nearest to `p_camera`, if any.
   bool PixelOf(const Vector3d& p_camera, int* u, int* v, double* miss_m2) const {
     if (p_camera.z() <= 0) return false;
     const double inverse = 1 / p_camera.z();

@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace crossnav::geometry::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Multiplications and additions are kept apart, fused ones would round differently from one
-// instruction set to the next.
+// No fused multiply-add: its rounding differs between instruction
+// sets.
 using Wide = hn::CappedTag<float, 16>;
 using Index = hn::RebindToSigned<Wide>;
 using V = hn::Vec<Wide>;
@@ -37,7 +37,7 @@ struct Picture {
   V z, u, v;
 };
 
-// The pixels whose rays may meet each voxel, and the depth where it begins.
+// Pixels with rays that may meet each voxel, and the voxel's nearest depth.
 struct Pictures {
   alignas(64) std::array<std::int32_t, 64> u0, v0, u1, v1;
   alignas(64) std::array<float, 64> z_near_m;
@@ -111,7 +111,7 @@ alignas(64) constexpr std::array<float, 16> kSliceX = {0, 1, 2, 3, 0, 1, 2, 3,
 alignas(64) constexpr std::array<float, 16> kSliceY = {0, 0, 0, 0, 1, 1, 1, 1,
                                                        2, 2, 2, 2, 3, 3, 3, 3};
 
-// The voxels' pictures; returns those passed at the centre, and those that may be passed.
+// Footprints of the voxels; returns the voxels passed at the centre, and the undecided ones.
 HWY_INLINE LaneAnswer AskCenters(const LaneFrame& f, const LaneCube& cube, Pictures* out) {
   const Wide d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
@@ -176,8 +176,8 @@ HWY_INLINE V Clearance(const Turned& t, V reach) {
                  hn::Min(hn::Min(t.hi[0], t.hi[1]), t.hi[2]));
 }
 
-// How clearly the ray meets the voxel: it enters each pair of faces before it leaves each other
-// one. Times of crossing are compared without divisions: lo_a / ray_a < hi_b / ray_b.
+// Slab test: the ray enters each pair of faces before it leaves any other. Crossing times are
+// compared without divisions: lo_a / ray_a < hi_b / ray_b.
 HWY_INLINE V Room(const Turned& t) {
   const auto room = [&](int in, int out) {
     return hn::Sub(hn::Mul(t.hi[out], t.ray[in]), hn::Mul(t.lo[in], t.ray[out]));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The inner loops of the projection (project.cpp), vectorised with Highway, chosen at run time: 64
-// voxels against the depth image, then rows of pixels against the voxels that are left. In float
-// with room for rounding: what they call certain is certain, the rest is left to the caller.
+// The inner loops of the projection (project.cpp), vectorised with Highway, chosen at run time:
+// 64 voxels against the depth image, then rows of pixels against the voxels that are left. In
+// float with a margin for rounding: certain results are exact, the rest is left to the caller.
 // Internal.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace crossnav::geometry {
 
-/// What stays the same for a frame.
+/// Constants of a frame.
 struct LaneFrame {
   float fx = 0, fy = 0, cx = 0, cy = 0;  // [px]
   int width = 0, height = 0;
@@ -27,8 +27,8 @@ struct LaneFrame {
   float beyond_slack = 0;  ///< above rounding of a position [voxels]
 };
 
-/// 4 x 4 x 4 voxels, those asked in front of the camera. Bit x + 4 y + 16 z. What is computed for a
-/// voxel depends on its offset from the camera's voxel only, not on the part it is in.
+/// 4 x 4 x 4 voxels in front of the camera. Bit x + 4 y + 16 z. Results of a voxel depend on its
+/// offset from the camera's voxel alone, not on its part.
 struct LaneCube {
   std::array<float, 3> first{};      ///< its first voxel's offset from the camera's voxel
   const float* dilated_m = nullptr;  ///< DepthView::Dilated for the size of the voxels' pictures

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The one sparse container: a hash of 8x8x8-voxel blocks. What a block holds is the user's struct.
-// Blocks never move, and are visited in the order in which they were made, so that the same input
-// gives the same iteration order. Unbounded indices of any sign. Readers may share it while nobody
-// writes; a Cursor belongs to one thread.
+// Sparse container: a hash of 8x8x8-voxel blocks; the block is the user's struct. Blocks never
+// move. Iteration follows the order of creation, so that equal inputs give equal orders.
+// Unbounded indices of any sign. Readers may share it while nobody writes; a Cursor belongs to
+// one thread.
 #pragma once
 
 #include <array>
@@ -82,7 +82,7 @@ class SparseGrid {
   const std::deque<Entry>& entries() const { return entries_; }
   std::deque<Entry>& entries() { return entries_; }
 
-  /// Bytes held, without what blocks allocate themselves.
+  /// Bytes held, without allocations inside blocks.
   std::size_t Bytes() const {
     return slots_.size() * sizeof(Slot) + entries_.size() * sizeof(Entry);
   }
@@ -120,7 +120,7 @@ class KnownBlocks {
   /// The block that holds `key`: find(its key) where it is not known.
   template <class F>
   Block& Of(const VoxelKey& key, F&& find) {
-    // All axes compared at once: which one differs cannot be foreseen.
+    // All axes compared at once: a branch per axis would be unpredictable.
     const std::int32_t x = key.x >> kBlockBits, y = key.y >> kBlockBits, z = key.z >> kBlockBits;
     Known& known = known_[static_cast<std::uint32_t>(x + 7 * y + 31 * z) % kKnown];
     const bool is_other = ((known.key.x ^ x) | (known.key.y ^ y) | (known.key.z ^ z)) != 0;
@@ -137,7 +137,7 @@ class KnownBlocks {
   std::array<Known, kKnown> known_{};
 };
 
-/// Reads and writes with the last block remembered: neighbours mostly share one.
+/// Reads and writes with the last block remembered: neighbours mostly share a block.
 template <class Grid, class Block>
 class BlockCursor {
  public:

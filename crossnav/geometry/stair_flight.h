@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is known of stairs beyond a goal, and saved with the memory: a flight as an object, which
-// links two floors, and the voxels that were seen as stairs. World frame, metres.
+// Stairs as they outlive a goal and are saved with the memory: flights as objects that link two
+// floors, and voxels seen as stairs. World frame, metres.
 #pragma once
 
 #include <string_view>
@@ -13,9 +13,9 @@ namespace crossnav::geometry {
 
 /// Why an attempt to take a flight ended before its other end. Reaches disk as a number.
 enum class TryEnding {
-  kNotOpened,    ///< there, and looking at it showed no way on
-  kNoProgress,   ///< the way did not get shorter for too long
-  kUnreachable,  ///< no way any more
+  kNotOpened,    ///< arrived, and looking at the target changed nothing
+  kNoProgress,   ///< the path did not get shorter for too long
+  kUnreachable,  ///< no path any more
   kGivenUp,      ///< the paper's session failed
 };
 inline constexpr int kTryEndings = 4;
@@ -52,7 +52,7 @@ struct StairFlight {
   friend bool operator==(const StairFlight&, const StairFlight&) = default;
 };
 
-/// A surface voxel that stair pixels fell on: what policy::StairVoxel keeps of it.
+/// Surface voxel with stair pixels, reduced to the members that policy::StairVoxel keeps.
 struct SeenStair {
   VoxelKey key;
   float probability = 0;     ///< best of the mask there [0, 1]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the map holds for 8x8x8 voxels: evidence masks, the states derived from them, and what the
-// current frame saw. Internal to the map; readers go through VoxelMap and its Cursor.
+// One block of the map, 8x8x8 voxels: evidence masks, derived states, and masks of the current
+// frame. Internal to the map; readers go through VoxelMap and its Cursor.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace crossnav::geometry {
 
-/// What is known about one voxel.
+/// State and evidence of one voxel.
 struct Voxel {
   VoxelState state = VoxelState::kUnknown;
   bool is_inflated = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The seven operational voxel states and what each may be used for: tab:supp_voxel_states and
+// The seven operational voxel states and their permitted uses: tab:supp_voxel_states and
 // tab:supp_astar_penalties as one table. UNKNOWN is the absence of a state.
 #pragma once
 

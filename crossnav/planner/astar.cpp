@@ -34,7 +34,7 @@ struct Open {
   double estimate;
   double cost;
   VoxelKey key;
-  /// Smallest estimate first; among equals the one farther along, then by key: one total order.
+  /// Total order: smallest estimate, then largest cost so far, then key.
   friend bool operator<(const Open& a, const Open& b) {
     if (a.estimate != b.estimate) return a.estimate > b.estimate;
     if (a.cost != b.cost) return a.cost < b.cost;
@@ -176,8 +176,8 @@ class Search {
     return length <= 1.75 || IsBridge(from, to);
   }
 
-  /// A long edge bridges a gap in what was seen: treads hidden behind their risers. Never a wall, a
-  /// drop that was seen, an obstacle, or a rise steeper than a stair.
+  /// A long edge bridges unobserved treads behind their risers; never a wall, an observed drop, an
+  /// obstacle, or a rise steeper than a stair.
   bool IsBridge(const VoxelKey& from, const VoxelKey& to) {
     const double run = std::hypot(to.x - from.x, to.y - from.y);
     if (std::abs(to.z - from.z) > kSteepest * run + 1.5) return false;
@@ -194,8 +194,7 @@ class Search {
       if (IsDrop(key)) return false;
       const bool is_unknown = cursor_.At(key).state == geometry::VoxelState::kUnknown;
       unknown = is_unknown ? unknown + 1 : 0;
-      if (unknown > 1)
-        return false;  // through what nobody has seen: the inside of a wall or a flight
+      if (unknown > 1) return false;  // unobserved: the inside of a wall or a flight
     }
     const double voxel_m = map_.config().voxel_m;
     return map_.HasLineOfSight(CenterOf(from, voxel_m), CenterOf(to, voxel_m));

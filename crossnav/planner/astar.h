@@ -30,13 +30,13 @@ struct LevelBand {
   bool Contains(int z) const { return z >= min_z && z <= max_z; }
 };
 
-/// What a mode may walk on.
+/// Voxels that a mode may walk on.
 struct GraphRules {
   GraphKind kind = GraphKind::kNormal;
   bool allow_inflated = false;     ///< at `inflated_cost_factor` times the cost
   std::optional<LevelBand> level;  ///< Basic Explore stays on its level
-  int start_reach_vox = 0;  ///< the start also reaches voxels this near in a clear line: over
-                            ///< the ring around the feet that the camera cannot see
+  int start_reach_vox = 0;         ///< clear-line reach from the start across
+                                   ///< the ring around the feet that the camera cannot see
   const std::set<VoxelKey>* obstacles = nullptr;  ///< temporary, from bumps; may be null
 };
 
@@ -61,8 +61,8 @@ struct Plan {
 Plan FindPath(const VoxelMap& map, const VoxelKey& start, std::span<const VoxelKey> goals,
               const GraphRules& rules, const PlannerConfig& config);
 
-/// The voxel in which a plan of an agent standing at `p_world_foot` starts: the nearest pathable
-/// one around its feet, inflated or not; nullopt if there is none within half a metre.
+/// Start voxel of a plan from `p_world_foot`: the nearest pathable voxel around the feet, inflated
+/// or not; nullopt if there is none within half a metre.
 std::optional<VoxelKey> StartVoxel(const VoxelMap& map, const Vector3d& p_world_foot);
 
 /// Height index of the first surface below `key` within the support depth; for a surface voxel its

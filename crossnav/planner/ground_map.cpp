@@ -14,7 +14,7 @@ namespace {
 using geometry::IsSurface;
 using geometry::VoxelState;
 
-constexpr int kBelow = 8;          // voxels of a window below the place it is about
+constexpr int kBelow = 8;          // voxels of a window below its place
 constexpr int kHeadSlack = 1;      // chosen: a ceiling may start one voxel low
 constexpr int kSeenAir = 2;        // chosen: above a surface; one voxel may be a ray along a wall
 constexpr double kBridge_m = 0.4;  // chosen: the deepest tread
@@ -165,7 +165,7 @@ std::uint64_t GroundMap::Air(int x, int y, int z_lo) const {
   return tile ? Window(*tile, tile->air, ColumnOf(x, y), z_lo) : 0;
 }
 
-/// Bit i: one can stand at z_lo + i. Valid for the lower half of the window.
+/// Bit i: z_lo + i is a place to stand. Valid for the lower half of the window.
 std::uint64_t GroundMap::StandingBits(int x, int y, int z_lo) const {
   const Tile* tile = FindTile(x, y);
   if (tile == nullptr) return 0;
@@ -217,7 +217,7 @@ std::optional<VoxelKey> GroundMap::StandingAt(const Vector3d& p_world_foot) cons
   return best;
 }
 
-/// Something more than the climb limit over the ground of a body standing at height `z`.
+/// Obstacle higher than the climb limit within the body of an agent standing at height `z`.
 bool GroundMap::IsBodyBlocked(int x, int y, int z) const {
   const std::uint64_t surface = Surfaces(x, y, z - kBelow);
   if ((surface & Span(kBelow + climb_, kBelow + height_ - 1 - kHeadSlack)) != 0) return true;
@@ -236,25 +236,25 @@ StepOutcome GroundMap::SeenOutcomeOf(const VoxelKey& key, int dx, int dy, int* g
   if (tile == nullptr) return StepOutcome::kUnknown;
   if (IsBodyBlocked(x, y, key.z)) return StepOutcome::kBlocked;
   if (const auto z = StandingNear(x, y, key.z, climb_)) {
-    // A step up needs head-room where one comes from as well.
+    // A step up needs head-room at its start as well.
     const std::uint64_t own = Surfaces(key.x, key.y, key.z - kBelow);
     const int top = kBelow + std::max(0, *z - key.z) + height_ - 1 - kHeadSlack;
     if ((own & Span(kBelow, std::min(63, top))) != 0) return StepOutcome::kBlocked;
     *ground_z = *z;
     return StepOutcome::kGround;
   }
-  // Down from the highest seen air that a foot could come from: what is the first that is not air?
+  // Search down from the highest observed air within the climb limit for the first other voxel.
   const std::uint64_t air = Air(x, y, key.z - kBelow), surface = Surfaces(x, y, key.z - kBelow);
   const int lowest = kBelow - climb_ - 1;
   int at = kBelow + climb_;
   while (at >= kBelow && (air >> at & 1) == 0) --at;
-  // No air: a surface below tells nothing, it may be the ceiling of the storey underneath, and one
-  // within the climb limit may be the riser of a step whose tread is hidden.
+  // Without air a surface decides nothing: below, it may be the ceiling of the storey underneath;
+  // within the climb limit, the riser of a hidden tread.
   if (at < kBelow) return StepOutcome::kUnknown;
   while (at >= lowest && (air >> at & 1) != 0) --at;
   if (at < lowest) return StepOutcome::kDrop;
   if ((surface >> at & 1) == 0) return StepOutcome::kUnknown;
-  // A surface under too little seen air is ground to be seen; under something, it is none.
+  // A surface under too little observed air is possible ground; under an obstacle it is not.
   const bool is_seen = (air >> (at + 1) & Span(0, kSeenAir - 1)) == Span(0, kSeenAir - 1);
   const bool is_under = (surface & Span(at + 1, std::min(63, at + height_ - kHeadSlack))) != 0;
   const bool is_bumped = !blocked_.empty() && blocked_.contains({x, y, key.z - kBelow + at + 1});
@@ -320,7 +320,7 @@ double GroundMap::DistanceToObstacle(const Vector3d& p_world_foot, int z, double
 
 bool GroundMap::Block(const Vector3d& p_world) {
   const VoxelKey key = geometry::KeyOf(p_world, voxel_m_);
-  // From a step below to two steps above: how high it is was not felt.
+  // From one climb below to two above: a bump does not tell the obstacle's height.
   bool is_new = false;
   for (int dz = -climb_; dz <= 2 * climb_ + 1; ++dz)
     is_new = blocked_.insert({key.x, key.y, key.z + dz}).second || is_new;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Where a foot can be put: the ground that the voxel map's surfaces and free air imply, on every
-// floor, landing and step at once. Geometry alone decides: ground is what one can step onto (a rise
-// up to the climb limit, head-room, room for the body), whatever a stair mask says of it.
-// A place to stand is named by its lowest free voxel; its support is the surface voxel below.
-// Kept up to date from the map's state changes; lookups cost a few word operations a column.
-// World frame; lengths in voxels. Not thread-safe with Update.
+// The ground: every place where a foot can be put, on all floors, landings and treads at
+// once. Geometry alone decides: a place needs a rise within the climb limit, head-room, and
+// room for the body; stair masks have no say. The name of a place is its lowest free voxel;
+// its support is the surface voxel below. State changes of the map update it; a lookup costs
+// a few word operations per column. World frame; lengths in voxels. Not thread-safe with
+// Update.
 #pragma once
 
 #include <array>
@@ -19,12 +19,12 @@
 
 namespace crossnav::planner {
 
-/// What a step from a place to stand to a neighbouring column meets.
+/// Outcome of a step from a place to a neighbouring column.
 enum class StepOutcome : std::uint8_t {
   kGround,   ///< a place to stand within the climb limit
   kBlocked,  ///< something that stops the body
-  kUnknown,  ///< ground may be there: it was not seen yet
-  kDrop,     ///< air, seen deeper than one can step; or nothing, however it is looked at
+  kUnknown,  ///< unobserved; ground is possible
+  kDrop,     ///< air seen deeper than the climb limit, or ground without an answer
 };
 
 class GroundMap {
@@ -34,7 +34,7 @@ class GroundMap {
   void Update(const std::vector<geometry::StateChange>& changes);
   void Rebuild(const geometry::VoxelMap& map);
 
-  /// A surface below, air here, head-room above, and nothing that was bumped into.
+  /// Surface below, free air here, head-room above, and no obstacle known from a bump.
   bool IsStanding(const VoxelKey& key) const;
 
   /// The place to stand in column (x, y) nearest in height to `z`, within `reach` voxels.
@@ -43,16 +43,16 @@ class GroundMap {
   /// The place to stand nearest to a foot within half a metre; nullopt where there is none.
   std::optional<VoxelKey> StandingAt(const Vector3d& p_world_foot) const;
 
-  /// What a step from `key` to the column (dx, dy) away meets; `ground_z` gets the height there.
+  /// Outcome of the step from `key` to the column at (dx, dy); `ground_z` gets its height.
   StepOutcome OutcomeOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
 
-  /// The next place to stand straight ahead over ground that was not seen, or seen as air: a tread
-  /// that hides behind its riser, or that light falls through. At most `reach` columns away, within
-  /// the climb limit, nothing in between that stops the body.
+  /// The next place straight ahead across unobserved columns or columns seen as air: a tread hidden
+  /// behind its riser, or an open riser. At most `reach` columns away, within the climb limit,
+  /// without an obstacle to the body in between.
   std::optional<VoxelKey> Bridge(const VoxelKey& key, int dx, int dy, int reach) const;
 
-  /// How much higher the ground of column (x, y) is than a foot at height `key.z`: of the place to
-  /// stand, or where it was not seen, of the front of a step; 0 = nothing seen, nullopt = a wall.
+  /// Rise from a foot at height `key.z` to the ground of its column: to the place there, or to the
+  /// riser where the tread is unobserved; 0 = nothing seen, nullopt = a wall.
   std::optional<int> RiseAt(const VoxelKey& key) const;
 
   Clearance ClearanceOf(const VoxelKey& key) const;
@@ -61,20 +61,20 @@ class GroundMap {
   /// standing at height `z`, at most `cap_m` [m].
   double DistanceToObstacle(const Vector3d& p_world_foot, int z, double cap_m) const;
 
-  /// Takes the column under `p_world` for an obstacle to a foot at that height, until
-  /// ForgetBlocked. False if it was one already.
+  /// Marks the column under `p_world` as an obstacle at that height, until ForgetBlocked. False if
+  /// it was marked already.
   bool Block(const Vector3d& p_world);
   void ForgetBlocked();
-  /// Of those within `radius_m`. False if there were none.
+  /// Forgets the marks within `radius_m`. False if there were none.
   bool ForgetBlockedAround(const Vector3d& p_world, double radius_m);
   bool HasBlocked() const { return !blocked_.empty(); }
 
-  /// The column of `key` gives no answer however it is looked at: what was not seen there, about
-  /// that height, is no ground to be seen.
+  /// Marks the column of `key` as ground without an answer: unobserved space there, at about that
+  /// height, is no frontier.
   void NoteUnanswered(const VoxelKey& key);
 
-  /// The body went from one foot position to the other, a step away. Where it rose or fell, the
-  /// rises there are steps from then on, in both directions.
+  /// Notes a step of the body between two foot positions. Rises along it are steps from then on, in
+  /// both directions.
   void NoteStep(const Vector3d& p_from_world, const Vector3d& p_to_world);
   bool WasWalked(const VoxelKey& key) const { return walked_.contains(key); }
 
@@ -92,7 +92,7 @@ class GroundMap {
   }
   /// The same of all columns within `reach` of it.
   std::uint64_t ChangedAround(int x, int y, int reach) const;
-  /// Filled by searches; what it answers depends on the ground alone. One thread at a time.
+  /// Cache that searches fill; its answers depend on the ground alone. One thread at a time.
   GroundPlaces& places() const { return places_; }
 
  private:
@@ -128,17 +128,17 @@ class GroundMap {
   std::uint64_t Air(int x, int y, int z_lo) const;
   std::uint64_t StandingBits(int x, int y, int z_lo) const;
   bool IsBodyBlocked(int x, int y, int z) const;
-  /// OutcomeOf, as far as surfaces and air tell.
+  /// OutcomeOf by surfaces and air alone.
   StepOutcome SeenOutcomeOf(const VoxelKey& key, int dx, int dy, int* ground_z) const;
 
   double voxel_m_;
   int climb_, height_, inflation_, radius_, bridge_, diagonal_bridge_;
-  // Window of tiles around those there are: index into `tiles_`, -1 = none.
+  // Window around the existing tiles: index into `tiles_`, -1 = none.
   std::vector<std::int32_t> index_;
   int first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;  // [tiles]
   std::vector<Tile> tiles_;
   std::set<VoxelKey> blocked_;
-  std::set<VoxelKey> walked_;  // where a body's way rose or fell
+  std::set<VoxelKey> walked_;  // places on rises that the body walked
   std::unordered_set<VoxelKey, geometry::VoxelKeyHash> unanswered_;
   std::uint64_t revision_ = 0;
   mutable GroundPlaces places_;

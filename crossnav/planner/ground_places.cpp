@@ -10,8 +10,8 @@
 namespace crossnav::planner {
 namespace {
 
-/// The front of a seat, not a tread: the foot that steps onto it meets the seat behind it, which is
-/// too high, and no flight goes on there.
+/// Front of a seat, not a tread: behind it the seat is too high for the foot, and no flight
+/// continues.
 bool IsFrontOfSeat(const GroundMap& ground, const VoxelKey& from, const VoxelKey& to,
                    bool* is_judged_by_run) {
   if (to.z - from.z < CellsCeil(kDoorstep_m, ground.voxel_m())) return false;
@@ -49,7 +49,7 @@ Step StepTo(const GroundMap& ground, const VoxelKey& from, int dx, int dy) {
   return step;
 }
 
-/// Whether a step down is one that cannot be climbed back, as far as the ground is known.
+/// Whether the known ground has no step back up.
 bool IsOneWay(const GroundMap& ground, const VoxelKey& from, const VoxelKey& to,
               bool* is_judged_by_run) {
   if (from.z - to.z < CellsCeil(kDoorstep_m, ground.voxel_m())) return false;
@@ -59,7 +59,7 @@ bool IsOneWay(const GroundMap& ground, const VoxelKey& from, const VoxelKey& to,
   return !back.to || back.is_front;
 }
 
-/// Columns around a place that its steps may depend on where a run decided: that of the step back
+/// Radius in columns of the ground that steps judged by a run depend on; the run of the step back
 /// begins beyond a bridge.
 int JudgedReach_vox(const GroundMap& ground) {
   return RunReach_vox(ground.voxel_m()) + ground.BridgeReach(1, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What searches ask of places to stand: where one can step from there, and how much room there is.
-// Each is worked out from the ground once, and again only after something near it changed: a search
-// over a whole house follows indices. The answers are those of the ground itself.
+// Cache of places to stand for searches: the steps from each place, and its clearance. An entry is
+// computed from the ground once, and again only after a change near it, so that a search over a
+// whole house follows indices. Answers equal those of the ground itself.
 #pragma once
 
 #include <array>
@@ -33,14 +33,14 @@ inline constexpr std::array<std::array<int, 2>, 8> kStepSides = {
 class GroundPlaces {
  public:
   struct Steps {
-    std::array<std::int32_t, 8> to{};  ///< index of the place; -1 = no way
-    std::uint8_t bridges = 0;          ///< bit i: `to[i]` lies beyond ground that was not seen
-    std::uint8_t unseen = 0;           ///< bit i: it was not seen what lies there
-    std::uint8_t one_way = 0;          ///< bit i: no way back up from `to[i]` is known
+    std::array<std::int32_t, 8> to{};  ///< index of the place; -1 = no step
+    std::uint8_t bridges = 0;          ///< bit i: `to[i]` lies beyond unobserved ground
+    std::uint8_t unseen = 0;           ///< bit i: the column is unobserved
+    std::uint8_t one_way = 0;          ///< bit i: no path back up from `to[i]` is known
     std::uint8_t fronts = 0;           ///< bit i: the step leads onto the front of a seat
   };
 
-  /// -1 where nothing was asked of `key` yet.
+  /// -1 where `key` has no entry yet.
   std::int32_t Find(const VoxelKey& key) const;
   std::int32_t IndexOf(const VoxelKey& key);
   const VoxelKey& KeyAt(std::int32_t place) const { return At(place).key; }

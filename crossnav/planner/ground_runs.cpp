@@ -15,7 +15,7 @@ constexpr double kDeepTread_m = 0.35;    // chosen: deeper is a seat, or a landi
 constexpr double kShortTread_m = 0.125;  // chosen: a body's radius and a quarter; less is a shelf
 constexpr int kRises = 3;                // chosen: two are a seat with a rounded front, or a shelf
 
-/// Rises along a line of columns; column 0 is the one stepped up to.
+/// Rises along a line of columns; column 0 is the destination of the step.
 struct Run {
   int rises = 0;
   int first = 0, last = 0;  ///< columns of the lowest and the highest riser

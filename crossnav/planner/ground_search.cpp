@@ -48,8 +48,8 @@ std::optional<VoxelKey> GroundSearch::Next() {
 void GroundSearch::Expand(std::int32_t from_place) {
   GroundPlaces& places = ground_.places();
   const GroundPlaces::Steps steps = places.StepsFrom(ground_, from_place);
-  // A start in a pinch may leave it; nothing else leads in, or what can be reached would depend on
-  // where one happens to stand.
+  // A start in a pinch may leave it. No other step leads into a pinch: reachability must not depend
+  // on the start.
   const From from{from_place, places.KeyAt(from_place), At(from_place).cost,
                   places.RoomAt(ground_, from_place) == Clearance::kPinch};
   for (std::size_t i = 0; i < steps.to.size(); ++i) {

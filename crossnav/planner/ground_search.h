@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Cheapest ways over the ground, on all floors: one Dijkstra from where the agent stands, visited
-// in order of cost, so that "the nearest place for which ..." stops as soon as it is found. An edge
-// costs its length in voxels (eq:supp_astar_edge_cost), more where the body has little room
-// (the paper's price of inflated space), takes a high step, or leads down where no way back up is
-// known. Lengths and costs in voxels.
+// Cheapest paths over the ground, on all floors: one Dijkstra from the agent's place that yields
+// places in order of cost, so that a search for the nearest match stops early. The cost of an edge
+// is its length in voxels (eq:supp_astar_edge_cost); little clearance (the paper's price of
+// inflated space), a high step, and a step down without a known path back up cost extra. Lengths
+// and costs in voxels.
 #pragma once
 
 #include <algorithm>
@@ -29,14 +29,14 @@ class GroundSearch {
   GroundSearch(const GroundMap& ground, const PlannerConfig& config, const VoxelKey& start,
                const GroundRules& rules = {});
 
-  /// The next place in order of cost; ties by key. nullopt when all that can be reached was
+  /// The next place in order of cost; ties by key. nullopt when every reachable place was
   /// visited.
   std::optional<VoxelKey> Next();
 
   /// Cost of the place that Next() gave last.
   double cost() const { return last_cost_; }
 
-  /// Way from the start to a visited place, both included.
+  /// Path from the start to a visited place, both included.
   std::vector<VoxelKey> PathTo(const VoxelKey& key) const;
   /// Cost of a visited place, or nullopt.
   std::optional<double> CostOf(const VoxelKey& key) const;
@@ -63,7 +63,7 @@ class GroundSearch {
     bool is_in_pinch;
   };
 
-  /// Of an edge, on top of its own cost.
+  /// Extra cost of an edge.
   struct Price {
     double factor = 1;
     double added = 0;  // [voxels]
@@ -85,7 +85,7 @@ class GroundSearch {
   double last_cost_ = 0;
 };
 
-/// Cost of the edge between neighbouring places, by the room at the place that is entered.
+/// Cost of the edge between neighbouring places, by the clearance of the place that is entered.
 double GroundEdgeCost(const VoxelKey& from, const VoxelKey& to, Clearance room, int climb,
                       const PlannerConfig& config);
 

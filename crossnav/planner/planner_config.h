@@ -9,7 +9,7 @@ struct PlannerConfig {
   double inflated_cost_factor = 2;
   double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
   double high_step_cost = 2;  // chosen: [voxels] a step at the climb limit; stairs have lower ones
-  double bridge_cost_factor = 2;  // chosen: as inflated space; over a tread that was not seen
+  double bridge_cost_factor = 2;  // chosen: as inflated space; across an unobserved tread
   double one_way_m = 30;          // chosen: about a storey's exploring, for a step down that is
                                   // known to have no way back up
   double doubtful_m = 3;          // chosen: a detour around a step that a relaxed rule allows
