@@ -41,13 +41,13 @@ class StageClock {
   double last_;
 };
 
-/// What later stages need of a frame.
+/// Outputs of a frame that later stages need.
 struct Seen {
   std::vector<policy::Sighting> sightings;
   perception::Percept percept;
 };
 
-/// What counts as a hint of the goal: every sighting, however small or doubtful.
+/// Settings of hints: every sighting counts, however small or doubtful.
 policy::ObjectConfig HintConfig(const policy::PolicyConfig& policy) {
   policy::ObjectConfig config = policy.object;
   config.detector_confidence = policy.explore.hint_confidence;
@@ -59,7 +59,7 @@ trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_
   trace::CandidateTrace t;
   t.kind = NameOf(candidate.kind);
   t.p_focus_world = candidate.p_focus_world;
-  // What is claimed has no place to go to any more.
+  // A claimed object is no target any more.
   t.p_nav_world = candidate.standing.empty()
                       ? candidate.p_focus_world
                       : CenterOf(candidate.standing[candidate.standing.size() / 2], voxel_m);
@@ -170,8 +170,8 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   return {};
 }
 
-/// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; what is too doubtful for
-/// anything but a hint is not given back.
+/// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; sightings below the
+/// confidence of a POI become hints and are not returned.
 std::vector<policy::Sighting> Agent::Impl::NoteSightings(
     const std::vector<perception::Detection>& detections, const Observation& obs) {
   const policy::ObjectConfig& object = config.policy.object;
@@ -193,7 +193,7 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(
   return sightings;
 }
 
-/// Everything that one frame adds to the world, in the paper's order.
+/// Updates the world by one frame, in the paper's order.
 Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, StageClock& clock) {
   auto percept = perception.Look(obs, goal.goal);  // boxes, masks, stair pixels, dense features
   if (!percept) return tl::unexpected(percept.error());

@@ -27,7 +27,7 @@ class Hooks;
 struct StepResult {
   Action action = Action::kStop;
   trace::StepTrace trace;
-  perception::Percept percept;              ///< what perception said of the frame
+  perception::Percept percept;              ///< result of perception for the frame
   std::vector<trace::StageTime> timing;     ///< CPU ms per stage, in order
   bool all_explored = false;                ///< no candidate is left; `action` is meaningless then
   std::optional<Vector3d> p_claimed_world;  ///< with kStop: where the agent believes the goal to be
@@ -65,7 +65,7 @@ class Agent {
   std::span<const float> goal_text() const;
   const geometry::VoxelMap& map() const;
   const memory::SemanticMemory& memory() const;
-  /// The flights that are known: those that were walked, then those that were only seen.
+  /// Known flights: walked flights first, then flights that were only seen.
   const std::vector<geometry::StairFlight>& flights() const;
   /// Voxels that were seen as stairs, walked or not; sorted.
   std::vector<geometry::SeenStair> seen_stairs() const;

@@ -17,7 +17,7 @@ bool DoubtsClaims(const Config& config);
 /// cannot encode are left out.
 void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* world);
 
-/// Sightings without those of rejected objects; POIs with new evidence are live again.
+/// Sightings without rejected objects; POIs with new evidence become live again.
 std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sightings,
                                               const Vector3d& p_camera_world, const Config& config,
                                               GoalState* goal);

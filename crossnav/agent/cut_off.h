@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the map knows of and no way leads to: "cut off" is not "explored". World frame.
+// Places that the map knows and no path reaches: "cut off" is not "explored". World frame.
 #pragma once
 
 #include <string>

@@ -51,7 +51,7 @@ bool LeadsToStorey(const Situation& now, const VoxelKey& place) {
   });
 }
 
-/// Two steps, or one of double height, within the depth of a tread.
+/// Two steps, or a step of double height, within the depth of a tread.
 bool IsBesideStep(const planner::GroundMap& ground, const VoxelKey& place) {
   constexpr int kTread_vox = 3, kRiser_vox = 2;  // chosen: depth and height of a tread
   for (int dx = -kTread_vox; dx <= kTread_vox; ++dx)

@@ -15,7 +15,7 @@ using policy::Candidate;
 namespace {
 
 constexpr std::size_t kHeading = 5;    // chosen: places of a path that give its direction
-constexpr double kFromAfar_m = 4;      // chosen: the way around a table to a nearer view
+constexpr double kFromAfar_m = 4;      // chosen: the path around a table to a nearer view
 constexpr double kSplitLevel_m = 1.0;  // chosen: flat ground this near in height is the same floor
 
 }  // namespace

@@ -74,7 +74,7 @@ policy::ViewTest Hints::ViewWithin(double range_m, const policy::LivePoi& poi) c
           now_.config.sensor.camera_height_m};
 }
 
-/// The nearer view that is due after the last one.
+/// Test for the nearer view that is due after the last view.
 std::optional<policy::ViewTest> Hints::NearerView(const policy::LivePoi& poi,
                                                   const CloseLooks* looks) const {
   if (!looks || looks->distance_m <= 0) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<policy::ViewTest> Hints::NearerView(const policy::LivePoi& poi,
   return std::nullopt;
 }
 
-/// Whether there is such a place at all; whether a way leads to it is left open.
+/// Whether a place with such a view exists, reachable or not.
 bool Hints::HasView(const policy::ViewTest& view, const CloseLooks* looks) const {
   const VoxelKey &lo = view.lo(), &hi = view.hi();
   for (int x = lo.x; x <= hi.x; ++x)

@@ -11,8 +11,8 @@
 
 namespace crossnav::agent {
 
-/// Records a view of hint `poi_id` from where the agent stands. True where nothing decides about it
-/// any more: neither a nearer view nor one from another side.
+/// Records a view of hint `poi_id` from where the agent stands. True where no further view can
+/// decide: neither from nearer nor from another side.
 bool NoteLook(StepState& now, int poi_id);
 
 /// The hints of one choice. Keeps references to the situation.
@@ -24,7 +24,7 @@ class Hints {
     policy::Candidate candidate;
     bool is_nearer = true;  ///< than the last view; false: as far away, from another side
   };
-  /// Those that are seen from near for the first time, standing at `key`: a view each.
+  /// Hints seen from near for the first time, from `key`: a view each.
   std::vector<View> SeenFrom(const geometry::VoxelKey& key);
 
   /// Length of the straight line from `key` to the nearest hint of its storey that was not seen

@@ -24,7 +24,7 @@ bool ForgetBumps(StepState& now) {
   return true;
 }
 
-/// Targets that were given up for want of a way are offered again.
+/// Targets given up for lack of a path become candidates again.
 void ForgiveUnreachable(GoalState* goal) {
   std::erase_if(goal->full.attempts, [](const Attempt& attempt) {
     return attempt.ending == Ending::kUnreachable || attempt.ending == Ending::kNoProgress;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the agent asks of an observation, and of what perception makes of it, before anything of it
-// gets into the map.
+// Checks of an observation and of its percept, before either reaches the
+// map.
 #pragma once
 
 #include "crossnav/core/observation.h"

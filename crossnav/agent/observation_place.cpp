@@ -42,7 +42,7 @@ std::optional<ObservationPlace> FindObservationPlace(const geometry::VoxelMap& m
   const double voxel_m = map.config().voxel_m;
   ObservationPlace place;
   place.p_foot_world = CenterOf(view->plan.path.back(), voxel_m);
-  // The voxel is one of the air above what carries the foot.
+  // The voxel is free air; the support of the foot lies below it.
   if (const auto support = planner::SupportZ(map, view->plan.path.back()))
     place.p_foot_world.z() = (*support + 0.5) * voxel_m;
   const Vector3d to_center = cluster.p_center_world - place.p_foot_world;

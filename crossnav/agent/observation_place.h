@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where to stand to look at a place of the memory, coming from somewhere (paper, "History POIs"):
-// for the agent on its way, and for those who only ask. World frame, metres.
+// Observation places: where to stand to see a place of the memory, for a given start (paper,
+// "History POIs"). Serves the agent and map queries. World frame, metres.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@
 
 namespace crossnav::agent {
 
-constexpr int kBlindRing_vox = 4;  // chosen: what lies under a camera one pitch step down
+constexpr int kBlindRing_vox = 4;  // chosen: blind ground under a camera one pitch step down
 
-/// Places to stand with a view, and the way to the cheapest that can be reached.
+/// Places to stand with a view, and the path to the cheapest reachable place.
 struct ViewPath {
   std::vector<geometry::VoxelKey> standing;
   planner::Plan plan;
   planner::GraphRules rules;
 };
 
-/// Within the approach range of `voxels` if one can be reached there, else within twice that.
+/// Path to a view within the approach range of `voxels`, else within twice that range.
 std::optional<ViewPath> PathToView(const geometry::VoxelMap& map, const geometry::VoxelKey& start,
                                    const std::vector<geometry::VoxelKey>& voxels,
                                    const planner::GraphRules& rules, const Config& config);
@@ -30,7 +30,7 @@ std::optional<ViewPath> PathToView(const geometry::VoxelMap& map, const geometry
 struct ObservationPlace {
   Vector3d p_foot_world = Vector3d::Zero();
   double yaw_rad = 0;  ///< from there to the place's centre
-  double path_m = 0;   ///< length of the way
+  double path_m = 0;   ///< length of the path
 };
 
 /// Empty if no place to stand with a view of `cluster` is reachable from `p_from_world` (a foot

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kFrontierReach_m = 0.2, kPoiReach_m = 0.4;  // chosen: two columns, and four
 
-/// Places to stand within `reach_m` of the column; the nearest ones where there are none.
+/// Places to stand within `reach_m` of the column; the nearest places where there are none.
 std::vector<VoxelKey> StandingNear(const policy::OneMapView& view, const Column& column,
                                    double reach_m) {
   std::vector<VoxelKey> near;
@@ -98,7 +98,7 @@ void UpdateObject(paper::Situation& now, const std::vector<policy::Sighting>& si
   }
 }
 
-/// The way to where the object can be stopped at; without one it is forgotten.
+/// Path to a place where the agent can stop at the object; without a path the object is forgotten.
 std::optional<Target> PathToObject(paper::Situation& now, const policy::OneMapView& view) {
   auto& object = now.goal.onemap.object;
   if (!object) return std::nullopt;

@@ -22,7 +22,7 @@ constexpr int kLooksAtFrontier = 2;    // chosen
 constexpr int kMaxPitches = 4;         // chosen: from the lowest pitch to one up, and one more
 constexpr double kFrontierBlacklist_m = 0.4;  // chosen: a few voxels that cannot be seen
 
-/// Centre of what the frontier borders on near the agent: where to look on arrival.
+/// Centre of the frontier's unknown voxels near the agent: the heading on arrival.
 Vector3d LocalFocus(const Situation& now, const policy::Candidate& candidate) {
   const double voxel_m = now.config.map.voxel_m;
   Vector3d sum = Vector3d::Zero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// policy.profile = paper. What the agent does in each mode, once a target is chosen: one action per
-// call. Also the checks that decide about modes: is this entrance a stair, is the session over.
+// policy.profile = paper. Actions of each mode towards a chosen target, one action per call, and
+// the checks that decide about modes: entrances and sessions.
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ EntranceVerdict CheckEntrance(Situation& now, std::optional<Action>* look);
 
 enum class SessionVerdict { kNone, kClimbing, kLandingReached, kFailed };
 
-/// Promotes evidence, tells how the session stands, and ends it when it is over.
+/// Promotes evidence, returns the state of the session, and ends a finished session.
 SessionVerdict CheckSession(Situation& now);
 
 /// One step of Basic Explore towards `target`; may begin an entrance check.
@@ -48,8 +48,8 @@ std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target);
 std::optional<Action> Approach(Situation& now, const Target& target, const policy::LivePoi& poi,
                                const policy::Verification& verification);
 
-/// Queues a look around unless that was done here for this goal: what surrounds the agent may just
-/// not have been seen. False if it was.
+/// Queues a look around, at most once per place and goal, for surroundings that were never in view.
+/// False if done before.
 bool LookAroundOnce(Situation& now);
 
 /// The one relaxed retry when nothing is left. False if it was used before.

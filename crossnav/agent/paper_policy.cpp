@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kOtherLevel_m = 0.5;  // chosen: more than the level band
 
-/// What the candidates of this step are, each with its plan.
+/// Candidates of this step, each with its plan.
 struct Options {
   std::optional<Target> live, history, exploration, stair;
   int live_id = -1, history_index = -1;
@@ -137,7 +137,8 @@ std::optional<Action> Act(Situation& now, const ModeDecision& next,
   return Approach(now, *target, *goal.live.Find(goal.active_live), verification);
 }
 
-/// Nothing to go to: what may have been overlooked, from cheap to dear. False when all is done.
+/// Without a target: remedies for overlooked candidates, from cheap to dear. False when all are
+/// used.
 bool Reconsider(Situation& now) {
   if (!now.world.paper.bumps.obstacles().empty()) {
     now.world.paper.bumps.Clear();

@@ -103,7 +103,7 @@ bool LevelHasWork(const Situation& now, double level_m) {
   return !OpenEntrances(now, level_m, false).empty();
 }
 
-/// Flights walked before whose other end has something left to explore.
+/// Entrances of walked flights with unexplored candidates at the other end.
 std::vector<Candidate> ReturnEntrances(const Situation& now) {
   std::vector<Candidate> back;
   for (Candidate& candidate : OpenEntrances(now, now.world.level_m, true)) {
@@ -190,7 +190,7 @@ std::vector<Candidate> OpenEntrances(const Situation& now, double level_m, bool 
 
 namespace {
 
-/// The committed candidate, of whatever class, until its grace period is over (sec. "Candidate
+/// The committed candidate, of any class, until its grace period is over (sec. "Candidate
 /// Priority"): no other frontier replaces it while it is there and can be reached.
 std::optional<Target> KeepCommitted(Situation& now, const std::vector<Candidate>& frontiers) {
   auto& commitment = now.goal.paper.commitment;

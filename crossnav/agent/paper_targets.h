@@ -13,7 +13,7 @@
 
 namespace crossnav::agent::paper {
 
-/// What all of them look at.
+/// Inputs of all target functions.
 struct Situation {
   const Config& config;
   World& world;
@@ -40,7 +40,7 @@ planner::GraphRules WholeMapRules(const Situation& now);
 std::optional<Target> ChooseFrontier(Situation& now,
                                      const std::vector<policy::Candidate>& candidates);
 
-/// Traversable, then descend and ascent frontiers of the level, without what was set aside.
+/// Traversable, then descend and ascent frontiers of the level, without blacklisted candidates.
 std::vector<policy::Candidate> OpenFrontiers(const Situation& now);
 std::vector<policy::Candidate> OpenEntrances(const Situation& now, double level_m,
                                              bool include_walked);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The planar baseline (variant `planar`): what is seen on any floor is remembered on the start
-// level, one row a column, as a bird's-eye-view map would.
+// The planar baseline (variant `planar`): observations of any floor are stored on the start level,
+// a row per column, as in a bird's-eye-view map.
 #pragma once
 
 #include <vector>

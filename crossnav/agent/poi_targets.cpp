@@ -18,7 +18,7 @@ using policy::CandidateKind;
 namespace {
 
 constexpr double kSlack_m = 0.1;      // chosen: the agent stops that near to where it was sent
-constexpr double kUnderFoot_m = 0.5;  // chosen: what lies lower is on another storey
+constexpr double kUnderFoot_m = 0.5;  // chosen: lower voxels belong to another storey
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
@@ -136,7 +136,7 @@ bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi,
   if (poi.similarity < now.world.full.confirmed_similarity - policy.poi.similarity_slack &&
       now.goal.full.last_resorts == 0)
     return false;
-  // Asked again, the memory offers the same places: those that were visited are settled.
+  // A repeated query returns the same places: visited places are settled.
   return !IsSpent(now.goal.full.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
                   policy.poi.blacklist_xy_m, policy.explore.max_choices);
 }

@@ -11,15 +11,15 @@
 
 namespace crossnav::agent {
 
-/// A candidate with the way to it.
+/// A candidate with its path.
 struct GroundTarget {
   policy::Candidate candidate;
   std::vector<geometry::VoxelKey> path;
   double cost_m = 0;
-  double score_m = 0;  ///< cost and what its class adds; lower is better
+  double score_m = 0;  ///< path cost plus price of the class; lower is better
 };
 
-/// What may be walked on: every floor, or the start level alone for the planar variant.
+/// Walkable ground: every floor, or the start level alone for the planar variant.
 planner::GroundRules RulesOf(const Situation& now);
 
 /// Foot position of an agent at a place to stand.
@@ -46,8 +46,8 @@ struct ViewWish {
 std::optional<GroundTarget> NearestView(const Situation& now, const geometry::VoxelKey& start,
                                         const ViewWish& wish);
 
-/// The nearest place to see `poi` from, out of those that were not tried and, where a second view
-/// of it is wanted, that are on another side.
+/// The nearest untried place with a view of `poi`; on another side where a second view is
+/// required.
 std::optional<GroundTarget> ViewOf(const Situation& now, const geometry::VoxelKey& start,
                                    const policy::LivePoi& poi);
 

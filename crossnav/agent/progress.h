@@ -9,8 +9,8 @@ namespace crossnav::agent {
 /// Marks the obstacle that stopped a forward step.
 void NoteBump(StepState& now);
 
-/// Sets the exploration level to the one that supports the agent. A walk from one level to another
-/// makes a flight known.
+/// Sets the exploration level to the level that supports the agent. A walk from one level to
+/// another makes a flight known.
 void NoteLevel(StepState& now);
 
 }  // namespace crossnav::agent

@@ -56,7 +56,8 @@ void NoteFlightTry(StepState& now, const policy::Candidate& target, Ending endin
   policy::NoteTry(target.p_focus_world, attempt, &now.world.flights);
 }
 
-/// The first narrow place of the path is closed: the body tried it in vain, whatever lies behind.
+/// The first narrow place of the path is closed: the body tried it in vain, so that places behind
+/// it do not count.
 void CloseGap(StepState& now, const Route& route) {
   const double voxel_m = now.config.map.voxel_m;
   for (const VoxelKey& key : route.path) {
@@ -200,7 +201,7 @@ void MeasureProgress(StepState& now) {
   if (route.idle_steps <= allowed) return;
   if (const VisitPlace* visit = std::get_if<VisitPlace>(&pursuit))
     now.goal.history[static_cast<std::size_t>(visit->place)].is_exhausted = true;
-  // A claim that only lacks its second view stays: the first one is gone back to.
+  // A claim that only lacks its second view stays: the agent returns to the first view.
   const policy::ClaimTracker& claims = now.goal.full.claims;
   if (const Approach* approach = std::get_if<Approach>(&pursuit);
       approach &&

@@ -10,8 +10,8 @@
 
 namespace crossnav::agent {
 
-/// Starts `pursuit`, or continues the one in progress along a new path where both have the same
-/// target. A pursuit with another target is superseded.
+/// Starts `pursuit`; a pursuit in progress with the same target continues along the new path. A
+/// pursuit with another target is superseded.
 void Begin(StepState& now, Pursuit pursuit);
 
 /// Ends the pursuit and adds it to the record of attempts. Nothing happens while idle.

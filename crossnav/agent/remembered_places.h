@@ -14,9 +14,9 @@ namespace crossnav::agent {
 std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& goal,
                                          const Config& config);
 
-/// What the memory holds at `voxels` against the goal's text: mean cosine of the best quarter of
-/// its rows there, or nothing where it holds none. With it the agent learns from every object it
-/// finds how strongly the encoder answers to the real thing.
+/// Similarity of the memory at `voxels` to the goal's text: mean cosine of the best quarter of its
+/// rows there, or nothing without rows. Found objects calibrate by it how strongly the encoder
+/// answers to the real object.
 std::optional<double> SimilarityAt(const World& world, const GoalState& goal,
                                    const std::vector<geometry::VoxelKey>& voxels);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What perception said of a frame, kept for viewers.
+// Results of perception for a frame, kept for viewers.
 #pragma once
 
 #include <span>

@@ -105,8 +105,8 @@ struct HistoryPoi {
   int looked = 0;                       ///< frames spent looking at it on arrival
 };
 
-/// Views of one hint or live POI whose confidence was too low: the next one is nearer while the
-/// confidence rises, then from another side.
+/// Views of a hint or live POI with too low confidence: the next one is nearer while the confidence
+/// rises, then from another side.
 struct CloseLooks {
   int poi_id = -1;
   std::vector<Vector3d> p_from_world;  ///< foot positions of the views so far
@@ -129,7 +129,7 @@ struct FullGoal {
   std::vector<Attempt> attempts;    ///< pursuits that ended
   policy::LivePois hints;           ///< sightings too weak for a live POI
   std::vector<CloseLooks> looks;    ///< at hints
-  std::vector<FailedViews> failed;  ///< of live POIs that are not the active one
+  std::vector<FailedViews> failed;  ///< of live POIs other than the active POI
   double doubtful_m = 0;         ///< distance of the last view of the active live POI that was too
                                  ///< little for its confidence; 0 = none was
   policy::ClaimTracker claims;   ///< verify.memory = on
@@ -173,7 +173,7 @@ struct PaperGoal {
   int steps_without_stair_target = 0;
   double scanned_landing_m = -1e9;  ///< height of the landing of the last full turn
   std::deque<Action> script;        ///< actions of a full turn or of an escape from a bump
-  bool is_relaxed = false;          ///< the one relaxed retry was used
+  bool is_relaxed = false;          ///< the relaxed retry was used
 };
 
 /// The object that OneMap goes to.

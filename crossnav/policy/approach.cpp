@@ -19,8 +19,8 @@ std::vector<VoxelKey> Sample(const std::vector<VoxelKey>& voxels, std::size_t co
   return sample;
 }
 
-/// Line of sight to a voxel of the object: the object's own surface does not hide it, so the ray
-/// stops one and a half voxels short.
+/// Line of sight to a voxel of the object: the ray stops one and a half voxels short, since the
+/// object's own surface must not hide the voxel.
 bool CanSee(const VoxelMap& map, const Vector3d& p_eye, const VoxelKey& target) {
   const double voxel_m = map.config().voxel_m;
   const Vector3d p_target = CenterOf(target, voxel_m);

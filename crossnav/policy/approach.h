@@ -37,8 +37,8 @@ class ViewTest {
   VoxelKey lo_, hi_;  // box of the object, grown by the range
 };
 
-/// Standing voxels within `range_m` of the object from whose camera height enough of it is in free
-/// line of sight. Sorted by key; empty if there are none. `tried` are places not to offer again.
+/// Standing voxels within `range_m` of the object with enough of it in free line of sight from
+/// camera height. Sorted by key; may be empty. `tried` places are left out.
 std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey>& object,
                                  double range_m, const ApproachConfig& config,
                                  double camera_height_m, const std::vector<Vector3d>& tried = {});
@@ -51,7 +51,7 @@ double DistanceToObject(const std::vector<VoxelKey>& object, const Vector3d& p_w
 Vector3d AimPoint(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
                   double voxel_m);
 
-/// One turn or pitch that brings `p_world` nearer to the image centre; nullopt when no step helps.
+/// Turn or pitch step that brings `p_world` nearer to the image centre; nullopt when no step helps.
 std::optional<Action> CenteringAction(const AgentPose& agent, const Vector3d& p_world,
                                       double camera_height_m, const ActionConfig& action);
 

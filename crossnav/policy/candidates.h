@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the agent may go to (paper, eq:supp_candidate_set). A candidate is a place to stand and what
-// it is about. World frame, metres.
+// Candidates of the agent (paper, eq:supp_candidate_set). A candidate is a set of places to stand
+// with a focus point. World frame, metres.
 #pragma once
 
 #include <optional>
@@ -30,14 +30,14 @@ enum class CandidateKind {
 
 std::string_view NameOf(CandidateKind kind);
 
-/// Of policy.profile = full: a frontier of the level or of another one.
+/// Of policy.profile = full: a frontier of any level.
 constexpr bool IsFrontier(CandidateKind kind) {
   return kind == CandidateKind::kTraversableFrontier || kind == CandidateKind::kStairFrontier;
 }
 
 struct Candidate {
   CandidateKind kind = CandidateKind::kTraversableFrontier;
-  Vector3d p_focus_world = Vector3d::Zero();  ///< what it is about, e.g. the cluster's centre
+  Vector3d p_focus_world = Vector3d::Zero();  ///< focus, e.g. the cluster's centre
   std::vector<VoxelKey> standing;             ///< voxels from which it counts as reached
   std::vector<VoxelKey> beyond;               ///< frontiers: what each standing voxel borders on
   int size = 0;                               ///< [voxels]

@@ -12,8 +12,8 @@
 namespace crossnav::policy {
 namespace {
 
-// chosen: what stands in homes, looks like a goal, and is none; floors and walls would win wherever
-// a thing is smaller than a cell of the features.
+// chosen: furniture that is taken for goals. Floors and walls are left out: they would win for
+// every object smaller than a cell of the features.
 constexpr std::array<const char*, 18> kRivals = {
     "chair", "bed",          "plant",   "toilet",   "tv_monitor", "sofa",
     "table", "desk",         "cabinet", "wardrobe", "sink",       "bathtub",
@@ -37,8 +37,8 @@ bool IsOf(const Sighting& sighting, const std::vector<VoxelKey>& voxels, const V
                       object.merge_distance_m);
 }
 
-/// Seen from another side an object may share no voxel with what was rejected: most of a sighting
-/// in the box of the rejected voxels is of it, too.
+/// Overlap is tested with the box of the rejected voxels: a sighting from another side may share no
+/// voxel with them.
 bool IsOfRejected(const Sighting& sighting, const RejectedObject& rejected,
                   const ObjectConfig& object) {
   if (IsOf(sighting, rejected.voxels, rejected.p_center_world, object)) return true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Knowing when a claim is wrong: a detection that would end the search is held against what the
-// semantic memory fused at the object from every view, and, where it is weak, against a second view
-// from another side. What was refuted is remembered as an object. World frame, metres. Functions
-// over plain structs.
+// Verification of claims: a detection that would end the search is compared with the features
+// that the semantic memory fused at the object from every view and, if weak, with a second view
+// from another side. Refuted objects are remembered. World frame, metres. Functions over plain
+// structs.
 #pragma once
 
 #include <optional>
@@ -21,9 +21,9 @@ struct VerifyConfig {
   double refute_margin = 0.02;      // chosen: cosine by which another name must answer better
   double strong_margin = 0.02;      // chosen: cosine by which the goal must, or the claim is weak
   double strong_confidence = 0.80;  // chosen: of a frame; less is weak
-  double view_angle_deg = 40;       // chosen: seen from the object, what makes a view another one
+  double view_angle_deg = 40;       // chosen: minimum angle between two views, seen from the object
   double view_baseline_m = 0.5;     // chosen: and so far apart at least
-  double new_evidence = 0.05;       // chosen: confidence over that of what was refuted
+  double new_evidence = 0.05;       // chosen: confidence above that of the refuted claim
 };
 
 template <class V>
@@ -43,11 +43,11 @@ struct NamedText {
   std::vector<float> vector;
 };
 
-/// Names of things that a goal is held against: the benchmark's categories, and furniture that is
-/// taken for them. An encoder that cannot encode one goes without it.
+/// Names that compete with a goal: the benchmark's categories, and furniture taken for them. Names
+/// that the encoder cannot encode are left out.
 std::span<const char* const> RivalNames();
 
-/// What the memory says of an object.
+/// Similarities that the memory holds for an object.
 struct MemoryOpinion {
   double goal = 0;         ///< cosine of the fused feature with the goal's text
   double best_other = -1;  ///< and with the best of the other names; -1 without any
@@ -79,7 +79,7 @@ bool IsNewView(const Vector3d& p_object, const Vector3d& p_camera,
 /// An object that turned out not to be the goal.
 struct RejectedObject {
   int poi_id = 0;
-  std::vector<VoxelKey> voxels;  ///< at least one; sorted; grows with what is seen of it
+  std::vector<VoxelKey> voxels;  ///< not empty; sorted; grows with each view
   Vector3d p_center_world = Vector3d::Zero();
   double confidence = 0;                  ///< the best it was claimed with
   std::vector<Vector3d> p_cameras_world;  ///< views from which it was
@@ -95,8 +95,8 @@ struct ClaimTracker {
   const ClaimViews* ViewsOf(int poi_id) const;
 };
 
-/// Drops sightings of rejected objects. One that is more confident than what was rejected, and from
-/// another side, is new evidence: it is kept, the object is rejected no more, and its POI's id goes
+/// Drops sightings of rejected objects. A sighting with more confidence than the rejected claim and
+/// from another side is new evidence: it is kept, the rejection is withdrawn, and the POI's id goes
 /// to `revived`.
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,

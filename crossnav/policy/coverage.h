@@ -13,7 +13,7 @@ namespace crossnav::policy {
 
 class Coverage {
  public:
-  /// Takes what the frame's rays ended on within `range_m` of the camera for inspected.
+  /// Marks the frame's end voxels within `range_m` of the camera as inspected.
   void Add(const geometry::EndVoxels& ends, const Vector3d& p_camera_world, double range_m,
            double voxel_m);
 

@@ -16,7 +16,7 @@ namespace {
 
 using geometry::StairFlight;
 
-constexpr int kCell_vox = 3;          // chosen: a tread; what lies nearer is one flight
+constexpr int kCell_vox = 3;          // chosen: a tread; nearer evidence is the same flight
 constexpr double kMinRise_m = 0.45;   // chosen: two to three risers
 constexpr int kMinConfirmed_vox = 5;  // chosen: as the smallest frontier
 constexpr double kEnd_m = 0.35;       // chosen: the level band, in which a flight begins and ends
@@ -26,7 +26,7 @@ VoxelKey CellOf(const VoxelKey& key) {
   return {down(key.x), down(key.y), down(key.z)};
 }
 
-/// What one layer of voxels holds of a cluster.
+/// Part of a cluster in one layer of voxels.
 struct Layer {
   Vector3d sum_world = Vector3d::Zero();
   double probability = 0;
@@ -35,7 +35,7 @@ struct Layer {
 };
 using Layers = std::map<int, Layer>;  // by z of the key
 
-/// The evidence in clusters of cells, without the heights of walked flights that run through one.
+/// Evidence in clusters of cells, without the heights of walked flights that run through a cluster.
 std::vector<Layers> Clusters(const StairEvidence& evidence, double voxel_m,
                              const std::vector<StairFlight>& flights) {
   std::vector<VoxelKey> cells;
@@ -98,7 +98,7 @@ StairFlight FlightOf(Layers::const_iterator from, Layers::const_iterator to, dou
   return flight;
 }
 
-/// What the evidence holds, lowest first within a cluster.
+/// Flights of the evidence, lowest first within a cluster.
 std::vector<StairFlight> Survey(const StairEvidence& evidence, std::span<const double> levels_m,
                                 double voxel_m, const std::vector<StairFlight>& flights) {
   std::vector<StairFlight> surveyed;

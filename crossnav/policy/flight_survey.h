@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flights from stair evidence alone: what was seen as stairs and not walked yet, as records that
-// grow while more of it is seen. World frame, metres.
+// Flights from stair evidence alone: seen and not walked yet, as records that grow with the
+// evidence. World frame, metres.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ namespace crossnav::policy {
 
 class FlightSurvey {
  public:
-  /// Brings the flights that were not walked up to date with the evidence, and notes that the agent
-  /// with its foot at `p_agent_world` sees those of the last frame. Evidence that runs on through
-  /// one of `levels_m` is two flights.
+  /// Updates the unwalked flights from the evidence, and notes that the agent with its foot at
+  /// `p_agent_world` sees the flights of the last frame. Evidence that continues through one of
+  /// `levels_m` is two flights.
   void Update(const StairEvidence& evidence, std::span<const double> levels_m,
               const Vector3d& p_agent_world, double voxel_m,
               std::vector<geometry::StairFlight>* flights);

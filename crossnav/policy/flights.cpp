@@ -110,7 +110,7 @@ const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& path_world,
   walked.id = NextId(*flights);
   ++(is_up ? walked.walked_up : walked.walked_down);
 
-  // What was only seen of it until now, and the record of a walk before.
+  // Seen flights along the path, and the record of an earlier walk.
   for (auto it = flights->begin(); it != flights->end();) {
     const bool is_part = !it->IsWalked() && AreSameStairs(walked, *it);
     if (!is_part && !IsSame(*it, walked)) {
@@ -128,7 +128,7 @@ const geometry::StairFlight& NoteWalk(const std::vector<Vector3d>& path_world,
     TakeHistory(std::move(*it), &walked);
     it = flights->erase(it);
   }
-  // Walked ones first, in order of discovery.
+  // Walked flights first, in order of discovery.
   const auto place = std::find_if(flights->begin(), flights->end(), [&](const auto& flight) {
     return !flight.IsWalked() || flight.id > walked.id;
   });

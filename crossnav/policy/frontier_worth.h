@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a frontier is worth against the way to it (policy.explore.scoring): the unseen ground that
-// lies open beyond it, and how much what was seen around it resembles the goal. World frame,
+// Weight of a frontier against its path (policy.explore.scoring): the unseen ground that
+// lies open beyond it, and the relevancy of its surroundings to the goal. World frame,
 // metres.
 #pragma once
 
@@ -14,8 +14,8 @@
 namespace crossnav::policy {
 
 /// Area of the unseen ground that lies open beside `place` [m2]: along straight lines of at most
-/// `range_m`, up to the first thing that was seen. What lies behind a chair is a pocket, what lies
-/// behind a door is a room.
+/// `range_m`, up to the first observed voxel. The area behind a chair is a pocket, the area behind
+/// a door is a room.
 double UnseenBeyond(const planner::GroundMap& ground, const geometry::VoxelKey& place,
                     double range_m);
 
@@ -32,8 +32,8 @@ class Relevancy {
   std::unordered_map<geometry::VoxelKey, float, geometry::VoxelKeyHash> best_;  // of a cell
 };
 
-/// Share of its way that a frontier is worth, in (0, 1]: 1 with `scoring = nearest`, of a room's
-/// unseen ground with `area`, besides up to twice as much for what resembles the goal with
+/// Weight of a frontier in (0, 1]: 1 with `scoring = nearest`; unseen area as a share
+/// of a room's with `area`; that, up to doubled by relevancy to the goal, with
 /// `semantic`.
 double FrontierWorth(const planner::GroundMap& ground, const geometry::VoxelKey& place,
                      const Relevancy& relevancy, const ExploreConfig& config);

@@ -26,8 +26,8 @@ bool IsCeilingBelow(Cursor& map, const VoxelKey& key) {
   return below != key && state != VoxelState::kUnknown && !IsSurface(state);
 }
 
-/// Nothing observed at `key` nor within +-`reach_vox` in its column. What was seen of the storey
-/// underneath, through its ceiling, says nothing about this one.
+/// Nothing observed at `key` nor within +-`reach_vox` in its column; observations of the storey
+/// underneath do not count.
 bool IsGenuineUnknown(Cursor& map, const VoxelKey& key, int reach_vox) {
   for (int dz = 0; dz <= reach_vox; ++dz) {
     if (map.At({key.x, key.y, key.z + dz}).state != VoxelState::kUnknown) return false;
@@ -63,7 +63,7 @@ bool IsDrop(const VoxelMap& map, Cursor& cursor, const VoxelKey& key,
   return map.FindSupport(key, &support) && support.z < level.min_z;
 }
 
-/// Standing voxel -> what it borders on.
+/// Standing voxel -> unknown voxel beside it.
 using Border = std::map<VoxelKey, VoxelKey>;
 
 std::vector<Candidate> CandidatesOf(const Border& border, CandidateKind kind, int min_cluster,
@@ -95,7 +95,7 @@ void AddBorder(Border& border, const VoxelKey& key, const F& is_border) {
 }  // namespace
 
 planner::LevelBand BandAround(double level_m, const FrontierConfig& config, double voxel_m) {
-  // The support voxel of a floor at height h may be the one below or above the border at h.
+  // The support voxel of a floor at height h may lie below or above the voxel border at h.
   return {CellsFloor(level_m - config.level_band_m, voxel_m) - 1,
           CellsFloor(level_m + config.level_band_m, voxel_m)};
 }

@@ -15,12 +15,12 @@ namespace crossnav::policy {
 planner::LevelBand BandAround(double level_m, const FrontierConfig& config, double voxel_m);
 
 /// Boundaries of TRAVERSABLE with genuine unknown space on this level, one candidate per cluster.
-/// `min_cluster` is the configured one, or the smaller of the first steps.
+/// `min_cluster` is the configured value, or the smaller value of the first steps.
 std::vector<Candidate> TraversableFrontiers(const VoxelMap& map, const planner::LevelBand& level,
                                             const FrontierConfig& config, int min_cluster);
 
-/// Edges of the level beyond which nothing supports: what lies below is unseen or lower than the
-/// support depth under the level.
+/// Edges of the level without support beyond: the ground below is unseen or lower than the support
+/// depth under the level.
 std::vector<Candidate> DescendFrontiers(const VoxelMap& map, const planner::LevelBand& level,
                                         const FrontierConfig& config);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kSector_rad = 2 * M_PI / kGlanceSectors;
 constexpr int kRays = 4;           // chosen: of a sector, half a metre apart at the end
 constexpr double kPlace_m = 1.0;   // chosen: four steps
-constexpr double kTurn_m2 = 0.05;  // chosen: of two headings that show the same, the nearer one
+constexpr double kTurn_m2 = 0.05;  // chosen: of two headings with equal area, the nearer
 
 using PerSector = std::array<double, kGlanceSectors>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Looking to the side before walking on: a turn costs no way, and the unseen ground that it shows
-// may hold the goal, or turn out not to be worth the walk. World frame, metres.
+// Looking to the side before walking on: a turn costs no path, and may show the goal or settle a
+// frontier without a walk. World frame, metres.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace crossnav::policy {
 /// Sectors of the compass, from the x axis, counter-clockwise: a picture shows several.
 inline constexpr int kGlanceSectors = 12;  // chosen: a usual turn each
 
-/// Along which headings pictures were taken, by places a metre wide. It bounds what glances cost: a
-/// sector that was looked along from a place does not count there again, whatever it showed.
+/// Headings of the pictures taken so far, by places a metre wide. Bounds the number of glances: a
+/// sector seen from a place does not count there again.
 class LookedAlong {
  public:
   /// A picture of this width was taken.
@@ -28,9 +28,9 @@ class LookedAlong {
   std::unordered_map<geometry::VoxelKey, std::uint16_t, geometry::VoxelKeyHash> sectors_;
 };
 
-/// The heading [rad] whose picture would show most unseen ground: at least `config.glance_m2` of it
-/// within `config.glance_range_m`, in a straight line over ground from `place`, where the agent
-/// stands. nullopt where no heading does, or the one that does is the agent's.
+/// The heading [rad] with the most unseen ground in view: at least `config.glance_m2` of it within
+/// `config.glance_range_m`, in a straight line over ground from `place`, where the agent stands.
+/// nullopt where no heading does, or the agent already has that heading.
 std::optional<double> GlanceHeading(const planner::GroundMap& ground,
                                     const geometry::VoxelKey& place, const AgentPose& agent,
                                     double hfov_rad, const LookedAlong& looked,

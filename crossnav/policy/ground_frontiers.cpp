@@ -30,7 +30,7 @@ bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, Vox
 
 Candidate GroundFrontierAround(const planner::GroundMap& ground, const VoxelKey& seed,
                                std::set<VoxelKey>* visited) {
-  std::map<VoxelKey, VoxelKey> border;  // place -> what it borders on
+  std::map<VoxelKey, VoxelKey> border;  // place -> unseen column beside it
   std::vector<VoxelKey> stack;
   const auto visit = [&](const VoxelKey& key) {
     VoxelKey beyond;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Frontiers of the ground, at every height: places to stand beside a column where ground may be and
 // was not seen yet (paper, "Candidate Navigation Points"). Air whose floor is hidden is a frontier
-// like the unknown; a drop that was seen is none, since what can be stepped down to is ground.
+// like the unknown; an observed drop is none, since ground within a step down is not a drop.
 #pragma once
 
 #include <set>
@@ -16,7 +16,7 @@ namespace crossnav::policy {
 bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, VoxelKey* beyond);
 
 /// The frontier places connected to `seed` by neighbouring columns within the climb limit, sorted,
-/// each with what it borders on. `visited` gets them all; those in it already are left out.
+/// each with its unseen column. `visited` gets all of them; places already in it are left out.
 Candidate GroundFrontierAround(const planner::GroundMap& ground, const VoxelKey& seed,
                                std::set<VoxelKey>* visited);
 

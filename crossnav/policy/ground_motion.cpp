@@ -14,21 +14,21 @@ namespace {
 using geometry::VoxelKey;
 using planner::GroundMap;
 
-constexpr double kCell_m = 0.05;     // chosen: positions nearer than this are one
-constexpr double kBeside_vox = 15;   // chosen: room to turn around in beside the way
+constexpr double kCell_m = 0.05;     // chosen: nearer positions are the same
+constexpr double kBeside_vox = 15;   // chosen: room to turn around in beside the path
 constexpr int kMaxExpansions = 600;  // chosen: a few times what a turn around in a corridor takes
 constexpr double kUnseenCost = 3;    // chosen: [steps] onto ground that was not seen
-constexpr int kWindow = 30;          // chosen: places of the way that are looked at
+constexpr int kWindow = 30;          // chosen: places of the path that are searched
 
-/// Cost-to-go [m] around the near part of a way: what is left from its end on, for every position
-/// from which that can be walked to.
+/// Cost-to-go [m] to the end of the path's near part, for every position from which that end is
+/// reachable.
 class CostToGo {
  public:
   CostToGo(const GroundMap& ground, const planner::PlannerConfig& planner,
            const std::vector<VoxelKey>& path, const planner::GroundRules& rules)
       : ground_(ground),
         search_(ground, planner, path[std::min<std::size_t>(path.size(), kWindow) - 1], rules) {
-    // Some way beyond the agent, for positions beside the way.
+    // Beyond the agent as well, for positions beside the path.
     double limit = 1e18;
     while (search_.Next() && search_.cost() <= limit)
       if (limit > 1e17 && search_.CostOf(path.front())) limit = search_.cost() + kBeside_vox;
@@ -75,7 +75,7 @@ bool GoesOn(const GroundMap& ground, const Eigen::Vector2d& p, int z, double yaw
   return false;
 }
 
-/// What a forward step meets: [steps] on top of its own, or nothing if it is refused.
+/// Extra cost of a forward step [steps], or nothing if it is refused.
 std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d& from, int z_from,
                                   double yaw_rad, const MotionConfig& config,
                                   const ActionConfig& action, int* z_to) {
@@ -140,7 +140,7 @@ class LatticeSearch {
       }
       const bool is_there = rest_m <= config_.arrival_m && node.parent >= 0;
       const bool is_far = node.depth >= config_.horizon_steps;
-      // Where the way is closed to the body, walking somewhere else is no progress.
+      // Where the path is closed to the body, walking elsewhere is no progress.
       if (is_there || (is_far && rest_m / action_.forward_m < worth)) return ActionsTo(index);
       if (is_far) continue;
       Expand(index, node);

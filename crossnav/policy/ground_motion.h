@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From a way over the ground to actions: a search over what turning and walking can reach, so that
-// a turn is only begun for the step that it leads to, and no heading is chosen and unchosen. The
-// body keeps clear of what the map knows. World frame, metres.
+// From a path over the ground to actions: a search over the poses that turns and steps reach. A
+// turn begins only for the step after it, and headings do not oscillate. The body keeps clear of
+// known obstacles. World frame, metres.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ namespace crossnav::policy {
 
 /// Turns and forward steps that lead along `path` (places to stand, the agent's first), up to
 /// `config.horizon_steps` of them or to its end, whichever is nearer. Empty where no step helps.
-/// `rules` are those that the path was found by.
+/// `rules` are the rules of the path's search.
 std::vector<Action> MotionAlong(const planner::GroundMap& ground,
                                 const std::vector<geometry::VoxelKey>& path, const AgentPose& agent,
                                 const MotionConfig& config, const planner::PlannerConfig& planner,
                                 const ActionConfig& action, const planner::GroundRules& rules = {});
 
-/// Whether a forward step from `agent` keeps clear of what the map knows by now.
+/// Whether a forward step from `agent` keeps clear of the obstacles known by now.
 bool IsStepClear(const planner::GroundMap& ground, const AgentPose& agent,
                  const MotionConfig& config, const ActionConfig& action);
 

@@ -59,7 +59,7 @@ class LivePois {
   int next_id_ = 1;
 };
 
-/// True if the centres are close, or a fifth of the smaller one's voxels belong to both.
+/// True if the centres are close, or a fifth of the smaller object's voxels belong to both.
 bool IsSameObject(const std::vector<VoxelKey>& a, const Vector3d& a_center,
                   const std::vector<VoxelKey>& b, const Vector3d& b_center,
                   double merge_distance_m);

@@ -19,7 +19,7 @@ enum class ModeReason {
   kEntranceVerified,    ///< stairs confirmed at the entrance
   kClimbing,            ///< a session keeps control
   kLandingReached,      ///< the session ended on a new level
-  kSessionFailed,       ///< no way on along the stairs
+  kSessionFailed,       ///< no path on along the stairs
   kPoiExhausted,        ///< visited or refuted; back to the candidates
   kVerificationFailed,  ///< no viewpoint proved the object
 };
@@ -27,7 +27,7 @@ enum class ModeReason {
 std::string_view NameOf(Mode mode);
 std::string_view NameOf(ModeReason reason);
 
-/// What the last step established.
+/// Findings of the last step.
 struct ModeInputs {
   Mode mode = Mode::kBasicExplore;
   bool is_new_goal = false;
@@ -37,7 +37,7 @@ struct ModeInputs {
   bool has_live_poi = false;  ///< stable, with a reachable viewpoint
   bool live_near_history =
       false;  ///< that POI lies within the takeover radius of the active history POI
-  bool has_history_poi = false;       ///< one that is reachable and not blacklisted
+  bool has_history_poi = false;       ///< reachable and not blacklisted
   bool is_following_history = false;  ///< the POI being navigated to is a history POI
   bool is_near_viewpoint = false;     ///< of the live POI
   bool verification_failed = false;   ///< the approached POI was refuted in the last step

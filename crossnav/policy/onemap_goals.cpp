@@ -81,7 +81,7 @@ bool IsOpen(const OneMapView& view, const Column& c) {
   return view.standing.contains(c) || !view.map.IsObserved(c);
 }
 
-/// Open columns beside explored ground that one can stand on.
+/// Open columns beside explored ground with a place to stand.
 std::set<Column> FrontierColumns(const OneMapView& view) {
   std::set<Column> border;
   for (const auto& [column, standing] : view.standing) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What OneMap goes to: frontiers and points of interest in one list, by how well the map answers
-// the goal there, and which detections it believes. Pure functions.
+// Goals of OneMap: frontiers and points of interest in one list, ranked by the map's similarity to
+// the goal, and the check of detections. Pure functions.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct OneMapGoal {
   double score = 0;             ///< largest cosine + 1 behind the frontier, in the cluster
 };
 
-/// What the functions below read.
+/// Inputs of the functions below.
 struct OneMapView {
   const OneMapMap& map;
   const StandingColumns& standing;
@@ -28,8 +28,8 @@ struct OneMapView {
 /// Best first; ties by column.
 std::vector<OneMapGoal> OneMapGoals(const OneMapView& view);
 
-/// The goal to go to: the last one while it is there and its score holds, else the best. Index, or
-/// -1 where there is none.
+/// The next goal: the last goal while it exists and its score holds, else the best. Index, or -1
+/// without goals.
 int ChooseOneMapGoal(const std::vector<OneMapGoal>& goals, const OneMapGoal* last,
                      const OneMapView& view);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The 2D map of the baseline OneMap: how surely each column of the world was observed, and which
-// columns one can stand in. Columns are voxel columns; World frame.
+// The 2D map of the baseline OneMap: certainty of observation per column of the world, and columns
+// with a place to stand. Columns are voxel columns; World frame.
 #pragma once
 
 #include <compare>
@@ -43,7 +43,7 @@ class OneMapMap {
   std::map<Column, ColumnBelief> columns_;
 };
 
-/// Where one can stand on the level: column -> lowest free standing voxel.
+/// Places to stand on the level: column -> lowest free standing voxel.
 using StandingColumns = std::map<Column, geometry::VoxelKey>;
 StandingColumns StandingOn(const geometry::VoxelMap& map, const planner::LevelBand& level);
 

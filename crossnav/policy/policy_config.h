@@ -23,7 +23,7 @@ struct PoiConfig {
   bool use_history = true;     ///< false = the paper's "w/o H-POI"
   bool keep_coverage = false;  ///< use_history = false: inspected ground stays inspected at a new
                                ///< goal; profile full only
-  double similarity_slack = 0.08;  // chosen: below what confirmed objects answered with; full only
+  double similarity_slack = 0.08;  // chosen: below the similarity of confirmed objects; full only
   double live_takeover_m = 1.0;
   double blacklist_xy_m = 0.8, blacklist_z_m = 0.6;
 };
@@ -34,7 +34,7 @@ struct FrontierConfig {
   double level_band_m = 0.35;     // chosen: one step above the maximum climb
   double unknown_column_m = 0.3;  // chosen: genuine unknown, nothing seen within +-0.3 m
   double arrival_m = 0.35;        // chosen: one forward step and a voxel
-  int grace_steps = 20;           // chosen: way of a few metres; profile paper only
+  int grace_steps = 20;           // chosen: path of a few metres; profile paper only
 };
 
 struct StairConfig {
@@ -61,8 +61,8 @@ struct ApproachConfig {
 /// Walking: how the body keeps clear, and how far ahead steps are searched.
 struct MotionConfig {
   double wanted_clearance_m = 0.15;  // chosen: the body's radius and half a voxel
-  double min_clearance_m = 0.02;     // chosen: what the map calls occupied is up to a voxel wider
-  double clearance_weight = 4;       // chosen: [steps] on top of one that touches
+  double min_clearance_m = 0.02;     // chosen: occupied voxels are up to a voxel wider
+  double clearance_weight = 4;       // chosen: [steps] extra cost of a step that touches
   double arrival_m = 0.12;           // chosen: half a forward step
   double min_gain_steps = 0.3;       // chosen: less is not worth a turn
   int horizon_steps = 6;             // chosen: a metre and a half

@@ -17,7 +17,7 @@
 
 namespace crossnav::policy {
 
-/// What is remembered of one surface voxel that was seen as a stair.
+/// Record of a surface voxel seen as a stair.
 struct StairVoxel {
   double probability = 0;     ///< best mask probability seen
   double geometry_score = 0;  ///< of the best component it was part of
@@ -36,14 +36,14 @@ class StairEvidence {
 
   /// Grows when a voxel is new, newly confirmed or rejected.
   std::uint64_t revision() const { return revision_; }
-  /// What the last frame showed as stairs, where its shape is that of stairs.
+  /// Stair voxels of the last frame with the geometry of stairs.
   const std::vector<VoxelKey>& last_seen() const { return last_seen_; }
 
-  /// For a file: what does not depend on the step count, in order of key; and back.
+  /// For files: records without the step count, in order of key; and back.
   std::vector<geometry::SeenStair> Export() const;
   void Import(const std::vector<geometry::SeenStair>& seen);
 
-  /// Forgets what lies in the cylinder (after a rejected entrance); returns the keys.
+  /// Forgets evidence in the cylinder (after a rejected entrance); returns the keys.
   std::vector<VoxelKey> Reject(const Vector3d& p_world, double radius_m, double voxel_m);
 
  private:

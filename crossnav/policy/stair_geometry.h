@@ -21,7 +21,7 @@ struct StairGeometry {
 /// `voxels` sorted. Empty or tiny sets score 0.
 StairGeometry ScoreStairGeometry(const VoxelMap& map, const std::vector<VoxelKey>& voxels);
 
-/// Highest voxel of each column of a sorted set: what one would step on, without risers and sides.
+/// Highest voxel of each column of a sorted set: treads, without risers and sides.
 std::vector<VoxelKey> ColumnTops(const std::vector<VoxelKey>& sorted);
 
 /// Least-squares plane z = gradient . (x, y) + c through voxel centres.

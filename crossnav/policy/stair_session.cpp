@@ -101,13 +101,13 @@ void PromoteStairs(StairSession& session, const StairEvidence& evidence, VoxelMa
             ? voxel.geometry_score >= config.geometry_threshold
             : (voxel.geometry_score + voxel.probability) / 2 >= config.descent_confirmation;
     if (RiseOf(session, CenterOf(key, voxel_m).z()) < -0.3)
-      continue;  // another flight, the other way
+      continue;  // another flight, in the other direction
     if (map.StairMarkAt(key) == StairMark::kStair || !near.Contains(key)) continue;
     if (!is_accepted) {
       if (map.StairMarkAt(key) == StairMark::kNone) rejected.push_back(key);
       continue;
     }
-    // Risers and sides carry no foot: only what is on top of its column.
+    // Only the top voxel of a column carries a foot; risers and sides do not.
     if (IsSurface(map.StateAt({key.x, key.y, key.z + 1}))) continue;
     added.push_back(key);
   }
@@ -142,7 +142,7 @@ SessionStatus AdvanceSession(StairSession& session, const VoxelMap& map,
 
 namespace {
 
-/// What a session's cluster spans, and its voxels next to the far end.
+/// Height span of a session's cluster, and its voxels next to the far end.
 struct ClusterSpan {
   VoxelKey lo, hi;
   double extreme_m = -1e9;  ///< rise of the farthest voxel

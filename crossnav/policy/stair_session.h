@@ -33,8 +33,8 @@ StairSession BeginSession(int direction, double entrance_level_m, const Vector3d
                           const std::vector<VoxelKey>& flight);
 
 /// Within the admission radius of the session's cluster, accepted evidence becomes STAIR, OCCUPIED
-/// neighbours that one could step on become STAIR_EXPANDED, and rejected evidence becomes
-/// FAKE_STAIR, which later evidence may still promote. The caller updates the map's states.
+/// neighbours within a climb become STAIR_EXPANDED, and rejected evidence becomes FAKE_STAIR, which
+/// later evidence may still promote. The caller updates the map's states.
 void PromoteStairs(StairSession& session, const StairEvidence& evidence, VoxelMap& map,
                    const StairConfig& config);
 

@@ -17,8 +17,8 @@ namespace crossnav::policy {
 Vector3d VisibleWaypoint(const geometry::VoxelMap& map, const std::vector<geometry::VoxelKey>& path,
                          const Vector3d& p_world_foot, const planner::GraphRules& rules);
 
-/// Of the headings that turning can reach, the one nearest to the waypoint's direction whose next
-/// step keeps clear of what the map knows; then a turn towards it, or the step.
+/// Picks, of the reachable headings with a clear next step, the heading nearest to the waypoint's
+/// direction; returns a turn towards it, or the step.
 Action SteerTowards(const geometry::VoxelMap& map, const AgentPose& agent,
                     const Vector3d& p_waypoint_world, const std::set<geometry::VoxelKey>* obstacles,
                     const ActionConfig& action);
@@ -32,13 +32,13 @@ double ClearanceAt(const geometry::VoxelMap& map, const Vector3d& p_world);
 std::optional<Action> PitchTowards(const AgentPose& agent, double wanted_rad,
                                    const ActionConfig& action);
 
-/// Turns and one step into the direction with the longest free way that was not tried, to get out
-/// of a tight spot.
+/// Turns and one step into the untried direction with the longest free path, to leave a tight
+/// spot.
 std::vector<Action> EscapeActions(const geometry::VoxelMap& map, const AgentPose& agent,
                                   const std::vector<double>& tried_yaw_rad,
                                   const ActionConfig& action);
 
-/// Remembers forward steps that did not move the agent, and what stood in the way.
+/// Remembers forward steps without motion, and the obstacles that caused them.
 class BumpMonitor {
  public:
   /// Call before planning, with the pose after the last action. True if that action was a bump.

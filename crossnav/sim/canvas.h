@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What triangles are drawn on. Internal.
+// Canvas of the rasterizer. Internal.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace crossnav::sim {
 inline constexpr int kTile = 8;    ///< [px]
 inline constexpr int kBlock = 64;  ///< [px]; 8 x 8 tiles
 
-inline constexpr float kHighest = 1e6F;  ///< [1/m]; of what reaches behind the camera
+inline constexpr float kHighest = 1e6F;  ///< [1/m]; of triangles that reach behind the camera
 
 /// The picture cut into squares of `kSide` pixels: of each, a bound on the inverse depths in it.
 template <int kSide>
@@ -44,8 +44,8 @@ struct Canvas {
   std::vector<std::uint32_t> drawn;  ///< index
   std::vector<Drawn> triangles;
 
-  /// No inverse depth in a square is less than what stands here. Since pixels only get nearer, what
-  /// was true before stays true.
+  /// Lower bound of the inverse depth in a square. Pixels only get nearer, so that an old bound
+  /// stays valid.
   Squares<kTile> tiles;
   Squares<kBlock> blocks;              ///< of tiles
   std::vector<std::uint8_t> is_stale;  ///< of each tile: drawn on since it was looked at

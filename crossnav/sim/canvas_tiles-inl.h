@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tiles and blocks of a canvas hide. Per target, as Highway has it: to be included after
-// highway.h by files that are compiled once per instruction set. Internal.
+// Occlusion by the tiles and blocks of a canvas. Per target, as Highway has it: to be included
+// after highway.h by files that are compiled once per instruction set. Internal.
 #if defined(CROSSNAV_SIM_CANVAS_TILES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CROSSNAV_SIM_CANVAS_TILES_INL_H_
 #undef CROSSNAV_SIM_CANVAS_TILES_INL_H_

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a simulated camera sees.
+// Frame of a simulated camera.
 #pragma once
 
 #include "crossnav/core/image.h"
 
 namespace crossnav::sim {
 
-/// What a picture is to hold. Shading and texture look-ups are half of its cost.
+/// Contents of a requested picture. Shading and texture look-ups are half of its cost.
 enum class Channels { kAll, kWithoutColour };
 
 struct Frame {

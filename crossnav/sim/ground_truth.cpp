@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 3> kStairNames{"stairs", "staircase", "st
 /// 0.5 for something barely seen, up to 0.98; halves its distance to that with every 2 % of the
 /// image, and loses up to 0.2 over the range.
 float ConfidenceOf(const SeenInstance& s, const SensorConfig& sensor,
-                   double max_distance_m) {  // chosen: shaped like a detector's, not fitted to one
+                   double max_distance_m) {  // chosen: shaped like a detector's, not fitted
   const double share = s.pixels / (static_cast<double>(sensor.width_px) * sensor.height_px);
   const double by_size = 0.98 - 0.48 * std::exp2(-share / 0.02);
   const double by_distance = 0.2 * std::clamp(s.nearest_m / max_distance_m, 0.0, 1.0);
@@ -123,7 +123,8 @@ class GroundTruthSegmenter : public perception::Segmenter {
       for (int u = box.u0; u < box.u1; ++u) ++count[frame.instance.At(u, v)];
     }
     count.erase(0);
-    // Walls and floors often fill more of the box than the object: prefer what fits the box.
+    // Walls and floors often fill more of the box than the object: prefer the instance that fits
+    // the box.
     int best = 0;
     double best_score = -1;
     for (const auto& [id, pixels] : count) {

@@ -13,8 +13,8 @@
 namespace crossnav::sim {
 
 struct GroundTruthConfig {
-  double max_distance_m = 8.0;  // chosen: detectors miss what is far
-  int min_visible_px = 200;     // chosen: and what is tiny
+  double max_distance_m = 8.0;  // chosen: detectors miss far objects
+  int min_visible_px = 200;     // chosen: and tiny objects
   int feature_dim = 768;
   int feature_rows = 24, feature_cols = 24;
   double feature_noise = 0.25;  // chosen: norm of the seeded noise against unit text vectors
@@ -38,7 +38,7 @@ void Visit(V& visit, GroundTruthConfig& c) {
   visit("clip_dir", c.clip_dir);
 }
 
-/// What a picture shows of one instance.
+/// View of one instance in a picture.
 struct SeenInstance {
   int pixels = 0;
   double nearest_m = 1e30;  ///< depth of its nearest pixel

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which connected pieces of a fresh navmesh stay. Recast also finds table tops, lofts and roofs;
-// the main island is the one around most goal objects, then the one with most ground under cover.
+// the main island holds the most goal objects nearby, then the most ground under cover.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -12,8 +12,9 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr double kMinShare = 0.1;  // chosen: of the main island's area; smaller ones are furniture
-constexpr double kMinCover = 0.5;  // chosen: share of an indoor island that has something above
+constexpr double kMinShare =
+    0.1;  // chosen: of the main island's area; smaller islands are furniture
+constexpr double kMinCover = 0.5;     // chosen: share of an indoor island that has something above
 constexpr double kObjectReach_m = 1;  // an object belongs to the nearest island, if within this
 
 struct Island {

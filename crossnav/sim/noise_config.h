@@ -9,7 +9,7 @@
 namespace crossnav::sim {
 
 struct NoiseConfig {
-  std::string profile = "none";  ///< none | realsense | kinect | spot; what is set besides wins
+  std::string profile = "none";  ///< none | realsense | kinect | spot; explicit settings win
   std::uint64_t seed = 1;        ///< together with the episode's id
   // Depth. Standard deviation at planar depth z: depth_sigma_m + depth_sigma_per_m2 * z^2 [m].
   double depth_sigma_m = 0;
@@ -19,7 +19,7 @@ struct NoiseConfig {
   double depth_edge_hole = 0;    ///< probability that a pixel beside a jump in depth is lost
   double depth_hole_share = 0;   ///< share of the picture that is lost in patches
   double depth_max_m = 0;        ///< beyond it there is no depth; 0 = no limit
-  // Pose as the agent is told it. Standard deviations of what one executed step adds.
+  // Pose as the agent is told it. Standard deviations per executed step.
   double drift_xy_m = 0;           ///< each horizontal axis, a move
   double drift_z_m = 0;            ///< a move
   double drift_yaw_deg = 0;        ///< a move or a turn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where to stand to look at an object well, and what a picture from there shows of it. For pictures
+// Places to stand with a good view of an object, and the object's image from there. For pictures
 // that judge detectors and renderings; the benchmark's own viewpoints are in scene_info.h.
 #pragma once
 

@@ -23,14 +23,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Index = hn::RebindToSigned<Wide>;
 using M = hn::Mask<Wide>;
 
-constexpr float kNear_m = 0.05F;     // chosen: what is nearer is looked for in the whole picture
+constexpr float kNear_m = 0.05F;     // chosen: nearer triangles are searched in the whole picture
 constexpr float kMargin_px = 0.05F;  // chosen: above the rounding of a pixel coordinate
-constexpr float kFlat = 1e-25F;      // chosen: what is seen edge-on to the last bit, or no triangle
+constexpr float kFlat = 1e-25F;  // chosen: triangles seen edge-on to the last bit, or degenerate
 // chosen: of surfaces nearer to each other than this share of their depth the first is shown, not
 // now one and now the other.
 constexpr float kNearer = 1.00001F;
 
-// What eight triangles are on the picture.
+// Image-plane setup of eight triangles.
 struct alignas(64) Footprints {
   using Lane = std::array<float, 8>;
   std::array<Lane, 9> lines;
@@ -164,7 +164,7 @@ HWY_INLINE M Solid(M inside, const V* weight, std::uint32_t triangle, const Hole
   }
 }
 
-// One triangle on its way to the canvas.
+// Drawing state of one triangle.
 template <bool kHoles>
 struct Stroke {
   const Brush& brush;
@@ -239,9 +239,9 @@ struct Stroke {
     }
   }
 
-  // Those of the squares beside each other from (`u0`, `v0`) on that some pixel inside may be in
-  // and not behind all that the square shows. What may be is found in the order of operations of
-  // Row, whose roundings keep what is more.
+  // Tiles of the row from (`u0`, `v0`) on where the triangle may be visible
+  // (conservative). The order of operations is that of Row, so that rounding cannot hide a
+  // pixel.
   template <int kSide>
   HWY_INLINE std::uint32_t Reached(const Squares<kSide>& squares, int u0, int v0) const {
     const Wide d;
@@ -264,7 +264,7 @@ struct Stroke {
     return bits[0];
   }
 
-  // What lies in the box, in squares that are reached: draw(u, v) of each.
+  // Calls draw(u, v) for each tile of the box that the triangle may reach.
   template <int kSide, class F>
   HWY_INLINE void EachReached(const Squares<kSide>& squares, const PixelBox& box, F&& draw) {
     constexpr int kStep = kSide * static_cast<int>(hn::MaxLanes(Wide()));

@@ -15,7 +15,7 @@ namespace crossnav::sim {
 /// Whether a place on a triangle, by the weights of its second and third corner, is a hole.
 using HoleTest = std::function<bool(std::uint32_t triangle, float s, float t)>;
 
-/// Clusters outside the picture or behind what was drawn are left out.
+/// Skips clusters outside the picture or behind drawn pixels.
 void DrawClusters(const TriangleClusters& triangles, const RasterView& view,
                   const HoleTest& is_hole, Canvas& canvas);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a scene, triangle by triangle: what a ray through the middle of each pixel meets
-// first, in a third of the time that rays take (docs/architecture.md, "Pictures"). Deterministic,
+// Pictures of a scene, triangle by triangle: the first hit of a ray through the middle of each
+// pixel, in a third of the time of ray casting (docs/architecture.md, "Pictures"). Deterministic,
 // with the same bytes on every set of instructions. Rendering is const and may be called from
 // several threads.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is seen of a scene: along one ray (Embree), and by a camera (rasterizer.h). Deterministic.
-// Both are const and may be called from several threads.
+// Views of a scene: along one ray (Embree), and by a camera (rasterizer.h). Deterministic. Both are
+// const and may be called from several threads.
 #pragma once
 
 #include <memory>

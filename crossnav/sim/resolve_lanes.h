@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From which triangle each pixel shows to what it shows: depth, instance, colour. Several pixels at
-// a time, on every processor the same (as raster_lanes.h). Internal.
+// From the visible triangle of each pixel to its depth, instance and colour. Several pixels at a
+// time, on every processor the same (as raster_lanes.h). Internal.
 #pragma once
 
 #include <array>

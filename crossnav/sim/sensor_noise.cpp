@@ -224,7 +224,7 @@ void SensorNoise::Disturb(Frame& frame) {
 NoiseConfig NoiseOfProfile(const std::string& profile) {
   NoiseConfig noise;
   if (profile == "realsense") {
-    // chosen: sub-pixel stereo, 1.5 % at 2 m; visual-inertial odometry of about 1 % of the way
+    // chosen: sub-pixel stereo, 1.5 % at 2 m; visual-inertial odometry of about 1 % of the path
     noise.depth_sigma_m = 0.001;
     noise.depth_sigma_per_m2 = 0.0037;
     noise.depth_shift_px = 0.5;

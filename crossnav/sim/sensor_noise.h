@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Imperfect sensors: what is done to perfect frames, poses and steps. The same settings, seed and
-// calls give the same bytes. Every kind draws from its own stream, so that one kind's setting does
-// not change what another draws.
+// Imperfect sensors: noise on perfect frames, poses and steps. The same settings, seed and calls
+// give the same bytes. Every kind of noise draws from its own stream, so that its settings do not
+// change another kind's draws.
 #pragma once
 
 #include <cstdint>
@@ -36,19 +36,19 @@ class SensorNoise {
   /// Nothing is drawn and nothing is copied where everything is off.
   bool IsOn() const { return is_on_; }
 
-  /// What of a move arrives at the wheels, as a factor of its length: 0 = slipped, 1 = perfect.
+  /// Executed share of a move's length: 0 = slipped, 1 = perfect.
   double MoveFactor();
-  /// What is added to a turn [rad].
+  /// Error of a turn [rad].
   double TurnError_rad();
 
   /// Begins the episode anew: the same numbers are drawn again. The agent believes the truth.
   void Start(const AgentPose& true_pose);
-  /// Tells the odometry what `action` really did.
+  /// Updates the odometry by the true motion of `action`.
   void Moved(Action action, const AgentPose& true_pose);
   /// Where the agent believes to be: world as it was at the start, drift included.
   const AgentPose& believed() const { return believed_; }
 
-  /// Makes a frame imperfect. A lost one has no depth and no instances and is black.
+  /// Makes a frame imperfect. A lost frame has no depth and no instances and is black.
   void Disturb(Frame& frame);
 
  private:

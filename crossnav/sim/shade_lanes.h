@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Colours of a packet's hits, several at a time (Highway, chosen at run time): what shading.h says
-// of one, byte for byte. Internal.
+// Colours of a packet's hits, several at a time (Highway, chosen at run time): scalar reference:
+// shading.h, byte for byte. Internal.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace crossnav::sim {
 
 inline constexpr int kShadeLanes = 8;
 
-/// What the colour of a triangle is made of, by its number in the scene; one cache line each.
+/// Inputs of a triangle's colour, by its index in the scene; one cache line each.
 class Skins {
  public:
   explicit Skins(const Scene& scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A walkable surface as points on a horizontal grid, linked where one can step from one to the
-// next, and the connected parts of it. World frame, metres. Pure functions.
+// A walkable surface as points on a horizontal grid, linked where a step joins them, and its
+// connected parts. World frame, metres. Pure functions.
 #pragma once
 
 #include <array>

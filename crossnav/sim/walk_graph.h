@@ -41,7 +41,7 @@ class WalkGraph {
  public:
   explicit WalkGraph(const dtNavMesh& mesh);
 
-  /// Shortest way from `start` to any of `goals`; nullopt where none can be reached. Thread-safe.
+  /// Shortest path from `start` to any of `goals`; nullopt where none is reachable. Thread-safe.
   std::optional<WalkPath> FindShortest(const SurfacePoint& start,
                                        std::span<const SurfacePoint> goals) const;
 

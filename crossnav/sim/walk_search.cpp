@@ -109,7 +109,7 @@ class WalkSearch {
     int polygon = -1;
     int parent = -1;
     int entry = -1;        // portal of `polygon` that leads back
-    bool has_via = false;  // the way to the root turns once more, at `via`
+    bool has_via = false;  // the path to the root turns once more, at `via`
     Vector2d via = Vector2d::Zero();
   };
 
@@ -252,7 +252,7 @@ class WalkSearch {
 
   struct LastLeg {
     Turn turn = Turn::kNone;
-    double length_m = 0;  ///< of the whole way
+    double length_m = 0;  ///< of the whole path
   };
 
   /// How `p`, in the node's polygon, is reached: straight or around an end of the interval.
@@ -359,7 +359,7 @@ std::optional<WalkPath> WalkGraph::FindShortest(const SurfacePoint& start,
   WalkSearch search(*this, start, goals, true);
   if (!search.HasGoals()) return std::nullopt;
   if (auto path = search.Run()) return path;
-  return WalkSearch(*this, start, goals, false).Run();  // connected, so there is a way
+  return WalkSearch(*this, start, goals, false).Run();  // connected, so there is a path
 }
 
 }  // namespace crossnav::sim
