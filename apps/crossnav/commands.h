@@ -289,8 +289,9 @@ Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& c
                         Console& console);
 
 struct SensorTrialOptions {
-  std::string data;                 ///< folder
-  std::string perception = "none";  ///< none | networks
+  std::string data;        ///< folder
+  std::string perception;  ///< none | networks; empty = networks where those of `real` are there
+  std::string networks;    ///< preset, as in LoadWithNetworks
 };
 
 Result<void> Doctor(const CommonOptions& common, Console& console);

@@ -13,7 +13,8 @@ namespace crossnav::app {
 struct MapBuildOptions {
   std::string from, out;
   std::string goal;                        ///< what to look for in the map; empty = nothing
-  std::string perception = "none";         ///< none | networks
+  std::string perception;                  ///< none | networks; empty = as goal and networks say
+  std::string networks;                    ///< preset, as in LoadWithNetworks
   int top = 4;                             ///< as in MapOptions
   recordings::RecordingOptions recording;  ///< but for what is typed as numbers:
   std::vector<double> intrinsics, depth_intrinsics;  ///< fx, fy, cx, cy [px]; empty = not given

@@ -8,7 +8,9 @@
 #include "crossnav/bench/timing.h"
 #include "crossnav/store/map_file.h"
 #include "eval_progress.h"
+#include "goal_sightings.h"
 #include "map_build.h"
+#include "network_choice.h"
 #include "perception_source.h"
 
 namespace crossnav::app {
@@ -48,13 +50,20 @@ Result<recordings::RecordingOptions> OptionsOf(const MapBuildOptions& options) {
   return recording;
 }
 
+bool IsByNetworks(const MapBuildOptions& options) {
+  if (!options.perception.empty()) return options.perception == "networks";
+  return !options.goal.empty() || !options.networks.empty();
+}
+
 Result<bench::RunConfig> ConfigOf(const MapBuildOptions& options, const CommonOptions& common) {
   CommonOptions all = common;
-  const bool is_by_networks = options.perception == "networks";
-  if (is_by_networks) all.overrides.push_back("eval.perception=networks");
-  if (!options.goal.empty() && !is_by_networks) {
+  if (IsByNetworks(options)) {
+    all.overrides.push_back("eval.perception=networks");
+    return LoadWithNetworks(all, options.networks);
+  }
+  if (!options.goal.empty()) {
     return Fail(ErrorCode::kInvalid,
-                "a map without features answers nothing; add --perception networks", "--goal");
+                "a map without features answers nothing; leave out --perception none", "--goal");
   }
   return LoadConfig(all);
 }
@@ -72,8 +81,9 @@ Result<void> CheckOut(const std::string& out) {
 /// Map and memory while they grow.
 class Builder {
  public:
-  Builder(const bench::RunConfig& config, perception::PerceptionSuite* suite, Console& console)
-      : config_(config),
+  Builder(const bench::RunConfig& config, perception::PerceptionSuite* suite,
+          GoalSightings* sightings, Console& console)
+      : sightings_(sightings),
         encoder_(suite != nullptr ? suite->encoder.get() : nullptr),
         console_(console),
         map_(config.agent.map),
@@ -93,6 +103,8 @@ class Builder {
       memory_.FuseRuns(ends.runs(), obs.depth_m, obs.camera, obs.T_world_camera,
                        {grid->rows, grid->cols, grid->dim, grid->data});
     }
+    if (sightings_ != nullptr)
+      if (auto ok = sightings_->Look(obs); !ok) return ok;
     Show(so_far.counts, frame.share_done);
     return {};
   }
@@ -116,13 +128,29 @@ class Builder {
                                   DurationText(seconds / std::max(share, 1e-6) * (1 - share))));
   }
 
-  const bench::RunConfig& config_;
+  GoalSightings* sightings_;
   perception::DenseEncoder* encoder_;
   Console& console_;
   geometry::VoxelMap map_;
   memory::SemanticMemory memory_;
   double start_ms_;
 };
+
+/// The detector's answer to the goal.
+std::string GoalText(const GoalSightings& sightings, const std::string& goal,
+                     const std::string& detector) {
+  if (!sightings.is_known())
+    return fmt::format("\"{}\" is no class of {}: the memory alone answers\n", goal, detector);
+  const std::size_t count = sightings.Places().size();
+  if (count == 0) return fmt::format("\"{}\": none found by {}\n", goal, detector);
+  return fmt::format("\"{}\": {} found by {}\n{}", goal, count, detector, sightings.PlacesText());
+}
+
+Json GoalJson(const GoalSightings& sightings, const std::string& detector) {
+  return {{"detector", detector},
+          {"is_class", sightings.is_known()},
+          {"places", sightings.PlacesJson()}};
+}
 
 std::string TextOf(const recordings::Recording& recording) {
   const RecordingCounts& c = recording.counts;
@@ -158,7 +186,8 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
   if (auto ok = CheckOut(options.out); !ok) return ok;
   std::optional<perception::PerceptionSuite> suite;
   std::string encoder;
-  if (options.perception == "networks") {
+  if (IsByNetworks(options)) {
+    console.Log(NetworksText(config->networks));
     const auto source = PerceptionSource::Read(*config);
     if (!source) return tl::unexpected(source.error());
     auto made = source->MakeSuite();
@@ -167,7 +196,9 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
     suite = std::move(**made);
     encoder = source->EncoderName();
   }
-  Builder builder(*config, suite ? &*suite : nullptr, console);
+  std::optional<GoalSightings> sightings;
+  if (!options.goal.empty()) sightings.emplace(config->agent, *suite, options.goal);
+  Builder builder(*config, suite ? &*suite : nullptr, sightings ? &*sightings : nullptr, console);
   const auto recording = recordings::ReadRecording(
       options.from, *recording_options,
       [&](const auto& so_far, const auto& frame) { return builder.Add(so_far, frame); });
@@ -197,7 +228,8 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
     query.top = options.top;
     const auto answer = AnswerQuery(query, *config, console);
     if (!answer) return tl::unexpected(answer.error());
-    console.Print(answer->text);
+    console.Print(GoalText(*sightings, options.goal, config->networks.detector) + answer->text);
+    document["detected"] = GoalJson(*sightings, config->networks.detector);
     document["answer"] = Json::parse(answer->json);
   }
   console.Document(document);

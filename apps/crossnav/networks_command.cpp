@@ -13,11 +13,13 @@
 #include "crossnav/bench/output_path.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/networks/boxes.h"
+#include "crossnav/networks/presets.h"
 #include "crossnav/networks/suite.h"
 #include "crossnav/sim/picture.h"
 #include "frame_file.h"
 #include "look_panel.h"
 #include "perception_source.h"
+#include "verbs.h"
 
 namespace crossnav::app {
 namespace {
@@ -47,7 +49,7 @@ struct Entry {
 Entry EntryOf(const fs::path& path) {
   Entry entry;
   entry.name = path.stem().string();
-  const auto card = networks::ReadModelCard(path);
+  auto card = networks::ReadModelCard(path);
   if (!card) {
     entry.error = card.error().Message();
     return entry;
@@ -60,6 +62,7 @@ Entry EntryOf(const fs::path& path) {
     return entry;
   }
   entry.parts = (*family)->parts;
+  networks::FindFile(*card);
   const auto bytes = networks::ReadNetworkFile(*card);
   entry.is_there = bytes.has_value();
   if (!bytes) entry.error = bytes.error().Message();
@@ -205,6 +208,13 @@ Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& c
     text += fmt::format("  {:<24} {:<10} {:<36} {}\n", e.name, e.family, e.parts,
                         e.error.empty() ? "found" : e.error);
   }
+  Json presets = Json::array();
+  for (const networks::Preset& preset : networks::Presets()) {
+    const auto missing = networks::MissingFile(preset, NetworksDir(*config));
+    presets.push_back({{"name", preset.name}, {"what", preset.what}, {"found", !missing}});
+    text += fmt::format("  --networks {:<13} {}{}\n", preset.name, preset.what,
+                        missing ? "; " + missing->string() + " is not there" : "");
+  }
   for (const networks::Backend& backend : networks::Backends())
     text += backend.is_available
                 ? fmt::format("{}: {} ({})\n", backend.name, backend.version,
@@ -213,6 +223,7 @@ Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& c
   console.Print(text);
   console.Document(Json({{"dir", NetworksDir(*config).string()},
                          {"networks", std::move(list)},
+                         {"presets", std::move(presets)},
                          {"backends", BackendsJson()}}));
   return {};
 }
@@ -281,6 +292,25 @@ Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& c
   console.Print(text + options.out + "\n");
   console.Document(LookJson(*look, options.out));
   return {};
+}
+
+void AddNetworks(CLI::App& app, Options& o) {
+  CLI::App* networks = app.add_subcommand("networks", "Networks for perception from pixels");
+  networks->require_subcommand(1);
+  AddVerb(*networks, o, "list", "Which networks there are", "crossnav networks list",
+          [&o](Console& c) { return NetworksList(o.networks, o.common, c); });
+  CLI::App* check = AddVerb(*networks, o, "check", "Whether files fit their cards, and how fast",
+                            "crossnav networks check crossnav_small",
+                            [&o](Console& c) { return NetworksCheck(o.networks, o.common, c); });
+  check->add_option("CARD", o.networks.cards, "Names or paths of cards; default: all");
+  CLI::App* look = AddVerb(*networks, o, "look", "What the networks see in a picture",
+                           "crossnav networks look room.png --text sofa --out panel.png",
+                           [&o](Console& c) { return NetworksLook(o.networks, o.common, c); });
+  look->add_option("IMAGE", o.networks.image, "Picture (PNG or JPEG)")->required();
+  look->add_option("--depth", o.networks.depth, "Its depth: PGM of 16 bits [mm], or .npy [m]");
+  look->add_option("--text", o.networks.text, "Show how much each place is like this");
+  look->add_option("--network", o.networks.network, "Card that answers alone; default: settings");
+  look->add_option("--out", o.networks.out, "Picture to write (PNG)")->required();
 }
 
 }  // namespace crossnav::app

@@ -22,10 +22,11 @@ fs::path NetworksDir(const bench::RunConfig& config) {
   return places.back();
 }
 
-Result<PerceptionSource> PerceptionSource::Read(const bench::RunConfig& config) {
+Result<PerceptionSource> PerceptionSource::Read(const bench::RunConfig& config,
+                                                const std::vector<fs::path>& file_dirs) {
   PerceptionSource source(config);
   if (config.eval.perception == "oracle") return source;
-  auto set = networks::NetworkSet::Read(config.networks, NetworksDir(config));
+  auto set = networks::NetworkSet::Read(config.networks, NetworksDir(config), file_dirs);
   if (!set) return tl::unexpected(set.error());
   if (auto ok = set->IsComplete(); !ok) return tl::unexpected(ok.error());
   source.networks_ = std::make_shared<networks::NetworkSet>(std::move(*set));

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "crossnav/bench/run_config.h"
 #include "crossnav/bench/runner.h"
@@ -21,8 +22,9 @@ std::filesystem::path NetworksDir(const bench::RunConfig& config);
 class PerceptionSource {
  public:
   /// Reads cards and hashes files where networks are asked for; opens none, so that processes can
-  /// be forked afterwards. `config` must outlive it.
-  static Result<PerceptionSource> Read(const bench::RunConfig& config);
+  /// be forked afterwards. `config` must outlive it; `file_dirs` as in NetworkSet::Read.
+  static Result<PerceptionSource> Read(const bench::RunConfig& config,
+                                       const std::vector<std::filesystem::path>& file_dirs = {});
 
   /// For RunEpisode.
   bench::MakePerception Maker() const;

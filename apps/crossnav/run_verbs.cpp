@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "network_choice.h"
 #include "verbs.h"
 
 namespace crossnav::app {
@@ -16,6 +17,10 @@ void AddPerception(CLI::App* verb, std::string& perception) {
   verb->add_option("--perception", perception,
                    "oracle (ground truth), or networks; default: eval.perception")
       ->check(CLI::IsMember({"oracle", "networks"}));
+}
+
+void AddNetworksPreset(CLI::App* verb, std::string& preset) {
+  verb->add_option("--networks", preset, kNetworksHelp)->check(CLI::IsMember({"own", "real"}));
 }
 
 /// --variant, --success, --budget-scope and --perception.
@@ -204,10 +209,10 @@ void AddSensor(CLI::App* verb, MapBuildOptions& o) {
 
 void AddMapBuild(CLI::App& map, Options& o) {
   MapBuildOptions& b = o.map_build;
-  CLI::App* build = AddVerb(map, o, "build", "A map and memory of a sensor's recording",
-                            "crossnav map build --from bag.mcap --perception networks --goal chair "
-                            "--out home.map",
-                            [&o](Console& c) { return MapBuild(o.map_build, o.common, c); });
+  CLI::App* build =
+      AddVerb(map, o, "build", "A map and memory of a sensor's recording",
+              "crossnav map build --from bag.mcap --networks real --goal chair --out home.map",
+              [&o](Console& c) { return MapBuild(o.map_build, o.common, c); });
   build
       ->add_option("--from", b.from,
                    "Folder of TUM RGB-D, 7-Scenes or numbered frames, or ROS 2 bag (MCAP)")
@@ -216,9 +221,12 @@ void AddMapBuild(CLI::App& map, Options& o) {
   build->add_option("--out", b.out, "Map file to write")->required()->type_name("MAP");
   build
       ->add_option("--perception", b.perception,
-                   "none (geometry alone), or networks: features that can be asked for")
+                   "none (geometry alone), or networks: features that can be asked for; default: "
+                   "networks with --goal or --networks, else none")
       ->check(CLI::IsMember({"none", "networks"}));
-  build->add_option("--goal", b.goal, "Then answer this text, as map query does")
+  AddNetworksPreset(build, b.networks);
+  build
+      ->add_option("--goal", b.goal, "Then list the places of this text, or say that there is none")
       ->type_name("TEXT");
   build->add_option("--top", b.top, "Places at most")->check(CLI::Range(1, 1000));
   AddSensor(build, b);
@@ -299,27 +307,9 @@ void AddServe(CLI::App& app, Options& o) {
       ->add_option("--perception", o.serve.perception,
                    "networks, or none: maps and explores, and finds nothing")
       ->check(CLI::IsMember({"networks", "none"}));
+  AddNetworksPreset(serve, o.serve.networks);
   serve->add_option("--memory", o.serve.memory, "Map file to start from, as --save-map wrote it");
   serve->add_option("--save-map", o.serve.save_map, "Map file to save the memory to at the end");
-}
-
-void AddNetworks(CLI::App& app, Options& o) {
-  CLI::App* networks = app.add_subcommand("networks", "Networks for perception from pixels");
-  networks->require_subcommand(1);
-  AddVerb(*networks, o, "list", "Which networks there are", "crossnav networks list",
-          [&o](Console& c) { return NetworksList(o.networks, o.common, c); });
-  CLI::App* check = AddVerb(*networks, o, "check", "Whether files fit their cards, and how fast",
-                            "crossnav networks check crossnav_small",
-                            [&o](Console& c) { return NetworksCheck(o.networks, o.common, c); });
-  check->add_option("CARD", o.networks.cards, "Names or paths of cards; default: all");
-  CLI::App* look = AddVerb(*networks, o, "look", "What the networks see in a picture",
-                           "crossnav networks look room.png --text sofa --out panel.png",
-                           [&o](Console& c) { return NetworksLook(o.networks, o.common, c); });
-  look->add_option("IMAGE", o.networks.image, "Picture (PNG or JPEG)")->required();
-  look->add_option("--depth", o.networks.depth, "Its depth: PGM of 16 bits [mm], or .npy [m]");
-  look->add_option("--text", o.networks.text, "Show how much each place is like this");
-  look->add_option("--network", o.networks.network, "Card that answers alone; default: settings");
-  look->add_option("--out", o.networks.out, "Picture to write (PNG)")->required();
 }
 
 void AddTools(CLI::App& app, Options& o) {

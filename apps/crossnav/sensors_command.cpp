@@ -3,18 +3,23 @@
 // is level, and by what people can see in them (docs/recordings.md, "Held to real sensors").
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "crossnav/bench/held_out.h"
 #include "crossnav/bench/timing.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/geometry/treads.h"
-#include "crossnav/policy/live_poi.h"
+#include "crossnav/networks/backend.h"
+#include "crossnav/networks/presets.h"
 #include "crossnav/policy/stair_geometry.h"
 #include "crossnav/recordings/depth_image.h"
 #include "crossnav/recordings/frames.h"
 #include "crossnav/scenegraph/storeys.h"
+#include "goal_sightings.h"
+#include "network_choice.h"
 #include "perception_source.h"
 #include "verbs.h"
 
@@ -53,18 +58,57 @@ Json FloorJson(const geometry::VoxelMap& map) {
           {"residual_m", fit.residual_m}};
 }
 
+/// Pixels of the big plant before a window in hololens, stated by hand: the inner part of its
+/// foliage, as it appears in the colour image. Frames are counted from 0.
+struct PlantPixels {
+  const char* file;
+  int frame;
+  perception::PixelBox box;
+};
+constexpr std::array<PlantPixels, 2> kPlants = {
+    {{"00111.png", 27, {190, 130, 300, 300}}, {"00321.png", 79, {225, 100, 335, 280}}}};
+constexpr double kCrown_m = 0.4;  // chosen: half the width of a tall plant; farther is background
+
+/// Mean of the points in the box within kCrown_m of its median depth.
+std::optional<Vector3d> PointOf(const PlantPixels& plant, const Observation& obs) {
+  std::vector<double> depth_m;
+  const auto for_each = [&](auto&& take) {
+    for (int v = plant.box.v0; v < plant.box.v1; ++v)
+      for (int u = plant.box.u0; u < plant.box.u1; ++u)
+        if (obs.depth_m.At(u, v) > 0) take(u, v, obs.depth_m.At(u, v));
+  };
+  if (obs.depth_m.width < plant.box.u1 || obs.depth_m.height < plant.box.v1) return std::nullopt;
+  for_each([&](int, int, float depth) { depth_m.push_back(depth); });
+  if (depth_m.empty()) return std::nullopt;
+  const double median_m = bench::PercentileOf(depth_m, 0.5);
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for_each([&](int u, int v, float depth) {
+    if (std::abs(depth - median_m) > kCrown_m) return;
+    sum += obs.T_world_camera * BackProjectPixel(obs.camera, u, v, depth);
+    ++count;
+  });
+  return Vector3d(sum / std::max(1, count));
+}
+
 /// Map, held-out frames and, with networks, plants of one recording with poses.
 class RoomTrial {
  public:
-  RoomTrial(const bench::RunConfig& config, perception::PerceptionSuite* suite)
-      : config_(config), suite_(suite), map_(config.agent.map) {}
+  RoomTrial(const bench::RunConfig& config, perception::PerceptionSuite* suite,
+            std::span<const PlantPixels> known)
+      : known_(known), map_(config.agent.map) {
+    if (suite != nullptr) plants_.emplace(config.agent, *suite, "plant");
+  }
 
   Result<void> Add(const Observation& obs) {
+    for (const PlantPixels& plant : known_)
+      if (plant.frame == frames_)
+        if (const auto point = PointOf(plant, obs)) known_plants_.emplace_back(plant.file, *point);
     const bool is_held_out = frames_++ % kHeldOut == kHeldOut - 1;
     const auto flight = geometry::FindTreads(obs.depth_m, obs.camera, obs.T_world_camera);
     flights_ += !flight.treads.empty();
-    if (suite_ != nullptr)
-      if (auto ok = Look(obs); !ok) return ok;
+    if (plants_)
+      if (auto ok = plants_->Look(obs); !ok) return ok;
     if (is_held_out) {
       held_out_.push_back(obs);
       return {};
@@ -89,45 +133,42 @@ class RoomTrial {
                  {"floor", FloorJson(map_)},
                  {"frames_with_stairs_by_geometry", flights_},
                  {"plants", nullptr}};
-    if (suite_ != nullptr) json["plants"] = Plants();
+    if (plants_) json["plants"] = plants_->PlacesJson();
+    if (plants_) json["known_plants"] = KnownPlants();
     return json;
   }
 
  private:
-  Result<void> Look(const Observation& obs) {
-    auto found = suite_->detector->Detect(obs, "plant");
-    if (!found) return tl::unexpected(found.error());
-    for (perception::Detection& detection : *found)
-      if (auto ok = suite_->segmenter->Segment(obs, detection); !ok) return ok;
-    const auto& object = config_.agent.policy.object;
-    plants_.Update(
-        policy::LiftDetections(*found, obs, config_.agent.map, object, object.detector_confidence),
-        object, config_.agent.map.voxel_m, frames_);
-    return {};
-  }
-
-  Json Plants() const {
+  /// Each plant of kPlants and the nearest place that the detector found.
+  Json KnownPlants() const {
     Json all = Json::array();
-    for (const policy::LivePoi* poi : plants_.Stable(config_.agent.policy.object)) {
-      const Vector3d& p = poi->p_center_world;
-      all.push_back({{"centre", {p.x(), p.y(), p.z()}},
-                     {"frames", poi->frames},
-                     {"confidence", poi->confidence}});
+    for (const auto& [file, p] : known_plants_) {
+      Json plant = {{"file", file}, {"point", {p.x(), p.y(), p.z()}}, {"error_m", nullptr}};
+      double nearest_m = 1e9;
+      for (const policy::LivePoi* poi : plants_->Places()) {
+        const Vector3d off = poi->p_center_world - p;
+        if (off.head<2>().norm() >= nearest_m) continue;
+        nearest_m = off.head<2>().norm();
+        plant["error_m"] = nearest_m;
+        plant["height_error_m"] = off.z();
+      }
+      all.push_back(std::move(plant));
     }
     return all;
   }
 
-  const bench::RunConfig& config_;
-  perception::PerceptionSuite* suite_;
+  std::span<const PlantPixels> known_;
   geometry::VoxelMap map_;
-  policy::LivePois plants_;
+  std::optional<GoalSightings> plants_;
+  std::vector<std::pair<std::string, Vector3d>> known_plants_;
   std::vector<Observation> held_out_;
   int frames_ = 0, flights_ = 0;
 };
 
 Result<Json> TryRoom(const fs::path& folder, const recordings::RecordingOptions& options,
                      const bench::RunConfig& config, perception::PerceptionSuite* suite) {
-  RoomTrial trial(config, suite);
+  const bool has_known = folder.filename() == "hololens";
+  RoomTrial trial(config, suite, has_known ? kPlants : std::span<const PlantPixels>());
   const auto read = recordings::ReadRecording(
       folder, options, [&](const auto&, const auto& frame) { return trial.Add(frame.obs); });
   if (!read) return tl::unexpected(read.error());
@@ -196,6 +237,16 @@ std::string RoomText(const char* name, const Json& room) {
                         plant["centre"][0].get<double>(), plant["centre"][1].get<double>(),
                         plant["centre"][2].get<double>(), plant["frames"].get<int>(),
                         plant["confidence"].get<double>());
+  for (const Json& plant : room["known_plants"]) {
+    const Json& p = plant["point"];
+    text += fmt::format(
+        "  plant of {} at ({:.2f}, {:.2f}, {:.2f}): {}\n", plant["file"].get<std::string>(),
+        p[0].get<double>(), p[1].get<double>(), p[2].get<double>(),
+        plant["error_m"].is_null()
+            ? "not found"
+            : fmt::format("found {:.2f} m off, {:+.2f} m in height", plant["error_m"].get<double>(),
+                          plant["height_error_m"].get<double>()));
+  }
   return text;
 }
 
@@ -208,18 +259,27 @@ std::string StairsText(const Json& frames) {
   return text;
 }
 
+bool LooksForPlants(const SensorTrialOptions& options, const bench::RunConfig& config) {
+  if (!options.perception.empty()) return options.perception == "networks";
+  const auto backends = networks::Backends();
+  const bool has_backend = std::any_of(backends.begin(), backends.end(),
+                                       [](const auto& backend) { return backend.is_available; });
+  return has_backend && networks::IsSame(*networks::FindPreset("real"), config.networks);
+}
+
 Result<void> BenchSensors(const SensorTrialOptions& options, const CommonOptions& common,
                           Console& console) {
-  CommonOptions all = common;
-  if (options.perception == "networks") all.overrides.push_back("eval.perception=networks");
-  const auto config = LoadConfig(all);
+  const std::vector<fs::path> file_dirs = {fs::path(options.data) / "models"};
+  auto config = LoadWithNetworks(common, options.networks, file_dirs);
   if (!config) return tl::unexpected(config.error());
+  if (LooksForPlants(options, *config)) config->eval.perception = "networks";
   std::optional<perception::PerceptionSuite> suite;
-  const auto source = PerceptionSource::Read(*config);
+  const auto source = PerceptionSource::Read(*config, file_dirs);
   if (!source) return tl::unexpected(source.error());
   if (auto made = source->MakeSuite()) {
     if (!*made) return tl::unexpected(made->error());
     suite = std::move(**made);
+    console.Log(NetworksText(config->networks));
   }
   recordings::RecordingOptions five;
   five.colour = recordings::Pinhole{518, 519, 325.5, 253.5};
@@ -255,7 +315,7 @@ Result<void> BenchSensors(const SensorTrialOptions& options, const CommonOptions
 void AddSensorTrials(CLI::App& bench, Options& o) {
   CLI::App* sensors = AddVerb(
       bench, o, "sensors", "Maps of real frames against frames held out, and treads of real stairs",
-      "crossnav bench sensors data --perception networks --set networks.detector=deimv2_femto_coco",
+      "crossnav bench sensors data --networks real",
       [&o](Console& c) { return BenchSensors(o.sensor_trials, o.common, c); });
   sensors
       ->add_option("DATA", o.sensor_trials.data,
@@ -263,8 +323,11 @@ void AddSensorTrials(CLI::App& bench, Options& o) {
       ->required();
   sensors
       ->add_option("--perception", o.sensor_trials.perception,
-                   "none (geometry alone), or networks: looks for plants, too")
+                   "none (geometry alone), or networks: looks for plants, too; default: networks "
+                   "where those of `real` are there, DATA/models included")
       ->check(CLI::IsMember({"none", "networks"}));
+  sensors->add_option("--networks", o.sensor_trials.networks, kNetworksHelp)
+      ->check(CLI::IsMember({"own", "real"}));
 }
 
 }  // namespace crossnav::app

@@ -15,6 +15,7 @@
 #include "crossnav/serve/blind.h"
 #include "crossnav/serve/server.h"
 #include "memory_files.h"
+#include "network_choice.h"
 #include "perception_source.h"
 
 namespace crossnav::app {
@@ -50,7 +51,8 @@ serve::Address AddressOf(const ServeOptions& options) {
 Result<bench::RunConfig> ConfigOf(const ServeOptions& options, const CommonOptions& common) {
   CommonOptions all = common;
   if (options.perception == "networks") all.overrides.push_back("eval.perception=networks");
-  auto config = LoadConfig(all);
+  auto config =
+      options.perception == "networks" ? LoadWithNetworks(all, options.networks) : LoadConfig(all);
   if (config && config->serve.watchdog_s <= config->serve.period_s)
     return Fail(ErrorCode::kInvalid,
                 "must be longer than serve.period_s, or it fires in the midst of an action",
@@ -136,6 +138,7 @@ Result<void> ServeLive(const ServeOptions& options, const CommonOptions& common,
   serve::Pilot pilot(PilotOf(*config, options, maker));
   const auto listener = serve::Listener::Open(AddressOf(options));
   if (!listener) return tl::unexpected(listener.error());
+  if (!maker.IsBlind()) console.Log(NetworksText(config->networks));
   console.Log(fmt::format("listening on {}, perception: {}", listener->name(), options.perception));
   const auto log = [&console](const std::string& line) { console.Log(line); };
   if (auto ok = serve::Serve(*listener, pilot, {ends->value(), log}); !ok) return ok;

@@ -56,6 +56,8 @@ void AddSceneVerbs(CLI::App& app, Options& options);
 /// Runs, their results, maps, networks and tools.
 void AddRunVerbs(CLI::App& app, Options& options);
 
+/// `networks`.
+void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.
 void AddReplay(CLI::App& app, Options& options);
 /// `bench sensors`.

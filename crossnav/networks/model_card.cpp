@@ -305,7 +305,8 @@ Result<std::string> ReadNetworkFile(const ModelCard& card) {
   auto bytes = ReadFile(card.file, kMostBytes);
   if (!bytes) {
     if (bytes.error().code == ErrorCode::kNotFound)
-      bytes.error().what = "is not there; " + card.path.string() + " says where it comes from";
+      bytes.error().what = "is not there, nor in the folder that CROSSNAV_NETWORKS names; " +
+                           card.path.string() + " says where it comes from";
     return bytes;
   }
   if (card.sha256.empty() || Sha256(*bytes) == card.sha256) return bytes;

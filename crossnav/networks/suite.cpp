@@ -2,6 +2,7 @@
 #include "crossnav/networks/suite.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -12,8 +13,6 @@
 
 namespace crossnav::networks {
 namespace {
-
-constexpr std::string_view kDepth = "depth";  // the segmenter that needs no file
 
 struct Role {
   const char* part;
@@ -32,12 +31,6 @@ bool HasPart(const Family& family, std::string_view part) {
   return parts.find(" " + std::string(part) + " ") != std::string::npos;
 }
 
-/// "crossnav_small" -> dir/crossnav_small.toml; a path of a card stays what it is.
-std::filesystem::path CardPath(const std::filesystem::path& dir, const std::string& name) {
-  const std::filesystem::path path = name;
-  return path.extension() == ".toml" ? path : dir / (name + ".toml");
-}
-
 /// Inference libraries crash on some damaged files that still parse, so what runs is a file that
 /// somebody vouched for.
 Result<void> HasHash(const ModelCard& card, const char* key, const std::string& hash,
@@ -51,6 +44,38 @@ Result<void> HasHash(const ModelCard& card, const char* key, const std::string& 
 
 }  // namespace
 
+std::filesystem::path CardPath(const std::filesystem::path& dir, const std::string& name) {
+  const std::filesystem::path path = name;
+  return path.extension() == ".toml" ? path : dir / (name + ".toml");
+}
+
+std::vector<std::filesystem::path> FileDirs() {
+  std::vector<std::filesystem::path> dirs;
+  const auto value_of = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value == nullptr ? "" : value);
+  };
+  const std::string named = value_of("CROSSNAV_NETWORKS"), data = value_of("XDG_DATA_HOME");
+  if (!named.empty()) dirs.emplace_back(named);
+  if (!data.empty()) dirs.push_back(std::filesystem::path(data) / "crossnav/networks");
+  if (data.empty() && !value_of("HOME").empty())
+    dirs.push_back(std::filesystem::path(value_of("HOME")) / ".local/share/crossnav/networks");
+  return dirs;
+}
+
+void FindFile(ModelCard& card, const std::vector<std::filesystem::path>& dirs) {
+  std::error_code error;
+  if (std::filesystem::exists(card.file, error)) return;
+  std::vector<std::filesystem::path> all = dirs;
+  for (auto& dir : FileDirs()) all.push_back(std::move(dir));
+  for (const auto& dir : all) {
+    const auto file = dir / card.file.filename();
+    if (!std::filesystem::exists(file, error)) continue;
+    card.file = file;
+    return;
+  }
+}
+
 Result<std::vector<std::filesystem::path>> ListCards(const std::filesystem::path& dir) {
   std::vector<std::filesystem::path> cards;
   std::error_code error;
@@ -63,18 +88,20 @@ Result<std::vector<std::filesystem::path>> ListCards(const std::filesystem::path
   return cards;
 }
 
-Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config,
-                                    const std::filesystem::path& dir) {
+Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config, const std::filesystem::path& dir,
+                                    const std::vector<std::filesystem::path>& file_dirs) {
   NetworkSet set;
   set.config_ = config;
   for (const auto& [part, name] : RolesOf(config)) {
-    if (name.empty() || (part == std::string_view("segmenter") && name == kDepth)) continue;
+    if (name.empty() || (part == std::string_view("segmenter") && name == kDepthSegmenter))
+      continue;
     const auto path = CardPath(dir, name);
     auto card = ReadModelCard(path);
     if (!card) {
       card.error().what += " (needed by networks." + std::string(part) + ")";
       return tl::unexpected(card.error());
     }
+    FindFile(*card, file_dirs);
     const auto family = FamilyOf(*card);
     if (!family) return tl::unexpected(family.error());
     if (!HasPart(**family, part))
@@ -135,7 +162,7 @@ Result<perception::PerceptionSuite> NetworkSet::MakeSuite(double camera_height_m
   perception::PerceptionSuite suite;
   if (models.count("detector") > 0) suite.detector = models["detector"]->MakeDetector();
   if (models.count("segmenter") > 0) suite.segmenter = models["segmenter"]->MakeSegmenter();
-  if (config_.segmenter == kDepth) suite.segmenter = MakeDepthSegmenter();
+  if (config_.segmenter == kDepthSegmenter) suite.segmenter = MakeDepthSegmenter();
   if (models.count("stairs") > 0) suite.stairs = models["stairs"]->MakeStairs();
   if (models.count("encoder") > 0) suite.encoder = models["encoder"]->MakeEncoder();
   return suite;

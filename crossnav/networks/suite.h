@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crossnav/networks/networks_config.h"
@@ -15,6 +16,19 @@
 #include "crossnav/perception/perception.h"
 
 namespace crossnav::networks {
+
+inline constexpr std::string_view kDepthSegmenter = "depth";  ///< the segmenter without a file
+
+/// "crossnav_small" -> dir/crossnav_small.toml; a path of a card stays as it is.
+std::filesystem::path CardPath(const std::filesystem::path& dir, const std::string& name);
+
+/// Folders of network files that are not beside their cards: the one that CROSSNAV_NETWORKS names,
+/// then crossnav/networks in $XDG_DATA_HOME (~/.local/share).
+std::vector<std::filesystem::path> FileDirs();
+
+/// Points `card.file`, where it is not beside its card, to the file of that name in `dirs` or
+/// FileDirs().
+void FindFile(ModelCard& card, const std::vector<std::filesystem::path>& dirs = {});
 
 /// Paths of all cards (*.toml) in a folder, sorted by name.
 Result<std::vector<std::filesystem::path>> ListCards(const std::filesystem::path& dir);
@@ -24,8 +38,10 @@ class NetworkSet {
   /// Reads the cards that `config` names, below `dir`, and hashes their files. An empty name is a
   /// part that is left out. Opens no network:
   /// this may be called before processes are forked. Errors: a card, a part that its family lacks,
-  /// a file that is not there or not the card's.
-  static Result<NetworkSet> Read(const NetworksConfig& config, const std::filesystem::path& dir);
+  /// a file that is not there or not the card's. Files that are not beside their cards are looked
+  /// for in `file_dirs` and FileDirs().
+  static Result<NetworkSet> Read(const NetworksConfig& config, const std::filesystem::path& dir,
+                                 const std::vector<std::filesystem::path>& file_dirs = {});
 
   /// A suite over networks that are opened at the first call. One suite at a time. Parts that are
   /// left out are null, which an agent cannot do with: see IsComplete.

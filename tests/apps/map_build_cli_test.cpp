@@ -63,8 +63,8 @@ TEST_F(MapBuildCli, BuildingAgainReplacesTheMap) {
 TEST_F(MapBuildCli, ErrorsExitWith1AndWriteNothing) {
   ExpectRefusal("--from nowhere --out a.map", {"nowhere", "no such file"});
   ExpectRefusal("--from " + kBags + " --out a.map", {"no recording that is known"});
-  ExpectRefusal("--from " + kBags + "raw --out missing/folder/a.map --goal chair",
-                {"--goal", "--perception networks"});
+  ExpectRefusal("--from " + kBags + "raw --out missing/folder/a.map --goal chair --perception none",
+                {"--goal", "--perception none"});
   ExpectRefusal("--from " + kBags + "raw --out a.map --intrinsics 0,1,2,3", {"--intrinsics"});
   ExpectRefusal("--from " + kBags + "raw --out a.map --mount 0,0,0,9,9,9,9",
                 {"--mount", "unit quaternion"});
@@ -97,6 +97,40 @@ TEST_F(MapBuildCli, FiveRealFramesAreMappedAndAnswerAQuestion) {
   const Json query =
       Json::parse(Run("map query --json five.map sofa --top 2 --set eval.perception=networks").out);
   EXPECT_EQ(document["answer"], query);
+}
+
+TEST_F(MapBuildCli, TheFileThatAPresetLacksIsNamedWithItsRemedy) {
+  std::filesystem::create_directory(At("nets"));
+  for (const char* card : {"crossnav_small.toml", "deimv2_femto_coco.toml"})
+    std::filesystem::copy(CROSSNAV_SOURCE_DIR "/networks/" + std::string(card), At("nets"));
+  const Outcome outcome = RunIn(folder_,
+                                "map build --quiet --from " + kBags +
+                                    "raw --out a.map --networks real --set networks.dir=nets",
+                                "CROSSNAV_NETWORKS= XDG_DATA_HOME=/nowhere");
+  EXPECT_EQ(outcome.exit_code, 1);
+  for (const char* part : {"nets/deimv2_femto_coco.onnx", "CROSSNAV_NETWORKS", "--networks own"})
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(At("a.map")));
+}
+
+TEST_F(MapBuildCli, ADetectorForPhotographsIsTheDefaultWhereItsFileIs) {
+  const std::string data = std::string(CROSSNAV_SHARED_DIR) + "/data";
+  if (!std::filesystem::exists(data + "/models")) GTEST_SKIP() << "no detector beside the project";
+  const std::string command = "map build --json --from '" + data +
+                              "/rgbd' --intrinsics 518,519,325.5,253.5 --out five.map --goal ";
+  const std::string with = "CROSSNAV_NETWORKS='" + data + "/models'";
+  const Outcome chairs = RunIn(folder_, command + "chair", with);
+  if (chairs.err.find("not available") != std::string::npos) GTEST_SKIP() << chairs.err;
+  ASSERT_EQ(chairs.exit_code, 0) << chairs.err;
+  EXPECT_NE(chairs.err.find("networks: real (boxes deimv2_femto_coco"), std::string::npos)
+      << chairs.err;
+  EXPECT_EQ(Json::parse(chairs.out)["detected"]["detector"], "deimv2_femto_coco");
+  EXPECT_EQ(Json::parse(chairs.out)["detected"]["is_class"], true);
+  const Outcome own = RunIn(folder_, command + "wall --networks own", with);
+  ASSERT_EQ(own.exit_code, 0) << own.err;
+  EXPECT_NE(own.err.find("networks: own"), std::string::npos) << own.err;
+  EXPECT_EQ(Json::parse(own.out)["detected"]["is_class"], false);
 }
 
 }  // namespace
