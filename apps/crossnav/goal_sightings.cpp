@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 namespace crossnav::app {
 
 Result<void> GoalSightings::Look(const Observation& obs) {
@@ -21,7 +23,7 @@ Result<void> GoalSightings::Look(const Observation& obs) {
   return {};
 }
 
-nlohmann::ordered_json GoalSightings::PlacesJson() const {
+std::string GoalSightings::PlacesJson() const {
   auto all = nlohmann::ordered_json::array();
   for (const policy::LivePoi* poi : Places()) {
     const Vector3d& p = poi->p_center_world;
@@ -29,7 +31,7 @@ nlohmann::ordered_json GoalSightings::PlacesJson() const {
                    {"frames", poi->frames},
                    {"confidence", poi->confidence}});
   }
-  return all;
+  return all.dump();
 }
 
 std::string GoalSightings::PlacesText() const {

@@ -3,7 +3,6 @@
 // the agent does it.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,8 @@ class GoalSightings {
   bool is_known() const { return is_known_; }
   /// Stable places, most confident first.
   std::vector<const policy::LivePoi*> Places() const { return pois_.Stable(config_.policy.object); }
-  /// centre [m], frames and best confidence of each.
-  nlohmann::ordered_json PlacesJson() const;
+  /// A JSON array: centre [m], frames and best confidence of each.
+  std::string PlacesJson() const;
   /// A line for each.
   std::string PlacesText() const;
 

@@ -149,7 +149,7 @@ std::string GoalText(const GoalSightings& sightings, const std::string& goal,
 Json GoalJson(const GoalSightings& sightings, const std::string& detector) {
   return {{"detector", detector},
           {"is_class", sightings.is_known()},
-          {"places", sightings.PlacesJson()}};
+          {"places", Json::parse(sightings.PlacesJson())}};
 }
 
 std::string TextOf(const recordings::Recording& recording) {

@@ -133,7 +133,7 @@ class RoomTrial {
                  {"floor", FloorJson(map_)},
                  {"frames_with_stairs_by_geometry", flights_},
                  {"plants", nullptr}};
-    if (plants_) json["plants"] = plants_->PlacesJson();
+    if (plants_) json["plants"] = Json::parse(plants_->PlacesJson());
     if (plants_) json["known_plants"] = KnownPlants();
     return json;
   }
