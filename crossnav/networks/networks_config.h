@@ -9,7 +9,7 @@ namespace crossnav::networks {
 struct NetworksConfig {
   std::string dir;  ///< folder of cards and files; empty = the one that comes with crossnav
   // One network of our own answers all; chosen: it is in the repository.
-  std::string detector = "crossnav_small";
+  std::string detector = "crossnav_small";   ///< or several: the first that has the goal
   std::string segmenter = "crossnav_small";  ///< or depth: the depth cluster in the box, no file
   std::string stairs = "crossnav_small";
   std::string encoder = "crossnav_small";

@@ -9,6 +9,7 @@
 
 #include "crossnav/core/read_file.h"
 #include "crossnav/networks/depth_mask.h"
+#include "crossnav/networks/detector_by_goal.h"
 #include "crossnav/networks/sha256.h"
 
 namespace crossnav::networks {
@@ -16,14 +17,30 @@ namespace {
 
 struct Role {
   const char* part;
-  const std::string& name;  ///< of the card
+  std::string name;  ///< of the card
 };
 
+/// "yolov7, yolo_world_open" -> both names; an empty text is one empty name.
+std::vector<std::string> NamesOf(const std::string& list) {
+  std::vector<std::string> names;
+  for (std::size_t from = 0; from <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', from), list.size());
+    std::string name = list.substr(from, comma - from);
+    name.erase(0, name.find_first_not_of(' '));
+    name.erase(name.find_last_not_of(' ') + 1);
+    names.push_back(std::move(name));
+    from = comma + 1;
+  }
+  return names;
+}
+
 std::vector<Role> RolesOf(const NetworksConfig& config) {
-  return {{"detector", config.detector},
-          {"segmenter", config.segmenter},
-          {"stairs", config.stairs},
-          {"encoder", config.encoder}};
+  std::vector<Role> roles;
+  for (std::string& name : NamesOf(config.detector)) roles.push_back({"detector", std::move(name)});
+  roles.push_back({"segmenter", config.segmenter});
+  roles.push_back({"stairs", config.stairs});
+  roles.push_back({"encoder", config.encoder});
+  return roles;
 }
 
 bool HasPart(const Family& family, std::string_view part) {
@@ -92,7 +109,10 @@ Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config, const std::fil
                                     const std::vector<std::filesystem::path>& file_dirs) {
   NetworkSet set;
   set.config_ = config;
-  for (const auto& [part, name] : RolesOf(config)) {
+  const auto roles = RolesOf(config);
+  for (const auto& [part, name] : roles) {
+    if (name.empty() && part == std::string_view("detector") && !config.detector.empty())
+      return Fail(ErrorCode::kInvalid, "holds an empty name between commas", "networks.detector");
     if (name.empty() || (part == std::string_view("segmenter") && name == kDepthSegmenter))
       continue;
     const auto path = CardPath(dir, name);
@@ -153,14 +173,16 @@ Result<perception::PerceptionSuite> NetworkSet::MakeSuite(double camera_height_m
   options.session.threads = config_.threads;
   options.camera_height_m = camera_height_m;
   std::map<std::string_view, Model*> models;
+  std::vector<std::unique_ptr<perception::Detector>> detectors;
   for (const auto& [part, name] : RolesOf(config_)) {
     if (cards_.count(name) == 0) continue;
     auto model = ModelOf(name, options);
     if (!model) return tl::unexpected(model.error());
     models[part] = *model;
+    if (part == std::string_view("detector")) detectors.push_back((*model)->MakeDetector());
   }
   perception::PerceptionSuite suite;
-  if (models.count("detector") > 0) suite.detector = models["detector"]->MakeDetector();
+  suite.detector = MakeDetectorByGoal(std::move(detectors));
   if (models.count("segmenter") > 0) suite.segmenter = models["segmenter"]->MakeSegmenter();
   if (config_.segmenter == kDepthSegmenter) suite.segmenter = MakeDepthSegmenter();
   if (models.count("stairs") > 0) suite.stairs = models["stairs"]->MakeStairs();
