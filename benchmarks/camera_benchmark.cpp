@@ -20,10 +20,10 @@
 
 #include "crossnav/core/camera.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/embree_shim.h"
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/embree_shim.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 
 namespace crossnav {
 

@@ -19,9 +19,9 @@
 #include "tests/support/box_rooms.h"
 
 #ifdef CROSSNAV_HAVE_SIM
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/house/embedded_house.h"
 #endif
 

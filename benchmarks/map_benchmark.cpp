@@ -22,10 +22,10 @@
 
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/geometry/voxel_map.h"
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
-#include "crossnav/sim/sensor_noise.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
+#include "crossnav/sim/sensing/sensor_noise.h"
 #include "tests/support/box_rooms.h"
 
 #ifdef CROSSNAV_HAVE_OCTOMAP

@@ -18,13 +18,13 @@
 #include "covering_points.h"
 #include "crossnav/core/category_table.h"
 #include "crossnav/geometry/voxel_map.h"
+#include "crossnav/inference/suite.h"
 #include "crossnav/memory/query_match.h"
-#include "crossnav/networks/suite.h"
-#include "crossnav/sim/ground_truth_encoder.h"
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
+#include "crossnav/sim/sensing/ground_truth_encoder.h"
+#include "crossnav/sim/sensing/simulator.h"
 
 namespace {
 
@@ -58,7 +58,7 @@ std::string NameOf(const sim::SceneInstance& instance) {
 
 /// The encoder of the options, and what it stands on.
 struct Encoder {
-  networks::NetworkSet networks;
+  inference::NetworkSet networks;
   perception::PerceptionSuite suite;
   std::unique_ptr<perception::DenseEncoder> own;
   perception::DenseEncoder* get = nullptr;
@@ -74,9 +74,9 @@ Result<void> Open(const Options& options, const sim::Simulator& simulator, Encod
     encoder.get = encoder.own.get();
     return {};
   }
-  networks::NetworksConfig config;
+  inference::NetworksConfig config;
   config.detector = config.segmenter = config.stairs = "";
-  auto set = networks::NetworkSet::Read(config, options.networks_dir);
+  auto set = inference::NetworkSet::Read(config, options.networks_dir);
   if (!set) return tl::unexpected(set.error());
   encoder.networks = std::move(*set);
   auto suite = encoder.networks.MakeSuite(SensorConfig{}.camera_height_m);

@@ -17,11 +17,11 @@
 #include "crossnav/core/categories.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
-#include "crossnav/sim/ground_truth_encoder.h"
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
+#include "crossnav/sim/sensing/ground_truth_encoder.h"
+#include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/world/house/embedded_house.h"
 
 namespace {

@@ -13,9 +13,9 @@ foreach(room IN LISTS rooms)
   install(DIRECTORY crossnav/${room} DESTINATION include/crossnav COMPONENT development
     FILES_MATCHING PATTERN "*.h" PATTERN proto EXCLUDE PATTERN schema EXCLUDE)
 endforeach()
-# Settings that `bench` has of rooms that are not installed.
-install(FILES crossnav/networks/networks_config.h
-  DESTINATION include/crossnav/networks COMPONENT development)
+# Settings that `evaluation` has of rooms that are not installed.
+install(FILES crossnav/inference/networks_config.h
+  DESTINATION include/crossnav/inference COMPONENT development)
 install(FILES crossnav/serve/serve_config.h
   DESTINATION include/crossnav/serve COMPONENT development)
 

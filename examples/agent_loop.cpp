@@ -6,7 +6,7 @@
 
 #include "crossnav/agent/agent.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/ground_truth.h"
+#include "crossnav/sim/sensing/ground_truth.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/world/house/embedded_house.h"
 

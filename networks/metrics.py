@@ -104,7 +104,7 @@ def judge_claims(sample, answer):
 
 
 def claim_mask(answer, goal, box, size):
-    """What the program makes of a claim (crossnav/networks/crossnav_network.cpp): the pixels of its box where the
+    """What the program makes of a claim (crossnav/inference/crossnav_network.cpp): the pixels of its box where the
     second network's share of the object, or else the first one's share of the goal, is one half or more."""
     left, top, right, bottom = np.floor(np.asarray(box) + 0.5).astype(int)
     mask = np.zeros((size, size), bool)

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/world/furniture/furniture_import.h"
 #include "crossnav/world/furniture/furniture_pack.h"
 
@@ -80,7 +80,7 @@ Result<void> AssetsImport(const AssetsOptions& options, const CommonOptions& /*c
   const auto libraries = FindLibraries(options.libraries);
   if (!libraries) return tl::unexpected(libraries.error());
   const std::string place = options.out.empty() ? DefaultFurniture() : options.out;
-  if (auto ok = bench::CheckOutputFolder(place, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFolder(place, "--out"); !ok) return ok;
   console.Log("reading " + libraries->string());
   const auto report = world::ImportFurniture(*libraries, place);
   if (!report) return tl::unexpected(report.error());

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "crossnav/bench/episode_generator.h"
-#include "crossnav/bench/runner.h"
-#include "crossnav/bench/timing.h"
 #include "crossnav/core/version.h"
+#include "crossnav/evaluation/generation/episode_generator.h"
+#include "crossnav/evaluation/running/runner.h"
+#include "crossnav/evaluation/running/timing.h"
 #include "crossnav/world/house/embedded_house.h"
 #include "perception_source.h"
 #include "progress.h"
@@ -33,20 +33,20 @@ std::string CpuModel() {
 }
 
 /// Collects what each step took.
-class CostLog : public bench::RunObserver {
+class CostLog : public evaluation::RunObserver {
  public:
-  Result<void> OnStep(const bench::StepView& step) override {
+  Result<void> OnStep(const evaluation::StepView& step) override {
     for (const trace::StageTime& time : step.timing) Add(time.stage, time.ms, time.ms);
     return {};
   }
-  void OnStepCost(const bench::StepCost& cost) override {
+  void OnStepCost(const evaluation::StepCost& cost) override {
     Add("simulator", cost.observe_wall_ms, cost.observe_cpu_ms);
     Add("step", cost.wall_ms, cost.cpu_ms);
     total_wall_ms_ += cost.wall_ms;
     total_cpu_ms_ += cost.cpu_ms;
     ++steps_;
   }
-  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord&) override {
+  Result<void> OnEpisodeEnd(const agent::Agent& state, const evaluation::EpisodeRecord&) override {
     voxels_ = state.map().Stats().known;
     feature_voxels_ = state.memory().Size();
     return {};
@@ -55,9 +55,9 @@ class CostLog : public bench::RunObserver {
   Json ToJson() const {
     Json stages = Json::object();
     for (const auto& [name, sample] : wall_.samples_ms) {
-      stages[name] = {{"p50_ms", bench::PercentileOf(sample, 0.5)},
-                      {"p95_ms", bench::PercentileOf(sample, 0.95)},
-                      {"cpu_p50_ms", bench::PercentileOf(cpu_.samples_ms.at(name), 0.5)},
+      stages[name] = {{"p50_ms", evaluation::PercentileOf(sample, 0.5)},
+                      {"p95_ms", evaluation::PercentileOf(sample, 0.95)},
+                      {"cpu_p50_ms", evaluation::PercentileOf(cpu_.samples_ms.at(name), 0.5)},
                       {"n", sample.size()}};
     }
     rusage usage{};
@@ -84,7 +84,7 @@ class CostLog : public bench::RunObserver {
     wall_.Add(stage, wall_ms);
     cpu_.Add(stage, cpu_ms);
   }
-  bench::TimingLog wall_, cpu_;
+  evaluation::TimingLog wall_, cpu_;
   double total_wall_ms_ = 0, total_cpu_ms_ = 0;
   int steps_ = 0;
   std::int64_t voxels_ = 0, feature_voxels_ = 0;
@@ -109,14 +109,14 @@ std::string Text(const Json& json) {
 
 struct Subject {
   std::filesystem::path scenes;
-  bench::Episode episode;
+  evaluation::Episode episode;
 };
 
 /// The given episode, or the climbing one in the embedded house.
-Result<Subject> ChooseSubject(const BenchOptions& options, const bench::RunConfig& config,
+Result<Subject> ChooseSubject(const BenchOptions& options, const evaluation::RunConfig& config,
                               SceneCache& cache, const std::filesystem::path& scenes) {
   if (!options.episodes.empty()) {
-    const auto file = bench::ReadEpisodes(options.episodes);
+    const auto file = evaluation::ReadEpisodes(options.episodes);
     if (!file) return tl::unexpected(file.error());
     if (file->episodes.empty()) {
       return Fail(ErrorCode::kInvalid, "holds no episode", options.episodes);
@@ -127,12 +127,12 @@ Result<Subject> ChooseSubject(const BenchOptions& options, const bench::RunConfi
     if (!episode) return tl::unexpected(episode.error());
     return Subject{scenes, std::move(*episode)};
   }
-  const auto ids = bench::ListScenes(scenes);
+  const auto ids = evaluation::ListScenes(scenes);
   if (!ids) return tl::unexpected(ids.error());
   const auto context = cache.Get(ids->front());
   if (!context) return tl::unexpected(context.error());
-  auto episode = bench::MakeEpisode({ids->front(), *context}, config, {"sofa", "toilet", "bed"}, 0,
-                                    config.eval.seed);
+  auto episode = evaluation::MakeEpisode({ids->front(), *context}, config,
+                                         {"sofa", "toilet", "bed"}, 0, config.eval.seed);
   if (!episode) return tl::unexpected(episode.error());
   return Subject{scenes, std::move(*episode)};
 }
@@ -177,9 +177,9 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
   CostLog costs;
   for (int i = 0; i < options.repeat; ++i) {
     StepProgress progress(console, subject->episode, *config);
-    const std::vector<bench::RunObserver*> observers = {&costs, &progress};
-    const auto record =
-        bench::RunEpisode(**context, subject->episode, *config, observers, perception->Maker());
+    const std::vector<evaluation::RunObserver*> observers = {&costs, &progress};
+    const auto record = evaluation::RunEpisode(**context, subject->episode, *config, observers,
+                                               perception->Maker());
     if (!record) return tl::unexpected(record.error());
   }
   const Json json = costs.ToJson();

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "console.h"
-#include "crossnav/bench/run_config.h"
 #include "crossnav/core/result.h"
+#include "crossnav/evaluation/settings/run_config.h"
 #include "crossnav/world/furniture/furniture_pack.h"
 #include "crossnav/world/layout/house_params.h"
 
@@ -26,9 +26,9 @@ struct CommonOptions {
 
 /// The paper's defaults, then the file, then the variant, then the overrides. `warnings` gets a
 /// line for each old key of a renamed setting; main() prints them once for every verb.
-Result<bench::RunConfig> LoadConfig(const CommonOptions& options,
-                                    const std::string& variant = "full",
-                                    std::vector<std::string>* warnings = nullptr);
+Result<evaluation::RunConfig> LoadConfig(const CommonOptions& options,
+                                         const std::string& variant = "full",
+                                         std::vector<std::string>* warnings = nullptr);
 
 struct WorldOptions {
   std::uint64_t seed = 1;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "commands.h"
-#include "crossnav/bench/config_file.h"
+#include "crossnav/evaluation/settings/config_file.h"
 
 namespace crossnav::app {
 
-Result<bench::RunConfig> LoadConfig(const CommonOptions& options, const std::string& variant,
-                                    std::vector<std::string>* warnings) {
-  return bench::ReadConfig({options.config_file, variant, options.overrides}, warnings);
+Result<evaluation::RunConfig> LoadConfig(const CommonOptions& options, const std::string& variant,
+                                         std::vector<std::string>* warnings) {
+  return evaluation::ReadConfig({options.config_file, variant, options.overrides}, warnings);
 }
 
 }  // namespace crossnav::app

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/timing.h"
+#include "crossnav/evaluation/running/timing.h"
 
 namespace crossnav::app {
 namespace {
@@ -50,7 +50,7 @@ void Console::Log(const std::string& text) {
 
 void Console::Progress(const std::string& text) {
   if (quiet_) return;
-  const double now_ms = bench::WallMs();
+  const double now_ms = evaluation::WallMs();
   if (now_ms - last_ms_ < (is_terminal_ ? kTerminalEvery_ms : kPlainEvery_ms)) return;
   last_ms_ = now_ms;
   if (is_terminal_) {

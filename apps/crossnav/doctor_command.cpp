@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "crossnav/core/version.h"
-#include "crossnav/networks/suite.h"
+#include "crossnav/inference/suite.h"
 #include "perception_source.h"
 
 namespace crossnav::app {
@@ -31,7 +31,7 @@ Json CpuFeatures() {
 Json OptionalParts() {
   const bool has_pack = world::FurniturePack::Load(DefaultFurniture()).has_value();
   Json parts = Json::array();
-  for (const networks::Backend& backend : networks::Backends())
+  for (const inference::Backend& backend : inference::Backends())
     parts.push_back({{"name", backend.name},
                      {"found", backend.is_available},
                      {"version", backend.version},
@@ -48,14 +48,14 @@ Json OptionalParts() {
 }
 
 /// Name and state of each network that there is a card of.
-Json NetworksFound(const bench::RunConfig& config) {
+Json NetworksFound(const evaluation::RunConfig& config) {
   Json found = Json::array();
-  const auto cards = networks::ListCards(NetworksDir(config));
+  const auto cards = inference::ListCards(NetworksDir(config));
   if (!cards) return found;
   for (const auto& path : *cards) {
-    const auto card = networks::ReadModelCard(path);
-    const auto bytes =
-        card ? networks::ReadNetworkFile(*card) : Result<std::string>(tl::unexpected(card.error()));
+    const auto card = inference::ReadModelCard(path);
+    const auto bytes = card ? inference::ReadNetworkFile(*card)
+                            : Result<std::string>(tl::unexpected(card.error()));
     found.push_back({{"name", path.stem().string()},
                      {"found", bytes.has_value()},
                      {"error", bytes ? "" : bytes.error().Message()}});
@@ -69,7 +69,7 @@ Result<void> Doctor(const CommonOptions& common, Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   Json perception = {"oracle"};
-  const auto& backends = networks::Backends();
+  const auto& backends = inference::Backends();
   if (std::any_of(backends.begin(), backends.end(), [](const auto& b) { return b.is_available; }))
     perception.push_back("networks");
   const Json json = {{"version", CROSSNAV_VERSION},

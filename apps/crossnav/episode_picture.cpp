@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "canvas.h"
-#include "crossnav/sim/picture.h"
+#include "crossnav/sim/sensing/picture.h"
 
 namespace crossnav::app {
 
@@ -39,7 +39,7 @@ void Label(FloorCanvas& floor, PixelPoint at, const std::string& text, Rgb8 colo
   floor.canvas.Text({at.u - half, at.v - 7}, text, 2, colour);
 }
 
-void DrawLegend(FloorCanvas& floor, const bench::Episode& episode) {
+void DrawLegend(FloorCanvas& floor, const evaluation::Episode& episode) {
   double v = 6;
   const auto row = [&](Rgb8 colour, const std::string& text) {
     floor.canvas.Fill({6, v}, {static_cast<double>(28 + TextWidth(text, 2)), v + 18}, kWhite, 0.8);
@@ -57,7 +57,7 @@ void DrawLegend(FloorCanvas& floor, const bench::Episode& episode) {
 
 }  // namespace
 
-Result<void> EpisodePicture::OnStep(const bench::StepView& step) {
+Result<void> EpisodePicture::OnStep(const evaluation::StepView& step) {
   trajectory_.push_back({step.agent.p_world, step.trace.goal_index});
   std::vector<trace::CandidateTrace> frontiers;
   for (const trace::CandidateTrace& candidate : step.trace.candidates) {
@@ -67,13 +67,13 @@ Result<void> EpisodePicture::OnStep(const bench::StepView& step) {
   return {};
 }
 
-Result<void> EpisodePicture::OnStageEnd(const bench::StageRecord& stage) {
+Result<void> EpisodePicture::OnStageEnd(const evaluation::StageRecord& stage) {
   stages_.push_back(stage);
   return {};
 }
 
 Result<void> EpisodePicture::OnEpisodeEnd(const agent::Agent& state,
-                                          const bench::EpisodeRecord& /*record*/) {
+                                          const evaluation::EpisodeRecord& /*record*/) {
   using geometry::VoxelState;
   const double voxel_m = state.map().config().voxel_m;
   state.map().ForEach([&](const geometry::VoxelKey& key, const geometry::Voxel& voxel) {
@@ -99,7 +99,7 @@ void EpisodePicture::DrawMap(FloorCanvas& floor, int id) const {
 void EpisodePicture::DrawGoals(FloorCanvas& floor, int id) const {
   for (std::size_t k = 0; k < episode_.goals.size(); ++k) {
     const Rgb8 colour = ColourOf(static_cast<int>(k));
-    for (const bench::Target& target : context_.TargetsOf(episode_.goals[k])) {
+    for (const evaluation::Target& target : context_.TargetsOf(episode_.goals[k])) {
       const auto& floors = target.floors;
       if (std::find(floors.begin(), floors.end(), id) == floors.end()) continue;
       floor.canvas.Box(floor.At(target.box.min), floor.At(target.box.max), 3, colour);

@@ -6,21 +6,22 @@
 #include <filesystem>
 #include <vector>
 
-#include "crossnav/bench/runner.h"
+#include "crossnav/evaluation/running/runner.h"
 #include "crossnav/geometry/voxel_key.h"
 
 namespace crossnav::app {
 
 struct FloorCanvas;
 
-class EpisodePicture : public bench::RunObserver {
+class EpisodePicture : public evaluation::RunObserver {
  public:
-  EpisodePicture(const bench::SceneContext& context, const bench::Episode& episode)
+  EpisodePicture(const evaluation::SceneContext& context, const evaluation::Episode& episode)
       : context_(context), episode_(episode) {}
 
-  Result<void> OnStep(const bench::StepView& step) override;
-  Result<void> OnStageEnd(const bench::StageRecord& stage) override;
-  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord& record) override;
+  Result<void> OnStep(const evaluation::StepView& step) override;
+  Result<void> OnStageEnd(const evaluation::StageRecord& stage) override;
+  Result<void> OnEpisodeEnd(const agent::Agent& state,
+                            const evaluation::EpisodeRecord& record) override;
 
   /// Writes `<folder>/floor_<id>.png` for every floor; returns the paths.
   Result<std::vector<std::filesystem::path>> Write(const std::filesystem::path& folder) const;
@@ -34,12 +35,12 @@ class EpisodePicture : public bench::RunObserver {
   void DrawGoals(FloorCanvas& floor, int id) const;
   void DrawTrajectory(FloorCanvas& floor, int id) const;
 
-  const bench::SceneContext& context_;
-  const bench::Episode& episode_;
+  const evaluation::SceneContext& context_;
+  const evaluation::Episode& episode_;
   std::vector<Place> trajectory_;
   std::vector<trace::CandidateTrace> frontiers_;  ///< of the last step that had any
   std::vector<Vector3d> stairs_world_;            ///< centres of confirmed stair voxels
-  std::vector<bench::StageRecord> stages_;
+  std::vector<evaluation::StageRecord> stages_;
 };
 
 }  // namespace crossnav::app

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "crossnav/bench/episode_generator.h"
-#include "crossnav/bench/evaluation.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/generation/episode_generator.h"
+#include "crossnav/evaluation/running/evaluation.h"
 #include "eval_progress.h"
 #include "scene_list.h"
 #include "session.h"
@@ -24,14 +24,14 @@ struct Tally {
   std::vector<int> first_stage;
 };
 
-Tally Count(const bench::EpisodeFile& file) {
+Tally Count(const evaluation::EpisodeFile& file) {
   Tally tally;
-  for (const bench::Episode& episode : file.episodes) {
+  for (const evaluation::Episode& episode : file.episodes) {
     ++tally.episodes;
     tally.first_stage.resize(std::max(tally.first_stage.size(), episode.goals.size()));
     if (!episode.cross_floor_required) continue;
     ++tally.cross_floor;
-    tally.alternating += bench::Alternates(episode) ? 1 : 0;
+    tally.alternating += evaluation::Alternates(episode) ? 1 : 0;
     ++tally.first_stage[static_cast<std::size_t>(episode.first_transition_stage - 1)];
   }
   for (const auto& [key, goals] : file.goals_by_category) {
@@ -42,7 +42,7 @@ Tally Count(const bench::EpisodeFile& file) {
   return tally;
 }
 
-Result<void> CheckWishes(const EpisodesOptions& options, const bench::RunConfig& config) {
+Result<void> CheckWishes(const EpisodesOptions& options, const evaluation::RunConfig& config) {
   if (static_cast<int>(options.first.size()) > config.dataset.goals) {
     return Fail(ErrorCode::kInvalid, "names more stages than an episode has goals", "--first");
   }
@@ -56,22 +56,24 @@ Result<void> CheckWishes(const EpisodesOptions& options, const bench::RunConfig&
   return {};
 }
 
-Result<bench::EpisodeFile> Draw(const EpisodesOptions& options, const bench::RunConfig& config,
-                                const std::vector<std::string>& ids, Console& console) {
+Result<evaluation::EpisodeFile> Draw(const EpisodesOptions& options,
+                                     const evaluation::RunConfig& config,
+                                     const std::vector<std::string>& ids, Console& console) {
   CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(options.count));
-  bench::GeneratorOptions wishes{options.count, options.cross_floor, options.seed, options.first};
+  evaluation::GeneratorOptions wishes{options.count, options.cross_floor, options.seed,
+                                      options.first};
   wishes.alternating_share = options.alternate;
   wishes.drawn = [&](int done) { progress.Done(static_cast<std::size_t>(done)); };
   if (options.by_scene) {
     const auto load = [&](const std::string& id) {
-      return bench::SceneContext::Load(options.scenes, id, config);
+      return evaluation::SceneContext::Load(options.scenes, id, config);
     };
-    return bench::GenerateByScene(ids, load, config, wishes);
+    return evaluation::GenerateByScene(ids, load, config, wishes);
   }
   SceneCache cache(options.scenes, config);
   const auto scenes = cache.GetAll(ids, console);
   if (!scenes) return tl::unexpected(scenes.error());
-  return bench::GenerateEpisodes(*scenes, config, wishes);
+  return evaluation::GenerateEpisodes(*scenes, config, wishes);
 }
 
 /// The most memory that this process has used.
@@ -85,7 +87,7 @@ double PeakMegabytes() {
 
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
                               Console& console) {
-  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.out, "--out"); !ok) return ok;
   auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   if (options.goals > 0) config->dataset.goals = options.goals;
@@ -93,14 +95,14 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   if (!options.certify.empty()) config->dataset.certificate = options.certify;
   if (auto ok = CheckWishes(options, *config); !ok) return ok;
   const auto scenes = options.scene_list.empty()
-                          ? bench::ListScenes(options.scenes)
+                          ? evaluation::ListScenes(options.scenes)
                           : ReadSceneList(options.scene_list, options.scenes);
   if (!scenes) return tl::unexpected(scenes.error());
   auto file = Draw(options, *config, *scenes, console);
   if (!file) return tl::unexpected(file.error());
   console.EndProgress();
-  for (bench::Episode& episode : file->episodes) episode.track = options.track;
-  if (auto ok = bench::WriteEpisodes(options.out, *file); !ok) return ok;
+  for (evaluation::Episode& episode : file->episodes) episode.track = options.track;
+  if (auto ok = evaluation::WriteEpisodes(options.out, *file); !ok) return ok;
   const Tally tally = Count(*file);
   std::string stages;
   for (const int count : tally.first_stage)
@@ -132,7 +134,7 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
                            Console& console) {
   auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  const auto file = bench::ReadEpisodes(options.file);
+  const auto file = evaluation::ReadEpisodes(options.file);
   if (!file) return tl::unexpected(file.error());
   config->dataset.certificate = file->certificate_edition > 1 ? "detection" : "coverage";
   SceneCache cache(options.scenes, *config);
@@ -144,18 +146,18 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
   std::string scene_id;
   CountProgress progress(console, "episodes checked", file->episodes.size());
   std::size_t checked = 0;
-  for (const bench::Episode& episode : bench::GroupedByScene(file->episodes)) {
+  for (const evaluation::Episode& episode : evaluation::GroupedByScene(file->episodes)) {
     const auto context = cache.Get(episode.scene_id);
     std::vector<std::string> problems;
     if (context) {
-      problems = bench::CheckCertificate(**context, episode, *config);
+      problems = evaluation::CheckCertificate(**context, episode, *config);
     } else {
       problems = {context.error().Message()};
     }
     if (context && file->certificate_edition > 1 && scene_id != episode.scene_id) {
       for (const std::string& problem :
-           bench::CheckMarks(**context, episode.scene_id, file->goals_by_category))
-        fail(bench::SceneName(episode.scene_id), problem);
+           evaluation::CheckMarks(**context, episode.scene_id, file->goals_by_category))
+        fail(evaluation::SceneName(episode.scene_id), problem);
     }
     scene_id = episode.scene_id;
     for (const std::string& problem : problems) fail(episode.episode_id, problem);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "crossnav/bench/cause.h"
-#include "crossnav/bench/metrics_report.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/reporting/metrics_report.h"
+#include "crossnav/evaluation/scoring/cause.h"
 #include "eval_prepare.h"
 #include "eval_progress.h"
 #include "kept_replays.h"
@@ -16,7 +16,7 @@
 namespace crossnav::app {
 namespace {
 
-std::filesystem::path ResultPath(const std::string& out, const bench::Shard& shard) {
+std::filesystem::path ResultPath(const std::string& out, const evaluation::Shard& shard) {
   const std::string name = shard.count == 1
                                ? std::string("results.jsonl")
                                : fmt::format("results.{}-of-{}.jsonl", shard.index, shard.count);
@@ -24,18 +24,18 @@ std::filesystem::path ResultPath(const std::string& out, const bench::Shard& sha
 }
 
 struct RunSettings {
-  const bench::RunConfig& config;
+  const evaluation::RunConfig& config;
   const KeptReplays& replays;
   const PerceptionSource& perception;
   const KnownMemories& known;
 };
 
 /// Plays one episode in a worker.
-Result<bench::EpisodeRecord> Play(SceneCache& cache, const bench::Episode& episode,
-                                  const RunSettings& run, StepProgress* progress) {
+Result<evaluation::EpisodeRecord> Play(SceneCache& cache, const evaluation::Episode& episode,
+                                       const RunSettings& run, StepProgress* progress) {
   const auto context = cache.Get(episode.scene_id);
   if (!context) return tl::unexpected(context.error());
-  std::vector<bench::RunObserver*> observers;
+  std::vector<evaluation::RunObserver*> observers;
   if (progress != nullptr) observers.push_back(progress);
   const auto told = run.known.For(**context);
   if (!told) return tl::unexpected(told.error());
@@ -44,7 +44,7 @@ Result<bench::EpisodeRecord> Play(SceneCache& cache, const bench::Episode& episo
   if (!replay) return tl::unexpected(replay.error());
   if (*replay) observers.push_back(replay->get());
   auto record =
-      bench::RunEpisode(**context, episode, run.config, observers, run.perception.Maker());
+      evaluation::RunEpisode(**context, episode, run.config, observers, run.perception.Maker());
   if (*replay) {
     const auto closed = (*replay)->Close();  // of an episode that failed, too
     if (record && !closed) return tl::unexpected(closed.error());
@@ -53,29 +53,29 @@ Result<bench::EpisodeRecord> Play(SceneCache& cache, const bench::Episode& episo
 }
 
 /// Plays what is not in the file yet.
-Result<void> PlayAll(std::vector<bench::Episode> episodes, int jobs, SceneCache& cache,
-                     const RunSettings& run, bench::ResultWriter& writer, Console& console) {
+Result<void> PlayAll(std::vector<evaluation::Episode> episodes, int jobs, SceneCache& cache,
+                     const RunSettings& run, evaluation::ResultWriter& writer, Console& console) {
   EvalProgress shown(console, static_cast<int>(episodes.size()));
-  bench::Evaluation evaluation;
+  evaluation::Evaluation evaluation;
   evaluation.episodes = std::move(episodes);
   evaluation.jobs = jobs;
   evaluation.episode_seconds = run.config.eval.episode_seconds;
-  evaluation.play = [&](const bench::Episode& episode) {
+  evaluation.play = [&](const evaluation::Episode& episode) {
     StepProgress progress(console, episode, run.config);
     auto record = Play(cache, episode, run, jobs == 1 ? &progress : nullptr);
     console.EndProgress();
     return record;
   };
-  evaluation.finished = [&](const bench::EpisodeRecord& record) {
+  evaluation.finished = [&](const evaluation::EpisodeRecord& record) {
     run.replays.Finish(record);
-    for (const std::string& line : bench::CauseLines(record)) console.Log(line);
+    for (const std::string& line : evaluation::CauseLines(record)) console.Log(line);
     shown.Add(record);
   };
-  return bench::Evaluate(evaluation, writer);
+  return evaluation::Evaluate(evaluation, writer);
 }
 
 /// Of a suite: the files must be those of its manifest.
-Result<void> CheckHashes(const EvalOptions& options, const bench::RunHeader& header) {
+Result<void> CheckHashes(const EvalOptions& options, const evaluation::RunHeader& header) {
   const char* remedy = "; these are not the suite's files: remove its folder and make it anew";
   if (!options.episodes_hash.empty() && header.episodes_hash != options.episodes_hash) {
     return Fail(ErrorCode::kMismatch,
@@ -103,14 +103,15 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
   if (!config) return tl::unexpected(config.error());
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
-  const auto shard = bench::ParseShard(options.shard, "--shard");
+  const auto shard = evaluation::ParseShard(options.shard, "--shard");
   if (!shard) return tl::unexpected(shard.error());
   const auto path = ResultPath(options.out, *shard);
-  if (auto ok = bench::CheckOutputFile(path, "--out"); !ok) return ok;
-  const auto file = bench::ReadEpisodes(options.episodes);
+  if (auto ok = evaluation::CheckOutputFile(path, "--out"); !ok) return ok;
+  const auto file = evaluation::ReadEpisodes(options.episodes);
   if (!file) return tl::unexpected(file.error());
-  auto episodes = bench::ShardOf(bench::GroupedByScene(file->episodes), shard->index, shard->count);
-  bench::RunHeader header = MakeHeader(*config, options.variant, *file);
+  auto episodes =
+      evaluation::ShardOf(evaluation::GroupedByScene(file->episodes), shard->index, shard->count);
+  evaluation::RunHeader header = MakeHeader(*config, options.variant, *file);
   header.shard = options.shard;
   header.networks = perception->Hashes();
   const KeptReplays replays(options, *config, header);
@@ -123,10 +124,10 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) return Fail(ErrorCode::kIo, error.message(), options.out);
-  std::vector<bench::EpisodeRecord> finished;
-  auto writer = bench::ResultWriter::Open(path, header, finished);
+  std::vector<evaluation::EpisodeRecord> finished;
+  auto writer = evaluation::ResultWriter::Open(path, header, finished);
   if (!writer) return tl::unexpected(writer.error());
-  auto remaining = bench::Remaining(episodes, finished);
+  auto remaining = evaluation::Remaining(episodes, finished);
   if (!finished.empty()) {
     console.Log(fmt::format("{}: {} episodes are there, {} remain", path.string(), finished.size(),
                             remaining.size()));
@@ -138,10 +139,10 @@ Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Conso
       !ok) {
     return ok;
   }
-  const auto results = bench::ReadResults(path);
+  const auto results = evaluation::ReadResults(path);
   if (!results) return tl::unexpected(results.error());
-  console.Print(bench::MetricsText(results->episodes, {}) + path.string() + "\n");
-  if (console.json()) console.Document(bench::MetricsJson(results->episodes, {}));
+  console.Print(evaluation::MetricsText(results->episodes, {}) + path.string() + "\n");
+  if (console.json()) console.Document(evaluation::MetricsJson(results->episodes, {}));
   return {};
 }
 

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "crossnav/bench/worker_pool.h"
+#include "crossnav/evaluation/running/worker_pool.h"
 
 namespace crossnav::app {
 namespace {
@@ -16,7 +16,7 @@ struct SceneEpisodes {
   std::vector<std::size_t> indices;
 };
 
-std::vector<SceneEpisodes> ScenesOf(const std::vector<bench::Episode>& episodes) {
+std::vector<SceneEpisodes> ScenesOf(const std::vector<evaluation::Episode>& episodes) {
   std::vector<SceneEpisodes> scenes;
   for (std::size_t i = 0; i < episodes.size(); ++i) {
     if (scenes.empty() || scenes.back().scene_id != episodes[i].scene_id) {
@@ -29,30 +29,30 @@ std::vector<SceneEpisodes> ScenesOf(const std::vector<bench::Episode>& episodes)
 
 /// In a worker: mesh hash, navmesh hash, and the stage of the first transition of each episode.
 Result<std::string> CheckScene(SceneCache& cache, const SceneEpisodes& scene,
-                               const std::vector<bench::Episode>& episodes) {
+                               const std::vector<evaluation::Episode>& episodes) {
   const auto context = cache.Get(scene.scene_id);
   if (!context) {
     Error error = context.error();
     error.what = episodes[scene.indices.front()].where + ": scene_id: " + error.what;
     return tl::unexpected(error);
   }
-  const bench::SceneHashes hashes = HashesOf(**context);
+  const evaluation::SceneHashes hashes = HashesOf(**context);
   std::string text = hashes.mesh_hash + " " + hashes.navmesh_hash;
   for (const std::size_t i : scene.indices) {
-    const auto playable = bench::CheckPlayable(**context, episodes[i]);
+    const auto playable = evaluation::CheckPlayable(**context, episodes[i]);
     const bool fits = playable || playable.error().code != ErrorCode::kMismatch;
     if (!playable && fits) return tl::unexpected(playable.error());
-    bench::Episode certified = episodes[i];
-    if (fits && !certified.has_certificate) bench::Certify(**context, certified);
+    evaluation::Episode certified = episodes[i];
+    if (fits && !certified.has_certificate) evaluation::Certify(**context, certified);
     text += fmt::format(" {}", certified.first_transition_stage);
   }
   return text;
 }
 
 void Note(const std::string& text, const SceneEpisodes& scene,
-          std::vector<bench::Episode>& episodes, bench::RunHeader& header) {
+          std::vector<evaluation::Episode>& episodes, evaluation::RunHeader& header) {
   std::istringstream stream(text);
-  bench::SceneHashes& hashes = header.scenes[bench::SceneName(scene.scene_id)];
+  evaluation::SceneHashes& hashes = header.scenes[evaluation::SceneName(scene.scene_id)];
   stream >> hashes.mesh_hash >> hashes.navmesh_hash;
   for (const std::size_t i : scene.indices) {
     stream >> episodes[i].first_transition_stage;
@@ -62,30 +62,30 @@ void Note(const std::string& text, const SceneEpisodes& scene,
 
 }  // namespace
 
-Result<void> PrepareEval(SceneCache& cache, int jobs, std::vector<bench::Episode>& episodes,
-                         bench::RunHeader& header, Console& console) {
+Result<void> PrepareEval(SceneCache& cache, int jobs, std::vector<evaluation::Episode>& episodes,
+                         evaluation::RunHeader& header, Console& console) {
   const std::vector<SceneEpisodes> scenes = ScenesOf(episodes);
   std::map<int, Error> errors;
   int done = 0;
-  bench::PoolTask task;
+  evaluation::PoolTask task;
   task.count = static_cast<int>(scenes.size());
   task.jobs = jobs;
   task.work = [&](int item) {
     return CheckScene(cache, scenes[static_cast<std::size_t>(item)], episodes);
   };
-  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
+  task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
     const SceneEpisodes& scene = scenes[static_cast<std::size_t>(item)];
     console.Progress(fmt::format("checked scene {} of {}", ++done, scenes.size()));
-    if (answer.end == bench::ItemEnd::kDone) {
+    if (answer.end == evaluation::ItemEnd::kDone) {
       Note(answer.text, scene, episodes, header);
       return {};
     }
     Error error = answer.error;
-    if (answer.end == bench::ItemEnd::kCrash) error.where = scene.scene_id;
+    if (answer.end == evaluation::ItemEnd::kCrash) error.where = scene.scene_id;
     errors.emplace(item, std::move(error));
     return {};
   };
-  if (auto ok = bench::RunPool(task); !ok) return ok;
+  if (auto ok = evaluation::RunPool(task); !ok) return ok;
   console.EndProgress();
   if (!errors.empty()) return tl::unexpected(errors.begin()->second);  // whoever was first
   return {};

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "crossnav/bench/evaluation.h"
+#include "crossnav/evaluation/running/evaluation.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -12,7 +12,7 @@ namespace crossnav::app {
 /// Checks every episode in its scene, certifies those that come without a certificate, and notes
 /// the scenes' hashes in the header. Scenes are loaded by worker processes alone: a process with
 /// the ray caster's threads must not be forked.
-Result<void> PrepareEval(SceneCache& cache, int jobs, std::vector<bench::Episode>& episodes,
-                         bench::RunHeader& header, Console& console);
+Result<void> PrepareEval(SceneCache& cache, int jobs, std::vector<evaluation::Episode>& episodes,
+                         evaluation::RunHeader& header, Console& console);
 
 }  // namespace crossnav::app

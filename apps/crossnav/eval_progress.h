@@ -7,14 +7,14 @@
 #include <string>
 
 #include "console.h"
-#include "crossnav/bench/episode_record.h"
+#include "crossnav/evaluation/records/episode_record.h"
 
 namespace crossnav::app {
 
 class EvalProgress {
  public:
   EvalProgress(Console& console, int episodes);
-  void Add(const bench::EpisodeRecord& record);
+  void Add(const evaluation::EpisodeRecord& record);
 
  private:
   Console& console_;

@@ -3,7 +3,7 @@
 // in the colours of their categories.
 #pragma once
 
-#include "crossnav/sim/picture.h"
+#include "crossnav/sim/sensing/picture.h"
 #include "crossnav/world/house/house_file.h"
 
 namespace crossnav::app {

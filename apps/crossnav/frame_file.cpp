@@ -6,7 +6,7 @@
 #include "crossnav/core/read_file.h"
 #include "crossnav/recordings/depth_image.h"
 #include "crossnav/recordings/frames.h"
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/image_codec.h"
 
 namespace crossnav::app {
 namespace {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/result_records.h"
 #include "crossnav/core/write_file.h"
-#include "crossnav/sim/frame_places.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/sim/sensing/frame_places.h"
 #include "open_scene.h"
 
 namespace crossnav::app {
@@ -96,7 +96,7 @@ Json HeaderJson(const OpenScene& open, const FramesOptions& options, double hfov
   }
   return {{"format", 1},
           {"scene", open.scene->id},
-          {"mesh_hash", bench::HexHash(open.scene->mesh_hash)},
+          {"mesh_hash", evaluation::HexHash(open.scene->mesh_hash)},
           {"size_px", options.size_px},
           {"hfov_deg", hfov_deg},
           {"seed", options.seed},

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/graph_trials.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/trials/graph_trials.h"
 #include "graph_picture.h"
 
 namespace crossnav::app {
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json ScoreJson(const bench::GraphScore& score) {
+Json ScoreJson(const evaluation::GraphScore& score) {
   return {{"floors", score.floors},
           {"floors_found", score.floors_found},
           {"floors_wrong", score.floors_wrong},
@@ -25,7 +25,7 @@ Json ScoreJson(const bench::GraphScore& score) {
           {"rooms_f1", score.RoomsF1()}};
 }
 
-std::string Row(const std::string& name, const bench::GraphScore& score) {
+std::string Row(const std::string& name, const evaluation::GraphScore& score) {
   return fmt::format("| {} | {} of {}, {} more | {} of {}, {} more | {:.3f} |\n", name,
                      score.floors_found, score.floors, score.floors_wrong, score.rooms_found,
                      score.rooms, score.rooms_wrong, score.RoomsF1());
@@ -37,14 +37,14 @@ Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& c
                         Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  if (auto ok = bench::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
-  bench::GraphScore all;
+  if (auto ok = evaluation::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
+  evaluation::GraphScore all;
   std::string table = "| house | floors | rooms (IoU 0.5) | rooms F1 |\n|---|---|---|--:|\n";
   Json houses = Json::array();
   for (int i = 0; i < options.count; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
     console.Progress(fmt::format("house {} of {}", i + 1, options.count));
-    const auto trial = bench::TryGraph(seed, options.edition, *config);
+    const auto trial = evaluation::TryGraph(seed, options.edition, *config);
     if (!trial) return tl::unexpected(trial.error());
     all += trial->score;
     table += Row(trial->house, trial->score);

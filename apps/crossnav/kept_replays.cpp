@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "kept_replays.h"
 
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/result_records.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/records/result_records.h"
 
 namespace crossnav::app {
 
 namespace fs = std::filesystem;
 
-KeptReplays::KeptReplays(const EvalOptions& options, const bench::RunConfig& config,
-                         const bench::RunHeader& header)
+KeptReplays::KeptReplays(const EvalOptions& options, const evaluation::RunConfig& config,
+                         const evaluation::RunHeader& header)
     : config_(config), header_(header) {
   if (options.keep_replays == "failures") folder_ = fs::path(options.out) / "replays";
 }
 
 Result<void> KeptReplays::Check() const {
-  return bench::CheckOutputFolder(folder_, "--keep-replays");
+  return evaluation::CheckOutputFolder(folder_, "--keep-replays");
 }
 
-Result<std::unique_ptr<ReplayLog>> KeptReplays::Open(const bench::SceneContext& context,
-                                                     const bench::Episode& episode) const {
+Result<std::unique_ptr<ReplayLog>> KeptReplays::Open(const evaluation::SceneContext& context,
+                                                     const evaluation::Episode& episode) const {
   if (folder_.empty()) return std::unique_ptr<ReplayLog>();
   return ReplayLog::Open(context, episode, config_, header_, PathOf(episode.episode_id));
 }
 
-void KeptReplays::Finish(const bench::EpisodeRecord& record) const {
+void KeptReplays::Finish(const evaluation::EpisodeRecord& record) const {
   if (folder_.empty()) return;
   const fs::path path = PathOf(record.episode_id);
   fs::path unfinished = path;
@@ -39,7 +39,7 @@ void KeptReplays::Finish(const bench::EpisodeRecord& record) const {
 }
 
 fs::path KeptReplays::PathOf(const std::string& episode_id) const {
-  return folder_ / bench::ReplayName(episode_id);
+  return folder_ / evaluation::ReplayName(episode_id);
 }
 
 }  // namespace crossnav::app

@@ -13,24 +13,24 @@ namespace crossnav::app {
 
 class KeptReplays {
  public:
-  KeptReplays(const EvalOptions& options, const bench::RunConfig& config,
-              const bench::RunHeader& header);
+  KeptReplays(const EvalOptions& options, const evaluation::RunConfig& config,
+              const evaluation::RunHeader& header);
 
   /// Whether replays can be written; nothing to check where none is kept.
   Result<void> Check() const;
   /// In a worker, before the episode; null where none is kept.
-  Result<std::unique_ptr<ReplayLog>> Open(const bench::SceneContext& context,
-                                          const bench::Episode& episode) const;
+  Result<std::unique_ptr<ReplayLog>> Open(const evaluation::SceneContext& context,
+                                          const evaluation::Episode& episode) const;
   /// In the program, when the episode has its record: keeps or removes the replay. Of a worker that
   /// crashed or was killed it keeps what has reached the disk.
-  void Finish(const bench::EpisodeRecord& record) const;
+  void Finish(const evaluation::EpisodeRecord& record) const;
 
  private:
   std::filesystem::path PathOf(const std::string& episode_id) const;
 
   std::filesystem::path folder_;  // empty = none is kept
-  const bench::RunConfig& config_;
-  const bench::RunHeader& header_;
+  const evaluation::RunConfig& config_;
+  const evaluation::RunHeader& header_;
 };
 
 }  // namespace crossnav::app

@@ -10,7 +10,7 @@
 
 #include "canvas.h"
 #include "crossnav/core/categories.h"
-#include "crossnav/sim/picture.h"
+#include "crossnav/sim/sensing/picture.h"
 
 namespace crossnav::app {
 namespace {

@@ -29,7 +29,7 @@ struct MapAnswer {
   std::string text, json;
 };
 /// The places in `options.file` that answer `options.text`.
-Result<MapAnswer> AnswerQuery(const MapOptions& options, const bench::RunConfig& config,
+Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunConfig& config,
                               Console& console);
 
 }  // namespace crossnav::app

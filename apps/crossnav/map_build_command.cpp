@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/timing.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/running/timing.h"
 #include "crossnav/store/map_file.h"
 #include "eval_progress.h"
 #include "goal_sightings.h"
@@ -55,7 +55,8 @@ bool IsByNetworks(const MapBuildOptions& options) {
   return !options.goal.empty() || !options.networks.empty();
 }
 
-Result<bench::RunConfig> ConfigOf(const MapBuildOptions& options, const CommonOptions& common) {
+Result<evaluation::RunConfig> ConfigOf(const MapBuildOptions& options,
+                                       const CommonOptions& common) {
   CommonOptions all = common;
   if (IsByNetworks(options)) {
     all.overrides.push_back("eval.perception=networks");
@@ -70,7 +71,7 @@ Result<bench::RunConfig> ConfigOf(const MapBuildOptions& options, const CommonOp
 
 /// The file that is written when all is done: one that can be, and none but a map is replaced.
 Result<void> CheckOut(const std::string& out) {
-  if (auto ok = bench::CheckOutputFile(out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(out, "--out"); !ok) return ok;
   std::error_code error;
   if (!std::filesystem::exists(out, error)) return {};
   const auto header = store::ReadMapHeader(out);
@@ -81,14 +82,14 @@ Result<void> CheckOut(const std::string& out) {
 /// Map and memory while they grow.
 class Builder {
  public:
-  Builder(const bench::RunConfig& config, perception::PerceptionSuite* suite,
+  Builder(const evaluation::RunConfig& config, perception::PerceptionSuite* suite,
           GoalSightings* sightings, Console& console)
       : sightings_(sightings),
         encoder_(suite != nullptr ? suite->encoder.get() : nullptr),
         console_(console),
         map_(config.agent.map),
         memory_(config.agent.fusion, config.agent.map.voxel_m),
-        start_ms_(bench::WallMs()) {}
+        start_ms_(evaluation::WallMs()) {}
 
   Result<void> Add(const recordings::Recording& so_far, const recordings::RecordedFrame& frame) {
     const Observation& obs = frame.obs;
@@ -121,7 +122,7 @@ class Builder {
 
  private:
   void Show(const RecordingCounts& counts, double share) {
-    const double seconds = std::max(1e-3, (bench::WallMs() - start_ms_) * 1e-3);
+    const double seconds = std::max(1e-3, (evaluation::WallMs() - start_ms_) * 1e-3);
     console_.Progress(fmt::format("{} frames | {:.0f} % | {:.1f} per second | {} left",
                                   counts.frames, 100 * share,
                                   static_cast<double>(counts.frames) / seconds,

@@ -5,14 +5,14 @@
 
 #include "commands.h"
 #include "crossnav/agent/observation_place.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/result_records.h"
 #include "crossnav/core/write_file.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
-#include "crossnav/sim/ground_truth_encoder.h"
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/sensing/ground_truth_encoder.h"
+#include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
 #include "graph_picture.h"
@@ -30,7 +30,7 @@ Json PointJson(const Vector3d& p) {
   return Json::array({p.x(), p.y(), p.z()});
 }
 
-Result<store::LoadedMemory> Load(const MapOptions& options, const bench::RunConfig& config,
+Result<store::LoadedMemory> Load(const MapOptions& options, const evaluation::RunConfig& config,
                                  Console& console) {
   const auto header = store::ReadMapHeader(options.file);
   if (!header) return tl::unexpected(header.error());
@@ -66,7 +66,7 @@ struct TextVectors {
 
 /// The text in the space of `encoder`, and what it may be held against.
 Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::string& text,
-                               const bench::RunConfig& config) {
+                               const evaluation::RunConfig& config) {
   auto vector = encoder.EncodeText(text);
   if (!vector) return tl::unexpected(vector.error());
   if (config.agent.query.relevancy != "contrastive") return TextVectors{std::move(*vector), {}};
@@ -77,7 +77,7 @@ Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::str
 
 /// As ground truth would encode the text for features of `dim` numbers.
 Result<TextVectors> EncodeTruth(const MapOptions& options, int dim,
-                                const bench::RunConfig& config) {
+                                const evaluation::RunConfig& config) {
   const sim::Scene scene = TileScene();
   const auto navmesh = sim::NavMesh::Build(scene, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
@@ -97,7 +97,7 @@ Result<TextVectors> EncodeTruth(const MapOptions& options, int dim,
 }
 
 Result<TextVectors> EncodeText(const MapOptions& options, const store::MapHeader& header,
-                               const bench::RunConfig& config) {
+                               const evaluation::RunConfig& config) {
   if (header.feature_dim == 0)
     return Fail(ErrorCode::kInvalid, "this map holds no features to query", options.file);
   const auto source = PerceptionSource::Read(config);
@@ -199,7 +199,7 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
 /// The places of `category` that match as well as what is present; all of them where that was never
 /// measured for the map's encoder.
 Result<void> AddObjects(const MapOptions& options, const std::string& category,
-                        const store::LoadedMemory& loaded, const bench::RunConfig& config,
+                        const store::LoadedMemory& loaded, const evaluation::RunConfig& config,
                         scenegraph::SceneGraph& graph) {
   MapOptions asked = options;
   asked.text = category;
@@ -230,9 +230,9 @@ Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Co
   const bool is_xml = options.out.ends_with(".graphml");
   if (!is_xml && !options.out.ends_with(".json"))
     return Fail(ErrorCode::kUnsupported, "a graph is written as .json or .graphml", "--to");
-  if (auto ok = bench::CheckOutputFile(options.out, "--to"); !ok) return ok;
-  if (auto ok = bench::CheckNotInput(options.out, "--to", options.file); !ok) return ok;
-  if (auto ok = bench::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.out, "--to"); !ok) return ok;
+  if (auto ok = evaluation::CheckNotInput(options.out, "--to", options.file); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto loaded = Load(options, *config, console);
@@ -279,14 +279,14 @@ Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Con
                          {"dropped_rows", header.dropped_rows},
                          {"memory_bytes", loaded->memory.Bytes()},
                          {"encoder_name", header.encoder_name},
-                         {"encoder_hash", bench::HexHash(header.encoder_hash)},
+                         {"encoder_hash", evaluation::HexHash(header.encoder_hash)},
                          {"frame", header.frame},
                          {"flights", FlightsJson(loaded->flights)},
                          {"damaged", loaded->damaged}}));
   return {};
 }
 
-Result<MapAnswer> AnswerQuery(const MapOptions& options, const bench::RunConfig& config,
+Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunConfig& config,
                               Console& console) {
   const auto loaded = Load(options, config, console);
   if (!loaded) return tl::unexpected(loaded.error());
@@ -336,8 +336,8 @@ Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Co
 }
 
 Result<void> MapExport(const MapOptions& options, const CommonOptions& common, Console& console) {
-  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
-  if (auto ok = bench::CheckNotInput(options.out, "--out", options.file); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckNotInput(options.out, "--out", options.file); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto loaded = Load(options, *config, console);

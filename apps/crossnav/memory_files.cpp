@@ -3,13 +3,13 @@
 
 #include <unistd.h>
 
-#include "crossnav/bench/config_file.h"
-#include "crossnav/bench/result_records.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/evaluation/settings/config_file.h"
 #include "session.h"
 
 namespace crossnav::app {
 
-Result<void> RestoreMemory(const std::filesystem::path& path, const bench::RunConfig& config,
+Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::RunConfig& config,
                            const std::string& encoder, agent::Agent& agent) {
   const auto header = store::ReadMapHeader(path);
   if (!header) return tl::unexpected(header.error());
@@ -33,15 +33,16 @@ Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::fil
   return store::SaveMemory(path, agent.map(), agent.memory(), info);
 }
 
-Result<std::unique_ptr<MemoryLoader>> KnownMemories::For(const bench::SceneContext& context) const {
+Result<std::unique_ptr<MemoryLoader>> KnownMemories::For(
+    const evaluation::SceneContext& context) const {
   namespace fs = std::filesystem;
   if (!IsOn()) return std::unique_ptr<MemoryLoader>();
   const fs::path path =
-      folder_ / (context.scene().id + "-" + bench::ConfigHash(config_).substr(0, 8) + "-" +
-                 bench::HexHash(context.scene().mesh_hash).substr(0, 8) + ".map");
+      folder_ / (context.scene().id + "-" + evaluation::ConfigHash(config_).substr(0, 8) + "-" +
+                 evaluation::HexHash(context.scene().mesh_hash).substr(0, 8) + ".map");
   std::error_code error;
   if (!fs::exists(path, error)) {
-    auto survey = bench::SurveyScene(context, config_, known_);
+    auto survey = evaluation::SurveyScene(context, config_, known_);
     if (!survey) return tl::unexpected(survey.error());
     fs::create_directories(folder_, error);
     fs::path part = path;

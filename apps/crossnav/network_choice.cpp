@@ -3,15 +3,16 @@
 
 #include <fmt/format.h>
 
-#include "crossnav/networks/presets.h"
+#include "crossnav/inference/presets.h"
 #include "perception_source.h"
 
 namespace crossnav::app {
 
-Result<bench::RunConfig> LoadWithNetworks(const CommonOptions& common, const std::string& preset,
-                                          const std::vector<std::filesystem::path>& file_dirs) {
+Result<evaluation::RunConfig> LoadWithNetworks(
+    const CommonOptions& common, const std::string& preset,
+    const std::vector<std::filesystem::path>& file_dirs) {
   CommonOptions all = common;
-  const networks::Preset* asked = networks::FindPreset(preset);
+  const inference::Preset* asked = inference::FindPreset(preset);
   if (asked != nullptr)
     all.overrides.insert(all.overrides.begin(),
                          {fmt::format("networks.detector=\"{}\"", asked->detector),
@@ -21,25 +22,25 @@ Result<bench::RunConfig> LoadWithNetworks(const CommonOptions& common, const std
   auto config = LoadConfig(all);
   if (!config) return config;
   const auto dir = NetworksDir(*config);
-  if (asked != nullptr && networks::IsSame(*asked, config->networks)) {
-    if (const auto missing = networks::MissingFile(*asked, dir, file_dirs))
+  if (asked != nullptr && inference::IsSame(*asked, config->networks)) {
+    if (const auto missing = inference::MissingFile(*asked, dir, file_dirs))
       return Fail(ErrorCode::kNotFound,
                   fmt::format("is not there, and --networks {} needs it: put it there, or name its "
                               "folder in CROSSNAV_NETWORKS; --networks own does without",
                               preset),
                   missing->string());
   }
-  const networks::Preset& real = *networks::FindPreset("real");
-  const bool is_default = networks::IsSame(*networks::FindPreset("own"), config->networks);
-  if (asked == nullptr && is_default && !networks::MissingFile(real, dir, file_dirs))
-    networks::Apply(real, config->networks);
+  const inference::Preset& real = *inference::FindPreset("real");
+  const bool is_default = inference::IsSame(*inference::FindPreset("own"), config->networks);
+  if (asked == nullptr && is_default && !inference::MissingFile(real, dir, file_dirs))
+    inference::Apply(real, config->networks);
   return config;
 }
 
-std::string NetworksText(const networks::NetworksConfig& config) {
+std::string NetworksText(const inference::NetworksConfig& config) {
   std::string name = "of the settings";
-  for (const networks::Preset& preset : networks::Presets())
-    if (networks::IsSame(preset, config)) name = preset.name;
+  for (const inference::Preset& preset : inference::Presets())
+    if (inference::IsSame(preset, config)) name = preset.name;
   return fmt::format("networks: {} (boxes {}, masks {}, stairs {}, features {})", name,
                      config.detector, config.segmenter, config.stairs, config.encoder);
 }

@@ -17,10 +17,11 @@ inline constexpr const char* kNetworksHelp =
 /// The settings of `common` with the networks of `preset`. Overrides of `common` win. Empty: `real`
 /// where no setting names a network and its files are there. `file_dirs` as in NetworkSet::Read.
 /// Error: a file of the preset that is not there.
-Result<bench::RunConfig> LoadWithNetworks(const CommonOptions& common, const std::string& preset,
-                                          const std::vector<std::filesystem::path>& file_dirs = {});
+Result<evaluation::RunConfig> LoadWithNetworks(
+    const CommonOptions& common, const std::string& preset,
+    const std::vector<std::filesystem::path>& file_dirs = {});
 
 /// "networks: real (boxes deimv2_femto_coco, ...)".
-std::string NetworksText(const networks::NetworksConfig& config);
+std::string NetworksText(const inference::NetworksConfig& config);
 
 }  // namespace crossnav::app

@@ -10,12 +10,12 @@
 #include <span>
 
 #include "commands.h"
-#include "crossnav/bench/output_path.h"
 #include "crossnav/core/categories.h"
-#include "crossnav/networks/boxes.h"
-#include "crossnav/networks/presets.h"
-#include "crossnav/networks/suite.h"
-#include "crossnav/sim/picture.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/inference/boxes.h"
+#include "crossnav/inference/presets.h"
+#include "crossnav/inference/suite.h"
+#include "crossnav/sim/sensing/picture.h"
 #include "frame_file.h"
 #include "look_panel.h"
 #include "perception_source.h"
@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 
 /// The cards that were asked for, as names in the folder or as paths; all where none was.
 Result<std::vector<fs::path>> CardsOf(const NetworksOptions& options,
-                                      const bench::RunConfig& config) {
+                                      const evaluation::RunConfig& config) {
   const fs::path dir = NetworksDir(config);
-  if (options.cards.empty()) return networks::ListCards(dir);
+  if (options.cards.empty()) return inference::ListCards(dir);
   std::vector<fs::path> cards;
   for (const std::string& name : options.cards) {
     const fs::path path = name;
@@ -49,21 +49,21 @@ struct Entry {
 Entry EntryOf(const fs::path& path) {
   Entry entry;
   entry.name = path.stem().string();
-  auto card = networks::ReadModelCard(path);
+  auto card = inference::ReadModelCard(path);
   if (!card) {
     entry.error = card.error().Message();
     return entry;
   }
   entry.family = card->family;
   entry.licence = card->licence;
-  const auto family = networks::FamilyOf(*card);
+  const auto family = inference::FamilyOf(*card);
   if (!family) {
     entry.error = family.error().Message();
     return entry;
   }
   entry.parts = (*family)->parts;
-  networks::FindFile(*card);
-  const auto bytes = networks::ReadNetworkFile(*card);
+  inference::FindFile(*card);
+  const auto bytes = inference::ReadNetworkFile(*card);
   entry.is_there = bytes.has_value();
   if (!bytes) entry.error = bytes.error().Message();
   return entry;
@@ -71,7 +71,7 @@ Entry EntryOf(const fs::path& path) {
 
 Json BackendsJson() {
   Json json = Json::array();
-  for (const networks::Backend& backend : networks::Backends())
+  for (const inference::Backend& backend : inference::Backends())
     json.push_back({{"name", backend.name},
                     {"found", backend.is_available},
                     {"version", backend.version},
@@ -91,9 +91,9 @@ Observation PlainFrame(const SensorConfig& sensor) {
 }
 
 /// Names a network for every part that it has, and none for the others.
-networks::NetworksConfig Alone(const networks::NetworksConfig& base, const std::string& name,
-                               const std::string& parts) {
-  networks::NetworksConfig config = base;
+inference::NetworksConfig Alone(const inference::NetworksConfig& base, const std::string& name,
+                                const std::string& parts) {
+  inference::NetworksConfig config = base;
   const auto has = [&](const char* part) {
     return (" " + parts + " ").find(std::string(" ") + part + " ") != std::string::npos;
   };
@@ -141,9 +141,10 @@ Result<Look> LookAt(const perception::PerceptionSuite& suite, const Observation&
 }
 
 /// Milliseconds of the second of two looks: the first one allocates.
-Result<double> TimeOf(const fs::path& path, const Entry& entry, const bench::RunConfig& config) {
+Result<double> TimeOf(const fs::path& path, const Entry& entry,
+                      const evaluation::RunConfig& config) {
   const auto settings = Alone(config.networks, path.string(), entry.parts);
-  auto set = networks::NetworkSet::Read(settings, path.parent_path());
+  auto set = inference::NetworkSet::Read(settings, path.parent_path());
   if (!set) return tl::unexpected(set.error());
   const auto suite = set->MakeSuite(config.agent.sensor.camera_height_m);
   if (!suite) return tl::unexpected(suite.error());
@@ -209,13 +210,13 @@ Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& c
                         e.error.empty() ? "found" : e.error);
   }
   Json presets = Json::array();
-  for (const networks::Preset& preset : networks::Presets()) {
-    const auto missing = networks::MissingFile(preset, NetworksDir(*config));
+  for (const inference::Preset& preset : inference::Presets()) {
+    const auto missing = inference::MissingFile(preset, NetworksDir(*config));
     presets.push_back({{"name", preset.name}, {"what", preset.what}, {"found", !missing}});
     text += fmt::format("  --networks {:<13} {}{}\n", preset.name, preset.what,
                         missing ? "; " + missing->string() + " is not there" : "");
   }
-  for (const networks::Backend& backend : networks::Backends())
+  for (const inference::Backend& backend : inference::Backends())
     text += backend.is_available
                 ? fmt::format("{}: {} ({})\n", backend.name, backend.version,
                               fmt::join(backend.providers, ", "))
@@ -263,11 +264,11 @@ Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& c
                           Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
-  if (auto ok = bench::CheckNotInput(options.out, "--out", options.image); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckNotInput(options.out, "--out", options.image); !ok) return ok;
   const auto obs = ReadFrame(options.image, options.depth, config->agent.sensor);
   if (!obs) return tl::unexpected(obs.error());
-  networks::NetworksConfig settings = config->networks;
+  inference::NetworksConfig settings = config->networks;
   if (!options.network.empty()) {
     NetworksOptions one;
     one.cards = {options.network};
@@ -276,7 +277,7 @@ Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& c
     if (!entry.error.empty()) return Fail(ErrorCode::kInvalid, entry.error);
     settings = Alone(settings, path->front().string(), entry.parts);
   }
-  auto set = networks::NetworkSet::Read(settings, NetworksDir(*config));
+  auto set = inference::NetworkSet::Read(settings, NetworksDir(*config));
   if (!set) return tl::unexpected(set.error());
   const auto suite = set->MakeSuite(config->agent.sensor.camera_height_m);
   if (!suite) return tl::unexpected(suite.error());

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "crossnav/bench/config_file.h"
-#include "crossnav/bench/evaluation.h"
-#include "crossnav/bench/gzip_file.h"
-#include "crossnav/bench/map_error.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/worker_pool.h"
 #include "crossnav/core/read_file.h"
+#include "crossnav/evaluation/files/gzip_file.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/running/evaluation.h"
+#include "crossnav/evaluation/running/worker_pool.h"
+#include "crossnav/evaluation/scoring/map_error.h"
+#include "crossnav/evaluation/settings/config_file.h"
 #include "perception_source.h"
 #include "session.h"
 
@@ -48,7 +48,7 @@ const std::vector<Kind>& Kinds() {
 
 struct Case {
   std::string kind, value;  ///< "none" and nothing for the perfect sensors
-  bench::RunConfig config;
+  evaluation::RunConfig config;
 };
 
 /// What the episodes of a case amount to.
@@ -88,8 +88,8 @@ Result<std::vector<Case>> CasesOf(const NoiseSweepOptions& options, const Common
 }
 
 /// `count` episodes, spread evenly over the file.
-std::vector<bench::Episode> Chosen(const std::vector<bench::Episode>& all, int count) {
-  std::vector<bench::Episode> chosen;
+std::vector<evaluation::Episode> Chosen(const std::vector<evaluation::Episode>& all, int count) {
+  std::vector<evaluation::Episode> chosen;
   const auto size = static_cast<std::int64_t>(all.size());
   const std::int64_t wanted = std::min<std::int64_t>(count, size);
   for (std::int64_t i = 0; i < wanted; ++i) {
@@ -99,34 +99,35 @@ std::vector<bench::Episode> Chosen(const std::vector<bench::Episode>& all, int c
 }
 
 /// Measures the map when the episode is over.
-class MapMeasure : public bench::RunObserver {
+class MapMeasure : public evaluation::RunObserver {
  public:
-  explicit MapMeasure(const bench::SceneContext& context) : context_(context) {}
-  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord&) override {
-    error_ = bench::MeasureMapError(state.map(), context_.caster());
+  explicit MapMeasure(const evaluation::SceneContext& context) : context_(context) {}
+  Result<void> OnEpisodeEnd(const agent::Agent& state, const evaluation::EpisodeRecord&) override {
+    error_ = evaluation::MeasureMapError(state.map(), context_.caster());
     return {};
   }
-  const bench::MapError& error() const { return error_; }
+  const evaluation::MapError& error() const { return error_; }
 
  private:
-  const bench::SceneContext& context_;
-  bench::MapError error_;
+  const evaluation::SceneContext& context_;
+  evaluation::MapError error_;
 };
 
 /// In a worker: the map's error, and on the next line the record.
-Result<std::string> Play(SceneCache& cache, const bench::Episode& episode,
-                         const bench::RunConfig& config, const PerceptionSource& perception) {
+Result<std::string> Play(SceneCache& cache, const evaluation::Episode& episode,
+                         const evaluation::RunConfig& config, const PerceptionSource& perception) {
   const auto context = cache.Get(episode.scene_id);
   if (!context) return tl::unexpected(context.error());
   MapMeasure measure(**context);
-  const std::vector<bench::RunObserver*> observers = {&measure};
-  const auto record = bench::RunEpisode(**context, episode, config, observers, perception.Maker());
+  const std::vector<evaluation::RunObserver*> observers = {&measure};
+  const auto record =
+      evaluation::RunEpisode(**context, episode, config, observers, perception.Maker());
   if (!record) return tl::unexpected(record.error());
   return fmt::format("{} {}\n", measure.error().mean_m, measure.error().stray_share) +
-         bench::ToJsonLine(*record);
+         evaluation::ToJsonLine(*record);
 }
 
-void AddEpisode(const bench::Episode& episode, const std::string& text, Sum& sum) {
+void AddEpisode(const evaluation::Episode& episode, const std::string& text, Sum& sum) {
   ++sum.episodes;
   sum.goals += static_cast<int>(episode.goals.size());
   sum.floor_change += episode.cross_floor_required ? 1 : 0;
@@ -134,7 +135,7 @@ void AddEpisode(const bench::Episode& episode, const std::string& text, Sum& sum
   if (end == std::string::npos) return;  // without a result: not successful
   double map_m = 0, stray_share = 0;
   std::istringstream(text) >> map_m >> stray_share;
-  const auto record = bench::EpisodeFromJsonLine(text.substr(end + 1), episode.episode_id);
+  const auto record = evaluation::EpisodeFromJsonLine(text.substr(end + 1), episode.episode_id);
   if (!record) return;
   ++sum.measured;
   sum.map_m += map_m;
@@ -148,25 +149,26 @@ void AddEpisode(const bench::Episode& episode, const std::string& text, Sum& sum
 }
 
 /// All episodes under one case.
-Result<Sum> PlayAll(SceneCache& cache, const std::vector<bench::Episode>& episodes, const Case& one,
-                    int jobs, const PerceptionSource& perception, Console& console) {
+Result<Sum> PlayAll(SceneCache& cache, const std::vector<evaluation::Episode>& episodes,
+                    const Case& one, int jobs, const PerceptionSource& perception,
+                    Console& console) {
   Sum sum;
-  bench::PoolTask task;
+  evaluation::PoolTask task;
   task.count = static_cast<int>(episodes.size());
   task.jobs = jobs;
   task.item_seconds = one.config.eval.episode_seconds;
-  const auto episode_of = [&](int item) -> const bench::Episode& {
+  const auto episode_of = [&](int item) -> const evaluation::Episode& {
     return episodes[static_cast<std::size_t>(item)];
   };
   task.work = [&](int item) { return Play(cache, episode_of(item), one.config, perception); };
-  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
-    if (answer.end == bench::ItemEnd::kError) return tl::unexpected(answer.error);
+  task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
+    if (answer.end == evaluation::ItemEnd::kError) return tl::unexpected(answer.error);
     AddEpisode(episode_of(item), answer.text, sum);
     console.Progress(
         fmt::format("{} {}: {} of {} episodes", one.kind, one.value, sum.episodes, task.count));
     return {};
   };
-  if (auto ok = bench::RunPool(task); !ok) return tl::unexpected(ok.error());
+  if (auto ok = evaluation::RunPool(task); !ok) return tl::unexpected(ok.error());
   console.EndProgress();
   return sum;
 }
@@ -175,7 +177,7 @@ Json RowOf(const Case& one, const Sum& sum) {
   const double measured = std::max(1, sum.measured);
   return {{"kind", one.kind},
           {"value", one.value},
-          {"settings", bench::ConfigHash(one.config)},
+          {"settings", evaluation::ConfigHash(one.config)},
           {"episodes", sum.episodes},
           {"complete", sum.complete},
           {"floor_change", sum.floor_change},
@@ -203,9 +205,10 @@ std::string LineOf(const Json& row) {
 }
 
 /// What a sweep leaves, row by row, so that one that was cut off goes on.
-Json DocumentOf(const bench::EpisodeFile& file, std::size_t episodes, const Json& rows) {
-  return {
-      {"episodes_hash", bench::HexHash(file.content_hash)}, {"episodes", episodes}, {"rows", rows}};
+Json DocumentOf(const evaluation::EpisodeFile& file, std::size_t episodes, const Json& rows) {
+  return {{"episodes_hash", evaluation::HexHash(file.content_hash)},
+          {"episodes", episodes},
+          {"rows", rows}};
 }
 
 /// The row of `one` in the document of an earlier sweep over the same episodes; null without.
@@ -235,14 +238,14 @@ std::vector<std::string> NoiseKinds() {
 
 Result<void> BenchNoise(const NoiseSweepOptions& options, const CommonOptions& common,
                         Console& console) {
-  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.out, "--out"); !ok) return ok;
   const auto cases = CasesOf(options, common);
   if (!cases) return tl::unexpected(cases.error());
   const auto perception = PerceptionSource::Read(cases->front().config);
   if (!perception) return tl::unexpected(perception.error());
-  const auto file = bench::ReadEpisodes(options.episodes);
+  const auto file = evaluation::ReadEpisodes(options.episodes);
   if (!file) return tl::unexpected(file.error());
-  const auto episodes = Chosen(bench::GroupedByScene(file->episodes), options.count);
+  const auto episodes = Chosen(evaluation::GroupedByScene(file->episodes), options.count);
   if (episodes.empty()) return Fail(ErrorCode::kInvalid, "holds no episode", options.episodes);
   SceneCache cache(options.scenes, cases->front().config);
   Json earlier;
@@ -261,7 +264,7 @@ Result<void> BenchNoise(const NoiseSweepOptions& options, const CommonOptions& c
     rows.push_back(std::move(row));
     if (options.out.empty()) continue;
     const Json document = DocumentOf(*file, episodes.size(), rows);
-    if (auto ok = bench::WriteTextFile(options.out, document.dump(1) + "\n"); !ok) return ok;
+    if (auto ok = evaluation::WriteTextFile(options.out, document.dump(1) + "\n"); !ok) return ok;
   }
   console.Document(DocumentOf(*file, episodes.size(), rows));
   return {};

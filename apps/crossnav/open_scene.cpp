@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
 
 namespace crossnav::app {
 
-Result<OpenScene> OpenSceneFolder(const std::string& folder, const bench::RunConfig& config,
+Result<OpenScene> OpenSceneFolder(const std::string& folder, const evaluation::RunConfig& config,
                                   Console& console) {
   auto scene = sim::LoadScene(folder);
   if (!scene) return tl::unexpected(scene.error());
@@ -24,7 +24,7 @@ Result<OpenScene> OpenSceneFolder(const std::string& folder, const bench::RunCon
 
 Result<SceneJob> OpenSceneJob(const std::string& folder, const std::string& out,
                               const CommonOptions& common, Console& console) {
-  if (auto ok = bench::CheckOutputFolder(out, "--out"); !ok) return tl::unexpected(ok.error());
+  if (auto ok = evaluation::CheckOutputFolder(out, "--out"); !ok) return tl::unexpected(ok.error());
   auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   auto open = OpenSceneFolder(folder, *config, console);

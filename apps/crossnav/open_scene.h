@@ -6,9 +6,9 @@
 #include <string>
 
 #include "commands.h"
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::app {
 
@@ -19,11 +19,11 @@ struct OpenScene {
 };
 
 /// Reads `folder`; what the reader left out goes to the log.
-Result<OpenScene> OpenSceneFolder(const std::string& folder, const bench::RunConfig& config,
+Result<OpenScene> OpenSceneFolder(const std::string& folder, const evaluation::RunConfig& config,
                                   Console& console);
 
 struct SceneJob {
-  bench::RunConfig config;
+  evaluation::RunConfig config;
   OpenScene open;
 };
 

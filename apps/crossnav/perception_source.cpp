@@ -4,13 +4,13 @@
 #include <array>
 #include <system_error>
 
-#include "crossnav/sim/ground_truth.h"
+#include "crossnav/sim/sensing/ground_truth.h"
 
 namespace crossnav::app {
 
 namespace fs = std::filesystem;
 
-fs::path NetworksDir(const bench::RunConfig& config) {
+fs::path NetworksDir(const evaluation::RunConfig& config) {
   if (!config.networks.dir.empty()) return config.networks.dir;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -22,18 +22,18 @@ fs::path NetworksDir(const bench::RunConfig& config) {
   return places.back();
 }
 
-Result<PerceptionSource> PerceptionSource::Read(const bench::RunConfig& config,
+Result<PerceptionSource> PerceptionSource::Read(const evaluation::RunConfig& config,
                                                 const std::vector<fs::path>& file_dirs) {
   PerceptionSource source(config);
   if (config.eval.perception == "oracle") return source;
-  auto set = networks::NetworkSet::Read(config.networks, NetworksDir(config), file_dirs);
+  auto set = inference::NetworkSet::Read(config.networks, NetworksDir(config), file_dirs);
   if (!set) return tl::unexpected(set.error());
   if (auto ok = set->IsComplete(); !ok) return tl::unexpected(ok.error());
-  source.networks_ = std::make_shared<networks::NetworkSet>(std::move(*set));
+  source.networks_ = std::make_shared<inference::NetworkSet>(std::move(*set));
   return source;
 }
 
-bench::MakePerception PerceptionSource::Maker() const {
+evaluation::MakePerception PerceptionSource::Maker() const {
   if (!networks_) return {};
   return [set = networks_, height_m = config_->agent.sensor.camera_height_m](
              const sim::Simulator&) { return set->MakeSuite(height_m); };

@@ -10,24 +10,24 @@
 #include <string>
 #include <vector>
 
-#include "crossnav/bench/run_config.h"
-#include "crossnav/bench/runner.h"
-#include "crossnav/networks/suite.h"
+#include "crossnav/evaluation/running/runner.h"
+#include "crossnav/evaluation/settings/run_config.h"
+#include "crossnav/inference/suite.h"
 
 namespace crossnav::app {
 
 /// networks.dir, or the folder `networks` that lies beside the program's source or installation.
-std::filesystem::path NetworksDir(const bench::RunConfig& config);
+std::filesystem::path NetworksDir(const evaluation::RunConfig& config);
 
 class PerceptionSource {
  public:
   /// Reads cards and hashes files where networks are asked for; opens none, so that processes can
   /// be forked afterwards. `config` must outlive it; `file_dirs` as in NetworkSet::Read.
-  static Result<PerceptionSource> Read(const bench::RunConfig& config,
+  static Result<PerceptionSource> Read(const evaluation::RunConfig& config,
                                        const std::vector<std::filesystem::path>& file_dirs = {});
 
   /// For RunEpisode.
-  bench::MakePerception Maker() const;
+  evaluation::MakePerception Maker() const;
   /// The networks that answer; nothing where ground truth does.
   std::optional<Result<perception::PerceptionSuite>> MakeSuite() const;
   /// SHA-256 of the networks' files by name; none for ground truth.
@@ -36,9 +36,9 @@ class PerceptionSource {
   std::string EncoderName() const;
 
  private:
-  explicit PerceptionSource(const bench::RunConfig& config) : config_(&config) {}
-  const bench::RunConfig* config_;
-  std::shared_ptr<networks::NetworkSet> networks_;  // null = ground truth
+  explicit PerceptionSource(const evaluation::RunConfig& config) : config_(&config) {}
+  const evaluation::RunConfig* config_;
+  std::shared_ptr<inference::NetworkSet> networks_;  // null = ground truth
 };
 
 }  // namespace crossnav::app

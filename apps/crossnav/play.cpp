@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/gzip_file.h"
-#include "crossnav/bench/metrics_report.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/runner.h"
+#include "crossnav/evaluation/files/gzip_file.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/reporting/metrics_report.h"
+#include "crossnav/evaluation/running/runner.h"
 #include "crossnav/trace/replay_page.h"
 #include "crossnav/trace/trace_json.h"
 #include "episode_picture.h"
@@ -22,9 +22,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Keeps the step records, one JSON line each; voxel changes are in the replay.
-class TraceLog : public bench::RunObserver {
+class TraceLog : public evaluation::RunObserver {
  public:
-  Result<void> OnStep(const bench::StepView& step) override {
+  Result<void> OnStep(const evaluation::StepView& step) override {
     text_ += trace::ToJson(step.trace, trace::VoxelText::kOmit) + "\n";
     return {};
   }
@@ -39,12 +39,12 @@ struct MemorySummary {
 };
 
 /// Looks at the memory when the episode is over, and saves it where that was asked for.
-class MapLog : public bench::RunObserver {
+class MapLog : public evaluation::RunObserver {
  public:
   MapLog(std::filesystem::path path, std::string frame, std::string encoder)
       : path_(std::move(path)), frame_(std::move(frame)), encoder_(std::move(encoder)) {}
 
-  Result<void> OnEpisodeEnd(const agent::Agent& state, const bench::EpisodeRecord&) override {
+  Result<void> OnEpisodeEnd(const agent::Agent& state, const evaluation::EpisodeRecord&) override {
     const memory::MemoryCounters counters = state.memory().Counters();
     summary_ = {state.memory().Size(), counters.compacted_rows, counters.dropped_rows,
                 state.memory().Bytes()};
@@ -64,19 +64,21 @@ class MapLog : public bench::RunObserver {
 /// Everything that was written, by what it is.
 using Written = std::vector<std::pair<std::string, std::string>>;
 
-Result<Written> WriteFiles(const bench::EpisodeRecord& record, const bench::RunHeader& header,
-                           const PlayFiles& files, const EpisodePicture& picture,
-                           const TraceLog& trace) {
+Result<Written> WriteFiles(const evaluation::EpisodeRecord& record,
+                           const evaluation::RunHeader& header, const PlayFiles& files,
+                           const EpisodePicture& picture, const TraceLog& trace) {
   Written written;
   const auto add = [&](const char* what, const std::filesystem::path& path) {
     written.emplace_back(what, path.string());
   };
   const auto results = files.folder / "results.jsonl";
-  const std::string lines = bench::ToJsonLine(header) + "\n" + bench::ToJsonLine(record) + "\n";
-  if (auto ok = bench::WriteTextFile(results, lines); !ok) return tl::unexpected(ok.error());
+  const std::string lines =
+      evaluation::ToJsonLine(header) + "\n" + evaluation::ToJsonLine(record) + "\n";
+  if (auto ok = evaluation::WriteTextFile(results, lines); !ok) return tl::unexpected(ok.error());
   add("record", results);
   const auto steps = files.folder / "trace.jsonl";
-  if (auto ok = bench::WriteTextFile(steps, trace.text()); !ok) return tl::unexpected(ok.error());
+  if (auto ok = evaluation::WriteTextFile(steps, trace.text()); !ok)
+    return tl::unexpected(ok.error());
   add("trace", steps);
   const auto pictures = picture.Write(files.folder);
   if (!pictures) return tl::unexpected(pictures.error());
@@ -92,9 +94,9 @@ Result<Written> WriteFiles(const bench::EpisodeRecord& record, const bench::RunH
   return written;
 }
 
-void Announce(const bench::EpisodeRecord& record, const MemorySummary& memory,
+void Announce(const evaluation::EpisodeRecord& record, const MemorySummary& memory,
               const Written& written, Console& console) {
-  std::string text = bench::EpisodeText(record);
+  std::string text = evaluation::EpisodeText(record);
   text += fmt::format("  memory   {} feature rows, {} of them int8, {} dropped; {:.1f} MB\n",
                       memory.rows, memory.compacted_rows, memory.dropped_rows,
                       static_cast<double>(memory.bytes) / 1e6);
@@ -109,7 +111,7 @@ void Announce(const bench::EpisodeRecord& record, const MemorySummary& memory,
   }
   console.Print(text);
   if (!console.json()) return;
-  console.Document(Json({{"record", Json::parse(bench::ToJsonLine(record))},
+  console.Document(Json({{"record", Json::parse(evaluation::ToJsonLine(record))},
                          {"memory",
                           {{"feature_rows", memory.rows},
                            {"compacted_rows", memory.compacted_rows},
@@ -119,10 +121,10 @@ void Announce(const bench::EpisodeRecord& record, const MemorySummary& memory,
 }
 
 /// Before the first step: every file that the episode will leave.
-Result<void> CheckFiles(const bench::SceneContext& context, const PlayFiles& files) {
+Result<void> CheckFiles(const evaluation::SceneContext& context, const PlayFiles& files) {
   for (const sim::Floor& floor : context.navmesh().Floors()) {
     const auto picture = files.folder / fmt::format("floor_{}.png", floor.id);
-    if (auto ok = bench::CheckOutputFile(picture, "--out"); !ok) return ok;
+    if (auto ok = evaluation::CheckOutputFile(picture, "--out"); !ok) return ok;
   }
   return CheckOutputs(files);
 }
@@ -137,22 +139,21 @@ Result<void> CheckOutputs(const PlayFiles& files) {
       {files.map, "--save-map"},
       {files.page, "--out"}};
   for (const auto& [path, option] : outputs) {
-    if (auto ok = bench::CheckOutputFile(path, option); !ok) return ok;
+    if (auto ok = evaluation::CheckOutputFile(path, option); !ok) return ok;
   }
   return {};
 }
 
-Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
-                                         const bench::Episode& episode,
-                                         const bench::RunConfig& config,
-                                         const bench::RunHeader& header, const PlayFiles& files,
-                                         const PerceptionSource& perception, Console& console) {
-  if (auto ok = bench::CheckPlayable(context, episode); !ok) return tl::unexpected(ok.error());
+Result<evaluation::EpisodeRecord> PlayEpisode(
+    const evaluation::SceneContext& context, const evaluation::Episode& episode,
+    const evaluation::RunConfig& config, const evaluation::RunHeader& header,
+    const PlayFiles& files, const PerceptionSource& perception, Console& console) {
+  if (auto ok = evaluation::CheckPlayable(context, episode); !ok) return tl::unexpected(ok.error());
   if (auto ok = CheckFiles(context, files); !ok) return tl::unexpected(ok.error());
   StepProgress progress(console, episode, config);
   EpisodePicture picture(context, episode);
   TraceLog trace;
-  std::vector<bench::RunObserver*> observers = {&progress, &picture, &trace};
+  std::vector<evaluation::RunObserver*> observers = {&progress, &picture, &trace};
   std::unique_ptr<ReplayLog> replay;
   if (!files.replay.empty()) {
     auto opened = ReplayLog::Open(context, episode, config, header, files.replay);
@@ -168,7 +169,7 @@ Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
   if (*told) observers.push_back(told->get());
   MapLog map(files.map, context.scene().id, perception.EncoderName());
   observers.push_back(&map);
-  auto record = bench::RunEpisode(context, episode, config, observers, perception.Maker());
+  auto record = evaluation::RunEpisode(context, episode, config, observers, perception.Maker());
   console.EndProgress();
   if (!record) return record;
   if (replay) {

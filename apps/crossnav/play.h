@@ -23,10 +23,11 @@ struct PlayFiles {
 Result<void> CheckOutputs(const PlayFiles& files);
 
 /// Runs the episode, writes the files, prints the summary and where everything is.
-Result<bench::EpisodeRecord> PlayEpisode(const bench::SceneContext& context,
-                                         const bench::Episode& episode,
-                                         const bench::RunConfig& config,
-                                         const bench::RunHeader& header, const PlayFiles& files,
-                                         const PerceptionSource& perception, Console& console);
+Result<evaluation::EpisodeRecord> PlayEpisode(const evaluation::SceneContext& context,
+                                              const evaluation::Episode& episode,
+                                              const evaluation::RunConfig& config,
+                                              const evaluation::RunHeader& header,
+                                              const PlayFiles& files,
+                                              const PerceptionSource& perception, Console& console);
 
 }  // namespace crossnav::app

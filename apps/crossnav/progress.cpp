@@ -5,20 +5,20 @@
 
 #include <algorithm>
 
-#include "crossnav/bench/timing.h"
+#include "crossnav/evaluation/running/timing.h"
 
 namespace crossnav::app {
 
-StepProgress::StepProgress(Console& console, const bench::Episode& episode,
-                           const bench::RunConfig& config)
+StepProgress::StepProgress(Console& console, const evaluation::Episode& episode,
+                           const evaluation::RunConfig& config)
     : console_(console),
       episode_(episode),
       budget_(config.eval.action_budget),
-      start_ms_(bench::WallMs()) {}
+      start_ms_(evaluation::WallMs()) {}
 
-Result<void> StepProgress::OnStep(const bench::StepView& step) {
+Result<void> StepProgress::OnStep(const evaluation::StepView& step) {
   ++steps_;
-  const double seconds = std::max(1e-3, (bench::WallMs() - start_ms_) * 1e-3);
+  const double seconds = std::max(1e-3, (evaluation::WallMs() - start_ms_) * 1e-3);
   const double rate = steps_ / seconds;
   const int left = std::max(0, budget_ - steps_);
   console_.Progress(
@@ -28,9 +28,9 @@ Result<void> StepProgress::OnStep(const bench::StepView& step) {
   return {};
 }
 
-Result<void> StepProgress::OnStageEnd(const bench::StageRecord& stage) {
+Result<void> StepProgress::OnStageEnd(const evaluation::StageRecord& stage) {
   console_.Log(fmt::format("{}: {} after {} actions, {:.2f} m (shortest {:.2f} m)", stage.goal,
-                           bench::NameOf(stage.outcome), stage.actions, stage.length_m,
+                           evaluation::NameOf(stage.outcome), stage.actions, stage.length_m,
                            stage.shortest_m));
   return {};
 }

@@ -3,19 +3,20 @@
 #pragma once
 
 #include "console.h"
-#include "crossnav/bench/runner.h"
+#include "crossnav/evaluation/running/runner.h"
 
 namespace crossnav::app {
 
-class StepProgress : public bench::RunObserver {
+class StepProgress : public evaluation::RunObserver {
  public:
-  StepProgress(Console& console, const bench::Episode& episode, const bench::RunConfig& config);
-  Result<void> OnStep(const bench::StepView& step) override;
-  Result<void> OnStageEnd(const bench::StageRecord& stage) override;
+  StepProgress(Console& console, const evaluation::Episode& episode,
+               const evaluation::RunConfig& config);
+  Result<void> OnStep(const evaluation::StepView& step) override;
+  Result<void> OnStageEnd(const evaluation::StageRecord& stage) override;
 
  private:
   Console& console_;
-  const bench::Episode& episode_;
+  const evaluation::Episode& episode_;
   int budget_;
   double start_ms_;
   int steps_ = 0;

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/trace/replay_page.h"
 #include "shell.h"
 #include "verbs.h"
@@ -11,11 +11,11 @@ namespace crossnav::app {
 
 Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& /*common*/,
                           Console& console) {
-  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
-  if (auto ok = bench::CheckNotInput(options.out, "--out", options.file); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckNotInput(options.out, "--out", options.file); !ok) return ok;
   const bool is_rerun = options.out.ends_with(".rrd");
   if (!options.compare.empty()) {
-    if (auto ok = bench::CheckNotInput(options.out, "--out", options.compare); !ok) return ok;
+    if (auto ok = evaluation::CheckNotInput(options.out, "--out", options.compare); !ok) return ok;
     if (is_rerun)
       return Fail(ErrorCode::kUnsupported, "makes a page; name an .html file with --out",
                   "--compare");

@@ -6,8 +6,9 @@
 namespace crossnav::app {
 namespace {
 
-trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episode& episode,
-                         const bench::RunConfig& config, const bench::RunHeader& header) {
+trace::ReplayInfo InfoOf(const evaluation::SceneContext& context,
+                         const evaluation::Episode& episode, const evaluation::RunConfig& config,
+                         const evaluation::RunHeader& header) {
   trace::ReplayInfo info;
   info.scene_id = context.scene().id;
   info.episode_id = episode.episode_id;
@@ -19,7 +20,7 @@ trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episod
   info.seed = header.seed;
   info.voxel_m = config.agent.map.voxel_m;
   for (const std::string& goal : episode.goals) {
-    for (const bench::Target& target : context.TargetsOf(goal)) {
+    for (const evaluation::Target& target : context.TargetsOf(goal)) {
       info.goal_instances.push_back({goal, target.box});
     }
   }
@@ -28,10 +29,10 @@ trace::ReplayInfo InfoOf(const bench::SceneContext& context, const bench::Episod
 
 }  // namespace
 
-Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const bench::SceneContext& context,
-                                                   const bench::Episode& episode,
-                                                   const bench::RunConfig& config,
-                                                   const bench::RunHeader& header,
+Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const evaluation::SceneContext& context,
+                                                   const evaluation::Episode& episode,
+                                                   const evaluation::RunConfig& config,
+                                                   const evaluation::RunHeader& header,
                                                    const std::filesystem::path& path) {
   std::error_code ignored;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
@@ -40,16 +41,17 @@ Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const bench::SceneContext& co
   return std::unique_ptr<ReplayLog>(new ReplayLog(std::move(*writer)));
 }
 
-Result<void> ReplayLog::OnStep(const bench::StepView& step) {
+Result<void> ReplayLog::OnStep(const evaluation::StepView& step) {
   last_step_ = step.trace.step;
   goal_index_ = step.trace.goal_index;
   const trace::Sight sight = agent::SightOf(step.percept, step.state.goal_text());
   return writer_.Write({step.trace, &step.observation, &sight});
 }
 
-Result<void> ReplayLog::OnStageEnd(const bench::StageRecord& stage) {
-  return writer_.WriteStage({goal_index_, stage.goal, std::string(bench::NameOf(stage.outcome)),
-                             stage.success, last_step_, stage.length_m, stage.shortest_m});
+Result<void> ReplayLog::OnStageEnd(const evaluation::StageRecord& stage) {
+  return writer_.WriteStage({goal_index_, stage.goal,
+                             std::string(evaluation::NameOf(stage.outcome)), stage.success,
+                             last_step_, stage.length_m, stage.shortest_m});
 }
 
 }  // namespace crossnav::app

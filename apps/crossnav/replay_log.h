@@ -5,23 +5,23 @@
 #include <filesystem>
 #include <memory>
 
-#include "crossnav/bench/result_records.h"
-#include "crossnav/bench/runner.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/evaluation/running/runner.h"
 #include "crossnav/trace/replay_writer.h"
 
 namespace crossnav::app {
 
-class ReplayLog : public bench::RunObserver {
+class ReplayLog : public evaluation::RunObserver {
  public:
   /// Creates missing folders. The replay is `<path>.part` until Close() gives it its name.
-  static Result<std::unique_ptr<ReplayLog>> Open(const bench::SceneContext& context,
-                                                 const bench::Episode& episode,
-                                                 const bench::RunConfig& config,
-                                                 const bench::RunHeader& header,
+  static Result<std::unique_ptr<ReplayLog>> Open(const evaluation::SceneContext& context,
+                                                 const evaluation::Episode& episode,
+                                                 const evaluation::RunConfig& config,
+                                                 const evaluation::RunHeader& header,
                                                  const std::filesystem::path& path);
   bool NeedsColour() const override { return true; }
-  Result<void> OnStep(const bench::StepView& step) override;
-  Result<void> OnStageEnd(const bench::StageRecord& stage) override;
+  Result<void> OnStep(const evaluation::StepView& step) override;
+  Result<void> OnStageEnd(const evaluation::StageRecord& stage) override;
   Result<void> Close() { return writer_.Close(); }
 
  private:

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/comparison.h"
-#include "crossnav/bench/gzip_file.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/report.h"
+#include "crossnav/evaluation/files/gzip_file.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/reporting/comparison.h"
+#include "crossnav/evaluation/reporting/report.h"
 #include "shell.h"
 
 namespace crossnav::app {
@@ -14,25 +14,25 @@ namespace {
 
 using Pages = std::vector<std::pair<std::string, std::string>>;  // file name, content
 
-Pages MakePages(const std::vector<bench::ReportRun>& runs,
-                const std::vector<bench::Comparison>& comparisons,
+Pages MakePages(const std::vector<evaluation::ReportRun>& runs,
+                const std::vector<evaluation::Comparison>& comparisons,
                 const std::filesystem::path& folder) {
-  const auto figures = bench::CollectFigures(runs, {});
-  Pages pages = {{"report.md", bench::ReportMarkdown(runs, figures)},
-                 {"report.csv", bench::ReportCsv(figures)},
-                 {"causes.csv", bench::CausesCsv(runs)},
-                 {"report.json", bench::ReportJson(runs, figures)},
-                 {"conditional_sr.svg", bench::StagePlotSvg(runs, figures, "SR_cond")},
-                 {"conditional_spl.svg", bench::StagePlotSvg(runs, figures, "SPL_cond")}};
+  const auto figures = evaluation::CollectFigures(runs, {});
+  Pages pages = {{"report.md", evaluation::ReportMarkdown(runs, figures)},
+                 {"report.csv", evaluation::ReportCsv(figures)},
+                 {"causes.csv", evaluation::CausesCsv(runs)},
+                 {"report.json", evaluation::ReportJson(runs, figures)},
+                 {"conditional_sr.svg", evaluation::StagePlotSvg(runs, figures, "SR_cond")},
+                 {"conditional_spl.svg", evaluation::StagePlotSvg(runs, figures, "SPL_cond")}};
   for (std::size_t r = 0; r < runs.size(); ++r) {
     pages.emplace_back("outcomes_" + std::to_string(r + 1) + ".svg",
-                       bench::OutcomePlotSvg(runs[r]));
+                       evaluation::OutcomePlotSvg(runs[r]));
   }
-  for (const bench::Comparison& comparison : comparisons) {
-    pages[0].second += bench::ComparisonMarkdown(comparison, folder);
+  for (const evaluation::Comparison& comparison : comparisons) {
+    pages[0].second += evaluation::ComparisonMarkdown(comparison, folder);
   }
   if (!comparisons.empty()) {
-    pages.emplace_back("comparison.json", bench::ComparisonsJson(comparisons));
+    pages.emplace_back("comparison.json", evaluation::ComparisonsJson(comparisons));
   }
   pages[0].second += "\n## Plots\n\n";
   for (const auto& [name, content] : pages) {
@@ -42,22 +42,22 @@ Pages MakePages(const std::vector<bench::ReportRun>& runs,
   return pages;
 }
 
-std::string TracksOf(const bench::ReportRun& run) {
+std::string TracksOf(const evaluation::ReportRun& run) {
   std::string tracks;
-  for (const auto& [name, episodes] : bench::GroupByTrack(run.episodes)) tracks += name + " ";
+  for (const auto& [name, episodes] : evaluation::GroupByTrack(run.episodes)) tracks += name + " ";
   return tracks;
 }
 
 /// Every run against the first of its track.
-Result<std::vector<bench::Comparison>> CompareAll(const std::vector<bench::ReportRun>& runs,
-                                                  bool is_forced) {
-  std::vector<bench::Comparison> comparisons;
+Result<std::vector<evaluation::Comparison>> CompareAll(
+    const std::vector<evaluation::ReportRun>& runs, bool is_forced) {
+  std::vector<evaluation::Comparison> comparisons;
   for (std::size_t i = 1; i < runs.size(); ++i) {
-    const auto first = std::find_if(runs.begin(), runs.end(), [&](const bench::ReportRun& run) {
-      return TracksOf(run) == TracksOf(runs[i]);
-    });
+    const auto first = std::find_if(
+        runs.begin(), runs.end(),
+        [&](const evaluation::ReportRun& run) { return TracksOf(run) == TracksOf(runs[i]); });
     if (&*first == &runs[i]) continue;
-    auto comparison = bench::CompareRuns(*first, runs[i], {}, is_forced);
+    auto comparison = evaluation::CompareRuns(*first, runs[i], {}, is_forced);
     if (!comparison) return tl::unexpected(comparison.error());
     comparisons.push_back(std::move(*comparison));
   }
@@ -80,17 +80,19 @@ Result<std::string> WriteHtmlPage(const ReportOptions& options) {
 
 Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*/,
                     Console& console) {
-  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
-  if (auto ok = bench::CheckNoneTwice({options.runs.begin(), options.runs.end()}); !ok) return ok;
-  const auto runs = bench::ReadRuns({options.runs.begin(), options.runs.end()}, !options.partial);
+  if (auto ok = evaluation::CheckOutputFolder(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckNoneTwice({options.runs.begin(), options.runs.end()}); !ok)
+    return ok;
+  const auto runs =
+      evaluation::ReadRuns({options.runs.begin(), options.runs.end()}, !options.partial);
   if (!runs) return tl::unexpected(runs.error());
   const auto comparisons = CompareAll(*runs, options.force);
   if (!comparisons) return tl::unexpected(comparisons.error());
-  for (const auto& comparison : *comparisons) console.Print(bench::ComparisonText(comparison));
+  for (const auto& comparison : *comparisons) console.Print(evaluation::ComparisonText(comparison));
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const auto& [name, content] : MakePages(*runs, *comparisons, options.out)) {
     const auto path = std::filesystem::path(options.out) / name;
-    if (auto ok = bench::WriteTextFile(path, content); !ok) return ok;
+    if (auto ok = evaluation::WriteTextFile(path, content); !ok) return ok;
     console.Print(path.string() + "\n");
     files.push_back(path.string());
   }
@@ -102,7 +104,7 @@ Result<void> Report(const ReportOptions& options, const CommonOptions& /*common*
   }
   console.Document(nlohmann::ordered_json(
       {{"files", files},
-       {"comparisons", nlohmann::ordered_json::parse(bench::ComparisonsJson(*comparisons))}}));
+       {"comparisons", nlohmann::ordered_json::parse(evaluation::ComparisonsJson(*comparisons))}}));
   return {};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "crossnav/bench/episode_generator.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/survey.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/generation/episode_generator.h"
+#include "crossnav/evaluation/running/survey.h"
 #include "crossnav/world/house/embedded_house.h"
 #include "play.h"
 
@@ -29,11 +29,12 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   if (!config) return tl::unexpected(config.error());
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
-  const auto file = bench::ReadEpisodes(options.episodes);
+  const auto file = evaluation::ReadEpisodes(options.episodes);
   if (!file) return tl::unexpected(file.error());
   auto episode = FindEpisode(*file, options.episode, options.episodes);
   if (!episode) return tl::unexpected(episode.error());
-  if (!options.memory.empty() && bench::KnownOf(options.variant) != bench::Known::kNothing) {
+  if (!options.memory.empty() &&
+      evaluation::KnownOf(options.variant) != evaluation::Known::kNothing) {
     return Fail(ErrorCode::kInvalid, options.variant + " starts from a memory of its own",
                 "--memory");
   }
@@ -48,11 +49,11 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   cache.UseGoalsOf(*file);
   const auto context = cache.Get(episode->scene_id);
   if (!context) return tl::unexpected(context.error());
-  if (auto ok = bench::CheckPlayable(**context, *episode); !ok) return ok;
-  if (!episode->has_certificate) bench::Certify(**context, *episode);
-  bench::RunHeader header = MakeHeader(*config, options.variant, *file);
+  if (auto ok = evaluation::CheckPlayable(**context, *episode); !ok) return ok;
+  if (!episode->has_certificate) evaluation::Certify(**context, *episode);
+  evaluation::RunHeader header = MakeHeader(*config, options.variant, *file);
   header.networks = perception->Hashes();
-  header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
+  header.scenes[evaluation::SceneName(episode->scene_id)] = HashesOf(**context);
   const auto record =
       PlayEpisode(**context, *episode, *config, header, files, *perception, console);
   if (!record) return tl::unexpected(record.error());
@@ -60,7 +61,7 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
 }
 
 Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console) {
-  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFolder(options.out, "--out"); !ok) return ok;
   Protocol protocol;
   protocol.perception = options.perception;
   const auto config = LoadRunConfig(common, protocol);
@@ -70,28 +71,28 @@ Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Conso
   const std::filesystem::path out = options.out;
   const auto house = world::WriteEmbeddedHouse(out / "scenes");
   if (!house) return tl::unexpected(house.error());
-  const auto ids = bench::ListScenes(out / "scenes");
+  const auto ids = evaluation::ListScenes(out / "scenes");
   if (!ids) return tl::unexpected(ids.error());
   SceneCache cache(out / "scenes", *config);
   const auto context = cache.Get(ids->front());
   if (!context) return tl::unexpected(context.error());
 
-  const bench::GeneratorScene scene{ids->front(), *context};
+  const evaluation::GeneratorScene scene{ids->front(), *context};
   const BuiltIn built_in = BuiltInEpisode(options.number);
-  auto episode =
-      bench::MakeEpisode(scene, *config, built_in.goals, built_in.start_floor, config->eval.seed);
+  auto episode = evaluation::MakeEpisode(scene, *config, built_in.goals, built_in.start_floor,
+                                         config->eval.seed);
   if (!episode) return tl::unexpected(episode.error());
-  bench::EpisodeFile file;
+  evaluation::EpisodeFile file;
   file.episodes = {*episode};
-  bench::AddGoalObjects(scene, file);
+  evaluation::AddGoalObjects(scene, file);
   const auto path = out / fmt::format("episode_{}.json.gz", options.number);
-  if (auto ok = bench::WriteEpisodes(path, file); !ok) return ok;
-  const auto read = bench::ReadEpisodes(path);  // as any other run would see it
+  if (auto ok = evaluation::WriteEpisodes(path, file); !ok) return ok;
+  const auto read = evaluation::ReadEpisodes(path);  // as any other run would see it
   if (!read) return tl::unexpected(read.error());
 
-  bench::RunHeader header = MakeHeader(*config, "full", *read);
+  evaluation::RunHeader header = MakeHeader(*config, "full", *read);
   header.networks = perception->Hashes();
-  header.scenes[bench::SceneName(episode->scene_id)] = HashesOf(**context);
+  header.scenes[evaluation::SceneName(episode->scene_id)] = HashesOf(**context);
   const auto folder = out / fmt::format("{}", options.number);
   const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html", {}, {}};
   const auto record =

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/episodes.h"
-#include "crossnav/bench/gzip_file.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/scene_context.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/core/lines.h"
 #include "crossnav/core/write_file.h"
+#include "crossnav/evaluation/episodes/episodes.h"
+#include "crossnav/evaluation/files/gzip_file.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/scoring/scene_context.h"
 #include "scene_list.h"
 
 namespace crossnav::app {
@@ -32,7 +32,7 @@ std::string_view Trimmed(std::string_view text) {
 std::map<std::string, std::string, std::less<>> IdsByName(const std::vector<std::string>& ids) {
   std::map<std::string, std::string, std::less<>> by_name;
   for (const std::string& id : ids) {
-    const std::string folder = bench::SceneName(id);
+    const std::string folder = evaluation::SceneName(id);
     by_name.emplace(id, id);
     by_name.emplace(folder, id);
     by_name.emplace(folder.substr(folder.find('-') + 1), id);
@@ -46,8 +46,8 @@ struct SceneFacts {
   std::vector<std::string> categories;  ///< that can be observed from somewhere
 };
 
-SceneFacts FactsOf(const std::string& id, const bench::SceneContext& context) {
-  SceneFacts facts{bench::SceneName(id), context.navmesh().Floors().size(), {}};
+SceneFacts FactsOf(const std::string& id, const evaluation::SceneContext& context) {
+  SceneFacts facts{evaluation::SceneName(id), context.navmesh().Floors().size(), {}};
   for (const std::string_view name : kCategories) {
     const std::string category(name);
     if (!context.FloorsOf(category).empty()) facts.categories.push_back(category);
@@ -78,9 +78,9 @@ Result<void> CheckCategories(const std::vector<std::string>& categories) {
 
 Result<std::vector<std::string>> ReadSceneList(const std::string& file,
                                                const std::string& scenes_dir) {
-  const auto ids = bench::ListScenes(scenes_dir);
+  const auto ids = evaluation::ListScenes(scenes_dir);
   if (!ids) return ids;
-  const auto text = bench::ReadTextFile(file);
+  const auto text = evaluation::ReadTextFile(file);
   if (!text) return tl::unexpected(text.error());
   const auto by_name = IdsByName(*ids);
   std::vector<std::string> listed;
@@ -106,17 +106,17 @@ Result<void> SceneChoose(const ChooseOptions& options, const CommonOptions& comm
                          Console& console) {
   if (auto ok = CheckCategories(options.categories); !ok) return ok;
   if (!options.out.empty()) {
-    if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+    if (auto ok = evaluation::CheckOutputFile(options.out, "--out"); !ok) return ok;
   }
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  const auto ids = bench::ListScenes(options.scenes);
+  const auto ids = evaluation::ListScenes(options.scenes);
   if (!ids) return tl::unexpected(ids.error());
   std::string list;
   Json rows = Json::array();
   for (const std::string& id : *ids) {
     console.Progress(fmt::format("scene {} of {}: {}", rows.size() + 1, ids->size(), id));
-    const auto context = bench::SceneContext::Load(options.scenes, id, *config);
+    const auto context = evaluation::SceneContext::Load(options.scenes, id, *config);
     if (!context) return tl::unexpected(context.error());
     for (const std::string& note : (*context)->scene().notes) console.Log(id + ": " + note);
     const SceneFacts facts = FactsOf(id, **context);

@@ -10,11 +10,11 @@
 #include <sstream>
 
 #include "commands.h"
-#include "crossnav/bench/config_file.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/result_records.h"
-#include "crossnav/sim/picture.h"
-#include "crossnav/sim/scene_info.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/evaluation/settings/config_file.h"
+#include "crossnav/sim/sensing/picture.h"
+#include "crossnav/sim/sensing/scene_info.h"
 #include "floor_plan.h"
 #include "open_scene.h"
 
@@ -69,7 +69,7 @@ Json InfoJson(const sim::SceneInfo& info) {
               {"cell_m", s.cell_m},
               {"cell_height_m", s.cell_height_m},
               {"min_island_m2", s.min_island_m2}}},
-            {"hash", bench::HexHash(info.navmesh_hash)},
+            {"hash", evaluation::HexHash(info.navmesh_hash)},
             {"area_m2", Millimetres(info.navmesh_area_m2)}}},
           {"floors", std::move(floors)},
           {"connections", std::move(connections)},
@@ -78,7 +78,7 @@ Json InfoJson(const sim::SceneInfo& info) {
 
 std::string InfoText(const sim::SceneInfo& info) {
   std::string text = fmt::format("{}: navmesh {:.1f} m2 ({})\n", info.scene, info.navmesh_area_m2,
-                                 bench::HexHash(info.navmesh_hash));
+                                 evaluation::HexHash(info.navmesh_hash));
   for (const sim::Floor& floor : info.floors) {
     text +=
         fmt::format("  floor {}  {:7.2f} m  {:7.1f} m2\n", floor.id, floor.height_m, floor.area_m2);
@@ -155,7 +155,7 @@ std::optional<AgentPose> PlaceThatShowsMost(const OpenScene& open, double camera
 }
 
 Result<RgbImage> RenderView(const OpenScene& open, const SceneOptions& options,
-                            const bench::RunConfig& config) {
+                            const evaluation::RunConfig& config) {
   const SensorConfig& sensor = config.agent.sensor;
   AgentPose pose;
   if (!options.at.empty()) {
@@ -204,7 +204,7 @@ Result<void> SceneInfo(const SceneOptions& options, const CommonOptions& common,
 
 Result<void> SceneRender(const SceneOptions& options, const CommonOptions& common,
                          Console& console) {
-  if (auto ok = bench::CheckOutputFile(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.out, "--out"); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   const auto open = OpenSceneFolder(options.scene, *config, console);

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/homes/scene_import.h"
 #include "ifc_import.h"
 
@@ -108,7 +108,7 @@ Result<Json> ImportIfc(homes::ImportOptions import, int seconds) {
 
 Result<void> SceneImport(const SceneImportOptions& options, const CommonOptions& common,
                          Console& console) {
-  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFolder(options.out, "--out"); !ok) return ok;
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
   homes::ImportOptions import;

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "crossnav/bench/held_out.h"
-#include "crossnav/bench/timing.h"
 #include "crossnav/core/read_file.h"
+#include "crossnav/evaluation/episodes/held_out.h"
+#include "crossnav/evaluation/running/timing.h"
 #include "crossnav/geometry/treads.h"
-#include "crossnav/networks/backend.h"
-#include "crossnav/networks/presets.h"
+#include "crossnav/inference/backend.h"
+#include "crossnav/inference/presets.h"
 #include "crossnav/policy/stair_geometry.h"
 #include "crossnav/recordings/depth_image.h"
 #include "crossnav/recordings/frames.h"
@@ -80,7 +80,7 @@ std::optional<Vector3d> PointOf(const PlantPixels& plant, const Observation& obs
   if (obs.depth_m.width < plant.box.u1 || obs.depth_m.height < plant.box.v1) return std::nullopt;
   for_each([&](int, int, float depth) { depth_m.push_back(depth); });
   if (depth_m.empty()) return std::nullopt;
-  const double median_m = bench::PercentileOf(depth_m, 0.5);
+  const double median_m = evaluation::PercentileOf(depth_m, 0.5);
   Vector3d sum = Vector3d::Zero();
   int count = 0;
   for_each([&](int u, int v, float depth) {
@@ -94,7 +94,7 @@ std::optional<Vector3d> PointOf(const PlantPixels& plant, const Observation& obs
 /// Map, held-out frames and, with networks, plants of one recording with poses.
 class RoomTrial {
  public:
-  RoomTrial(const bench::RunConfig& config, perception::PerceptionSuite* suite,
+  RoomTrial(const evaluation::RunConfig& config, perception::PerceptionSuite* suite,
             std::span<const PlantPixels> known)
       : known_(known), map_(config.agent.map) {
     if (suite != nullptr) plants_.emplace(config.agent, *suite, "plant");
@@ -119,16 +119,16 @@ class RoomTrial {
   }
 
   Json Document() const {
-    bench::HeldOutResult result;
-    for (const Observation& obs : held_out_) bench::AddHeldOut(map_, obs, &result);
+    evaluation::HeldOutResult result;
+    for (const Observation& obs : held_out_) evaluation::AddHeldOut(map_, obs, &result);
     const double rays = std::max(1.0, static_cast<double>(result.rays));
     Json json = {{"frames", frames_},
                  {"held_out", held_out_.size()},
                  {"rays", result.rays},
                  {"known_share", static_cast<double>(result.known) / rays},
                  {"predicted_share", static_cast<double>(result.errors_m.size()) / rays},
-                 {"median_error_m", bench::PercentileOf(result.errors_m, 0.5)},
-                 {"p90_error_m", bench::PercentileOf(result.errors_m, 0.9)},
+                 {"median_error_m", evaluation::PercentileOf(result.errors_m, 0.5)},
+                 {"p90_error_m", evaluation::PercentileOf(result.errors_m, 0.9)},
                  {"violated_share", static_cast<double>(result.violations) / rays},
                  {"floor", FloorJson(map_)},
                  {"frames_with_stairs_by_geometry", flights_},
@@ -166,7 +166,7 @@ class RoomTrial {
 };
 
 Result<Json> TryRoom(const fs::path& folder, const recordings::RecordingOptions& options,
-                     const bench::RunConfig& config, perception::PerceptionSuite* suite) {
+                     const evaluation::RunConfig& config, perception::PerceptionSuite* suite) {
   const bool has_known = folder.filename() == "hololens";
   RoomTrial trial(config, suite, has_known ? kPlants : std::span<const PlantPixels>());
   const auto read = recordings::ReadRecording(
@@ -259,12 +259,12 @@ std::string StairsText(const Json& frames) {
   return text;
 }
 
-bool LooksForPlants(const SensorTrialOptions& options, const bench::RunConfig& config) {
+bool LooksForPlants(const SensorTrialOptions& options, const evaluation::RunConfig& config) {
   if (!options.perception.empty()) return options.perception == "networks";
-  const auto backends = networks::Backends();
+  const auto backends = inference::Backends();
   const bool has_backend = std::any_of(backends.begin(), backends.end(),
                                        [](const auto& backend) { return backend.is_available; });
-  return has_backend && networks::IsSame(*networks::FindPreset("real"), config.networks);
+  return has_backend && inference::IsSame(*inference::FindPreset("real"), config.networks);
 }
 
 Result<void> BenchSensors(const SensorTrialOptions& options, const CommonOptions& common,

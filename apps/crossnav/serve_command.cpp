@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/output_path.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/core/version.h"
+#include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/serve/blind.h"
 #include "crossnav/serve/server.h"
 #include "memory_files.h"
@@ -48,7 +48,7 @@ serve::Address AddressOf(const ServeOptions& options) {
   return {options.socket.empty() ? DefaultSocket() : options.socket, 0};
 }
 
-Result<bench::RunConfig> ConfigOf(const ServeOptions& options, const CommonOptions& common) {
+Result<evaluation::RunConfig> ConfigOf(const ServeOptions& options, const CommonOptions& common) {
   CommonOptions all = common;
   if (options.perception == "networks") all.overrides.push_back("eval.perception=networks");
   auto config =
@@ -63,7 +63,8 @@ Result<bench::RunConfig> ConfigOf(const ServeOptions& options, const CommonOptio
 /// Makes agents as the settings say.
 class AgentMaker {
  public:
-  AgentMaker(bench::RunConfig& config, const PerceptionSource& source, const ServeOptions& options)
+  AgentMaker(evaluation::RunConfig& config, const PerceptionSource& source,
+             const ServeOptions& options)
       : config_(config), source_(source), options_(options) {}
 
   Result<agent::Agent> Make(double camera_height_m, bool restore) {
@@ -82,12 +83,12 @@ class AgentMaker {
   std::string EncoderName() const { return IsBlind() ? "none" : source_.EncoderName(); }
 
  private:
-  bench::RunConfig& config_;
+  evaluation::RunConfig& config_;
   const PerceptionSource& source_;
   const ServeOptions& options_;
 };
 
-serve::PilotOptions PilotOf(const bench::RunConfig& config, const ServeOptions& options,
+serve::PilotOptions PilotOf(const evaluation::RunConfig& config, const ServeOptions& options,
                             AgentMaker& maker) {
   serve::PilotOptions pilot;
   pilot.version = CROSSNAV_VERSION;
@@ -125,7 +126,7 @@ void Report(const serve::Counters& counters, const std::string& saved, Console& 
 Result<void> ServeLive(const ServeOptions& options, const CommonOptions& common, Console& console) {
   auto config = ConfigOf(options, common);
   if (!config) return tl::unexpected(config.error());
-  if (auto ok = bench::CheckOutputFile(options.save_map, "--save-map"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.save_map, "--save-map"); !ok) return ok;
   if (!options.memory.empty()) {
     if (const auto header = store::ReadMapHeader(options.memory); !header)
       return tl::unexpected(header.error());

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "crossnav/bench/config_file.h"
 #include "crossnav/core/version.h"
-#include "crossnav/sim/ground_truth_encoder.h"
+#include "crossnav/evaluation/settings/config_file.h"
+#include "crossnav/sim/sensing/ground_truth_encoder.h"
 
 namespace crossnav::app {
 
-Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol) {
+Result<evaluation::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol) {
   CommonOptions all = common;
   if (!protocol.success.empty()) all.overrides.push_back("eval.success=" + protocol.success);
   if (!protocol.budget_scope.empty()) {
@@ -27,14 +27,14 @@ Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protoc
   return config;
 }
 
-Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) {
+Result<const evaluation::SceneContext*> SceneCache::Get(const std::string& scene_id) {
   for (const Entry& entry : entries_) {
     if (entry.scene_id == scene_id) return entry.context.get();
   }
   if (entries_.size() >= keep_) entries_.erase(entries_.begin());
-  auto context = bench::SceneContext::Load(scenes_dir_, scene_id, config_);
+  auto context = evaluation::SceneContext::Load(scenes_dir_, scene_id, config_);
   if (!context) return tl::unexpected(context.error());
-  if (file_ != nullptr && file_->format == bench::EpisodeFormat::kObjectNav)
+  if (file_ != nullptr && file_->format == evaluation::EpisodeFormat::kObjectNav)
     (*context)->UseGoals(file_->goals_by_category, scene_id);
   if (file_ != nullptr && file_->certificate_edition > 1)
     (*context)->UseMarks(file_->goals_by_category, scene_id);
@@ -42,10 +42,10 @@ Result<const bench::SceneContext*> SceneCache::Get(const std::string& scene_id) 
   return entries_.back().context.get();
 }
 
-Result<std::vector<bench::GeneratorScene>> SceneCache::GetAll(const std::vector<std::string>& ids,
-                                                              Console& console) {
+Result<std::vector<evaluation::GeneratorScene>> SceneCache::GetAll(
+    const std::vector<std::string>& ids, Console& console) {
   keep_ = std::max(keep_, entries_.size() + ids.size());
-  std::vector<bench::GeneratorScene> scenes;
+  std::vector<evaluation::GeneratorScene> scenes;
   for (const std::string& id : ids) {
     console.Progress(fmt::format("scene {} of {}: {}", scenes.size() + 1, ids.size(), id));
     const auto context = Get(id);
@@ -56,13 +56,13 @@ Result<std::vector<bench::GeneratorScene>> SceneCache::GetAll(const std::vector<
   return scenes;
 }
 
-bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& variant,
-                            const bench::EpisodeFile& file) {
-  bench::RunHeader header;
+evaluation::RunHeader MakeHeader(const evaluation::RunConfig& config, const std::string& variant,
+                                 const evaluation::EpisodeFile& file) {
+  evaluation::RunHeader header;
   header.variant = variant;
-  header.config_json = bench::DumpJson(config);
-  header.config_hash = bench::ConfigHash(config);
-  header.episodes_hash = bench::HexHash(file.content_hash);
+  header.config_json = evaluation::DumpJson(config);
+  header.config_hash = evaluation::ConfigHash(config);
+  header.episodes_hash = evaluation::HexHash(file.content_hash);
   header.episodes = static_cast<int>(file.episodes.size());
   header.seed = config.eval.seed;
   header.version = CROSSNAV_VERSION;
@@ -70,8 +70,9 @@ bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& v
   return header;
 }
 
-bench::SceneHashes HashesOf(const bench::SceneContext& context) {
-  return {bench::HexHash(context.scene().mesh_hash), bench::HexHash(context.navmesh().Hash())};
+evaluation::SceneHashes HashesOf(const evaluation::SceneContext& context) {
+  return {evaluation::HexHash(context.scene().mesh_hash),
+          evaluation::HexHash(context.navmesh().Hash())};
 }
 
 Result<void> CheckEncoder(const store::MapHeader& header, const std::string& encoder,
@@ -88,9 +89,9 @@ Result<void> CheckEncoder(const store::MapHeader& header, const std::string& enc
               path);
 }
 
-Result<bench::Episode> FindEpisode(const bench::EpisodeFile& file, const std::string& id,
-                                   const std::string& path) {
-  for (const bench::Episode& episode : file.episodes) {
+Result<evaluation::Episode> FindEpisode(const evaluation::EpisodeFile& file, const std::string& id,
+                                        const std::string& path) {
+  for (const evaluation::Episode& episode : file.episodes) {
     if (episode.episode_id == id) return episode;
   }
   std::string some;

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "commands.h"
-#include "crossnav/bench/episode_generator.h"
-#include "crossnav/bench/episodes.h"
-#include "crossnav/bench/result_records.h"
-#include "crossnav/bench/scene_context.h"
+#include "crossnav/evaluation/episodes/episodes.h"
+#include "crossnav/evaluation/generation/episode_generator.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/store/map_file.h"
 
 namespace crossnav::app {
@@ -21,41 +21,41 @@ namespace crossnav::app {
 struct Protocol {
   std::string variant = "full", success, budget_scope, perception;
 };
-Result<bench::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol);
+Result<evaluation::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol);
 
 /// Scenes, loaded when first asked for; the last few are kept.
 class SceneCache {
  public:
-  SceneCache(std::filesystem::path scenes_dir, const bench::RunConfig& config)
+  SceneCache(std::filesystem::path scenes_dir, const evaluation::RunConfig& config)
       : scenes_dir_(std::move(scenes_dir)), config_(config) {}
 
   /// Scenes take the viewpoints of an ObjectNav file; those of other files are found anew, but the
   /// marks of a file of edition 2 count. `file` must outlive the cache.
-  void UseGoalsOf(const bench::EpisodeFile& file) { file_ = &file; }
+  void UseGoalsOf(const evaluation::EpisodeFile& file) { file_ = &file; }
 
-  Result<const bench::SceneContext*> Get(const std::string& scene_id);
+  Result<const evaluation::SceneContext*> Get(const std::string& scene_id);
 
   /// These scenes, all kept from now on; for drawing episodes.
-  Result<std::vector<bench::GeneratorScene>> GetAll(const std::vector<std::string>& ids,
-                                                    Console& console);
+  Result<std::vector<evaluation::GeneratorScene>> GetAll(const std::vector<std::string>& ids,
+                                                         Console& console);
 
  private:
   struct Entry {
     std::string scene_id;
-    std::unique_ptr<bench::SceneContext> context;
+    std::unique_ptr<evaluation::SceneContext> context;
   };
   std::filesystem::path scenes_dir_;
-  const bench::RunConfig& config_;
+  const evaluation::RunConfig& config_;
   std::size_t keep_ = 2;
   std::vector<Entry> entries_;  // oldest first
-  const bench::EpisodeFile* file_ = nullptr;
+  const evaluation::EpisodeFile* file_ = nullptr;
 };
 
 /// Header of a run over `file`; `scenes` is filled in by the caller.
-bench::RunHeader MakeHeader(const bench::RunConfig& config, const std::string& variant,
-                            const bench::EpisodeFile& file);
+evaluation::RunHeader MakeHeader(const evaluation::RunConfig& config, const std::string& variant,
+                                 const evaluation::EpisodeFile& file);
 
-bench::SceneHashes HashesOf(const bench::SceneContext& context);
+evaluation::SceneHashes HashesOf(const evaluation::SceneContext& context);
 
 /// Features of one encoder mean nothing to another: fails unless the map is of `encoder`, or holds
 /// no features.
@@ -63,7 +63,7 @@ Result<void> CheckEncoder(const store::MapHeader& header, const std::string& enc
                           const std::string& path);
 
 /// Episode `id` of the file.
-Result<bench::Episode> FindEpisode(const bench::EpisodeFile& file, const std::string& id,
-                                   const std::string& path);
+Result<evaluation::Episode> FindEpisode(const evaluation::EpisodeFile& file, const std::string& id,
+                                        const std::string& path);
 
 }  // namespace crossnav::app

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/gzip_file.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/gzip_file.h"
+#include "crossnav/evaluation/files/output_path.h"
 #include "perception_source.h"
 #include "session.h"
 #include "shell.h"
@@ -81,7 +81,7 @@ Result<void> CheckEval(const SlurmOptions& options, const CommonOptions& common)
   if (!config) return tl::unexpected(config.error());
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
-  const auto file = bench::ReadEpisodes(eval.episodes);
+  const auto file = evaluation::ReadEpisodes(eval.episodes);
   if (!file) return tl::unexpected(file.error());
   if (static_cast<std::size_t>(options.tasks) > file->episodes.size()) {
     return Fail(ErrorCode::kInvalid,
@@ -153,13 +153,13 @@ Result<void> Slurm(const SlurmOptions& options, const CommonOptions& common, Con
   if (auto ok = CheckDivision(*job); !ok) return ok;
   const std::string folder = job->out + "/slurm";
   for (const std::string& place : {folder, job->out + "/shards"}) {
-    if (auto ok = bench::CheckOutputFolder(place, "--out"); !ok) return ok;
+    if (auto ok = evaluation::CheckOutputFolder(place, "--out"); !ok) return ok;
   }
   const std::pair<const char*, std::string> files[] = {{"shards.sbatch", ShardScript(*job)},
                                                        {"merge.sbatch", MergeScript(*job)},
                                                        {"submit.sh", SubmitScript()}};
   for (const auto& [name, text] : files) {
-    if (auto ok = bench::WriteTextFile(folder + "/" + name, text); !ok) return ok;
+    if (auto ok = evaluation::WriteTextFile(folder + "/" + name, text); !ok) return ok;
     console.Print(folder + "/" + name + "\n");
   }
   nlohmann::ordered_json document = {{"folder", folder}, {"tasks", job->tasks}};

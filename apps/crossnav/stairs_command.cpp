@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/cause.h"
-#include "crossnav/bench/metrics.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/stair_trials.h"
-#include "crossnav/bench/timing.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/running/timing.h"
+#include "crossnav/evaluation/scoring/cause.h"
+#include "crossnav/evaluation/scoring/metrics.h"
+#include "crossnav/evaluation/trials/stair_trials.h"
 #include "crossnav/world/scene/scene_writer.h"
 #include "crossnav/world/shell/architecture.h"
 
@@ -26,8 +26,8 @@ struct Row {
   std::string kind, way;
   int attempts = 0, reached = 0, found = 0;  ///< reached: or started, at what is no stair
   std::vector<double> actions;
-  std::vector<std::string> notes;    ///< one per attempt that was not as it should be
-  std::vector<bench::Episode> kept;  ///< their episodes
+  std::vector<std::string> notes;         ///< one per attempt that was not as it should be
+  std::vector<evaluation::Episode> kept;  ///< their episodes
 };
 
 struct Tables {
@@ -35,12 +35,12 @@ struct Tables {
 };
 
 Json IntervalJson(int hits, int attempts) {
-  const auto interval = bench::WilsonInterval(hits, attempts);
+  const auto interval = evaluation::WilsonInterval(hits, attempts);
   return {interval.low, interval.high};
 }
 
 std::string ShareText(int hits, int attempts) {
-  const auto interval = bench::WilsonInterval(hits, attempts);
+  const auto interval = evaluation::WilsonInterval(hits, attempts);
   return fmt::format("{}/{} [{:.0f}, {:.0f}]", hits, attempts, 100 * interval.low,
                      100 * interval.high);
 }
@@ -55,7 +55,7 @@ std::string Text(const Tables& tables) {
   for (const Row& row : tables.stairs) {
     text += fmt::format("| {} | {} | {} | {}/{} | {:.0f} |\n", row.kind, row.way,
                         ShareText(row.reached, row.attempts), row.found, row.attempts,
-                        bench::PercentileOf(row.actions, 0.5));
+                        evaluation::PercentileOf(row.actions, 0.5));
     attempts += row.attempts;
     reached += row.reached;
   }
@@ -66,7 +66,7 @@ std::string Text(const Tables& tables) {
   int false_attempts = 0, started = 0;
   for (const Row& row : tables.false_entrances) {
     text += fmt::format("| {} | {} | {:.0f} |\n", row.kind, ShareText(row.reached, row.attempts),
-                        bench::PercentileOf(row.actions, 0.5));
+                        evaluation::PercentileOf(row.actions, 0.5));
     false_attempts += row.attempts;
     started += row.reached;
   }
@@ -89,7 +89,7 @@ Json Document(const Tables& tables, const StairsOptions& options) {
                       {"reached", row.reached},
                       {"reached_interval", IntervalJson(row.reached, row.attempts)},
                       {"found", row.found},
-                      {"median_actions", bench::PercentileOf(row.actions, 0.5)},
+                      {"median_actions", evaluation::PercentileOf(row.actions, 0.5)},
                       {"failures", row.notes}});
   }
   for (const Row& row : tables.false_entrances) {
@@ -97,7 +97,7 @@ Json Document(const Tables& tables, const StairsOptions& options) {
                       {"attempts", row.attempts},
                       {"started", row.reached},
                       {"started_interval", IntervalJson(row.reached, row.attempts)},
-                      {"median_actions", bench::PercentileOf(row.actions, 0.5)},
+                      {"median_actions", evaluation::PercentileOf(row.actions, 0.5)},
                       {"failures", row.notes}});
   }
   return {{"seed", options.seed},
@@ -108,8 +108,8 @@ Json Document(const Tables& tables, const StairsOptions& options) {
 }
 
 /// The world and the episode of an attempt, for `crossnav run`.
-Result<void> Keep(const StairsOptions& options, const bench::StairSite& site,
-                  const bench::StairAttempt& attempt, Row& row) {
+Result<void> Keep(const StairsOptions& options, const evaluation::StairSite& site,
+                  const evaluation::StairAttempt& attempt, Row& row) {
   if (options.keep.empty()) return {};
   const auto folder =
       world::WriteScene(world::BuildHouse(site.world.plan), std::filesystem::path(options.keep));
@@ -118,9 +118,9 @@ Result<void> Keep(const StairsOptions& options, const bench::StairSite& site,
   return {};
 }
 
-Result<void> TryOnce(const StairsOptions& options, const bench::RunConfig& config,
-                     const bench::StairSite& site, std::uint64_t seed, Row& row) {
-  const auto attempt = bench::TryStair(site, row.way == "up", seed, config);
+Result<void> TryOnce(const StairsOptions& options, const evaluation::RunConfig& config,
+                     const evaluation::StairSite& site, std::uint64_t seed, Row& row) {
+  const auto attempt = evaluation::TryStair(site, row.way == "up", seed, config);
   if (!attempt) return tl::unexpected(attempt.error());
   ++row.attempts;
   row.reached += attempt->reached ? 1 : 0;
@@ -129,15 +129,16 @@ Result<void> TryOnce(const StairsOptions& options, const bench::RunConfig& confi
   if (attempt->reached && attempt->found()) return {};
   std::string why = fmt::format("{}: {} after {}", attempt->episode.episode_id,
                                 NameOf(attempt->stage().outcome), attempt->record.actions);
-  if (const auto lines = bench::CauseLines(attempt->record); !lines.empty()) why = lines.front();
+  if (const auto lines = evaluation::CauseLines(attempt->record); !lines.empty())
+    why = lines.front();
   row.notes.push_back(fmt::format("{} {}, seed {}, other floor {}: {}", row.kind, row.way, seed,
                                   attempt->reached ? "reached" : "not reached", why));
   return Keep(options, site, *attempt, row);
 }
 
-Result<void> TryFalse(const bench::RunConfig& config, bench::FalseEntrance kind, std::uint64_t seed,
-                      Row& row) {
-  const auto attempt = bench::TryFalseEntrance(kind, seed, config);
+Result<void> TryFalse(const evaluation::RunConfig& config, evaluation::FalseEntrance kind,
+                      std::uint64_t seed, Row& row) {
+  const auto attempt = evaluation::TryFalseEntrance(kind, seed, config);
   if (!attempt) return tl::unexpected(attempt.error());
   ++row.attempts;
   row.actions.push_back(attempt->actions);
@@ -161,25 +162,26 @@ constexpr int kSeedsPerAttempt = 4;  // chosen: most worlds have one
 /// A kind of stair by its name.
 struct StairMaker {
   std::string name;
-  std::function<bench::StairWorld(std::uint64_t seed)> make;
+  std::function<evaluation::StairWorld(std::uint64_t seed)> make;
 };
 
 std::vector<StairMaker> StairMakers() {
   std::vector<StairMaker> makers;
-  for (const auto kind : bench::kStairKinds) {
-    makers.push_back({std::string(world::NameOf(kind)),
-                      [kind](std::uint64_t seed) { return bench::MakeStairWorld(kind, seed); }});
+  for (const auto kind : evaluation::kStairKinds) {
+    makers.push_back({std::string(world::NameOf(kind)), [kind](std::uint64_t seed) {
+                        return evaluation::MakeStairWorld(kind, seed);
+                      }});
   }
-  for (const auto& variant : bench::kStairVariants) {
+  for (const auto& variant : evaluation::kStairVariants) {
     makers.push_back({std::string(variant.name), [&variant](std::uint64_t seed) {
-                        return bench::MakeStairWorld(variant, seed);
+                        return evaluation::MakeStairWorld(variant, seed);
                       }});
   }
   return makers;
 }
 
 /// Both directions of one kind, in the same worlds.
-Result<std::vector<Row>> TryKind(const StairsOptions& options, const bench::RunConfig& config,
+Result<std::vector<Row>> TryKind(const StairsOptions& options, const evaluation::RunConfig& config,
                                  const StairMaker& maker, Console& console) {
   const std::string& name = maker.name;
   std::vector<Row> rows(2);
@@ -192,7 +194,7 @@ Result<std::vector<Row>> TryKind(const StairsOptions& options, const bench::RunC
     if (i == kSeedsPerAttempt * options.count) return tl::unexpected(last);
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
     console.Progress(fmt::format("{}: {} of {}", name, rows[1].attempts + 1, options.count));
-    const auto site = bench::BuildStairSite(maker.make(seed), config);
+    const auto site = evaluation::BuildStairSite(maker.make(seed), config);
     if (!site) return tl::unexpected(site.error());
     for (Row& row : rows) {
       if (!is_short(row)) continue;
@@ -208,10 +210,10 @@ Result<std::vector<Row>> TryKind(const StairsOptions& options, const bench::RunC
   return rows;
 }
 
-Result<Row> TryFalseKind(const StairsOptions& options, const bench::RunConfig& config,
-                         bench::FalseEntrance kind, Console& console) {
+Result<Row> TryFalseKind(const StairsOptions& options, const evaluation::RunConfig& config,
+                         evaluation::FalseEntrance kind, Console& console) {
   Row row;
-  row.kind = bench::NameOf(kind);
+  row.kind = evaluation::NameOf(kind);
   for (int i = 0; row.attempts < options.count; ++i) {
     console.Progress(fmt::format("{}: {} of {}", row.kind, row.attempts + 1, options.count));
     const auto ok = TryFalse(config, kind, options.seed + static_cast<std::uint64_t>(i), row);
@@ -234,7 +236,7 @@ bool IsWanted(const StairsOptions& options, std::string_view kind) {
 std::vector<std::string> StairTrialKinds() {
   std::vector<std::string> names;
   for (const StairMaker& maker : StairMakers()) names.push_back(maker.name);
-  for (const auto kind : bench::kFalseEntrances) names.emplace_back(bench::NameOf(kind));
+  for (const auto kind : evaluation::kFalseEntrances) names.emplace_back(evaluation::NameOf(kind));
   return names;
 }
 
@@ -242,7 +244,7 @@ Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& comm
                          Console& console) {
   auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  if (auto ok = bench::CheckOutputFolder(options.keep, "--keep"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFolder(options.keep, "--keep"); !ok) return ok;
   config->eval.action_budget = options.budget;
   Tables tables;
   for (const StairMaker& maker : StairMakers()) {
@@ -251,19 +253,19 @@ Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& comm
     if (!rows) return tl::unexpected(rows.error());
     for (Row& row : *rows) tables.stairs.push_back(std::move(row));
   }
-  for (const auto kind : bench::kFalseEntrances) {
-    if (!IsWanted(options, bench::NameOf(kind))) continue;
+  for (const auto kind : evaluation::kFalseEntrances) {
+    if (!IsWanted(options, evaluation::NameOf(kind))) continue;
     auto row = TryFalseKind(options, *config, kind, console);
     if (!row) return tl::unexpected(row.error());
     tables.false_entrances.push_back(std::move(*row));
   }
-  bench::EpisodeFile kept;
+  evaluation::EpisodeFile kept;
   for (const Row& row : tables.stairs) {
     kept.episodes.insert(kept.episodes.end(), row.kept.begin(), row.kept.end());
   }
   if (!options.keep.empty() && !kept.episodes.empty()) {
     const auto file = std::filesystem::path(options.keep) / "episodes.json";
-    if (auto ok = bench::WriteEpisodes(file, kept); !ok) return ok;
+    if (auto ok = evaluation::WriteEpisodes(file, kept); !ok) return ok;
   }
   console.Print(Text(tables));
   console.Document(Document(tables, options));

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "crossnav/bench/result_records.h"
-#include "crossnav/bench/scene_context.h"
-#include "crossnav/bench/worker_pool.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/evaluation/running/worker_pool.h"
+#include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/homes/scene_import.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/house/house_generator.h"
 #include "crossnav/world/scene/scene_writer.h"
 
@@ -21,15 +21,15 @@ constexpr std::uint64_t kSeeds = 500;  // chosen: that a suite may try; most giv
 Result<std::string> MeshHashOf(const fs::path& folder) {
   const auto scene = sim::LoadScene(folder);
   if (!scene) return tl::unexpected(scene.error());
-  return bench::HexHash(scene->mesh_hash);
+  return evaluation::HexHash(scene->mesh_hash);
 }
 
 /// The houses of `seeds`, in processes; `passed` gets the mesh hash of each house that passed.
-Result<void> MakeHouses(const bench::SuiteDefinition& suite, const fs::path& scenes,
+Result<void> MakeHouses(const evaluation::SuiteDefinition& suite, const fs::path& scenes,
                         const std::vector<std::uint64_t>& seeds, const world::FurniturePack* pack,
                         int jobs, MeshHashes& passed, Console& console) {
   int done = 0;
-  bench::PoolTask task;
+  evaluation::PoolTask task;
   task.count = static_cast<int>(seeds.size());
   task.jobs = jobs;
   task.work = [&](int item) -> Result<std::string> {
@@ -39,10 +39,10 @@ Result<void> MakeHouses(const bench::SuiteDefinition& suite, const fs::path& sce
     if (!house) return tl::unexpected(house.error());
     const auto scene = sim::LoadScene(house->folder);
     if (!scene) return tl::unexpected(scene.error());
-    return house->scene_id + " " + bench::HexHash(scene->mesh_hash);
+    return house->scene_id + " " + evaluation::HexHash(scene->mesh_hash);
   };
-  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
-    if (answer.end != bench::ItemEnd::kDone) {
+  task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
+    if (answer.end != evaluation::ItemEnd::kDone) {
       return Fail(answer.error.code, answer.error.Message(),
                   fmt::format("house of seed {}", seeds[static_cast<std::size_t>(item)]));
     }
@@ -53,14 +53,15 @@ Result<void> MakeHouses(const bench::SuiteDefinition& suite, const fs::path& sce
     }
     return {};
   };
-  return bench::RunPool(task);
+  return evaluation::RunPool(task);
 }
 
 }  // namespace
 
-Result<MeshHashes> GenerateBuildings(const bench::SuiteDefinition& suite, const fs::path& scenes,
-                                     const world::FurniturePack* pack, int jobs, Console& console) {
-  if (!bench::CanGenerate(suite)) {
+Result<MeshHashes> GenerateBuildings(const evaluation::SuiteDefinition& suite,
+                                     const fs::path& scenes, const world::FurniturePack* pack,
+                                     int jobs, Console& console) {
+  if (!evaluation::CanGenerate(suite)) {
     return Fail(ErrorCode::kUnsupported,
                 fmt::format("needs edition {} of the generator, which this program does not have",
                             suite.generator_version),
@@ -92,9 +93,9 @@ Result<MeshHashes> ImportDrawnHomes(const fs::path& jar, const fs::path& scenes,
                 "sweethome3d.jar with --homes",
                 jar.string());
   }
-  const auto homes = bench::DrawnHomes();
+  const auto homes = evaluation::DrawnHomes();
   MeshHashes meshes;
-  bench::PoolTask task;
+  evaluation::PoolTask task;
   task.count = static_cast<int>(homes.size());
   task.jobs = jobs;
   const auto id_of = [&](int item) {
@@ -110,19 +111,19 @@ Result<MeshHashes> ImportDrawnHomes(const fs::path& jar, const fs::path& scenes,
     if (!report) return tl::unexpected(report.error());
     return MeshHashOf(report->folder);
   };
-  task.deliver = [&](int item, const bench::ItemAnswer& answer) -> Result<void> {
-    if (answer.end != bench::ItemEnd::kDone)
+  task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
+    if (answer.end != evaluation::ItemEnd::kDone)
       return Fail(answer.error.code, answer.error.Message(), id_of(item));
     meshes[id_of(item)] = answer.text;
     console.Progress(fmt::format("home {} of {}", meshes.size(), homes.size()));
     return {};
   };
-  if (auto ok = bench::RunPool(task); !ok) return tl::unexpected(ok.error());
+  if (auto ok = evaluation::RunPool(task); !ok) return tl::unexpected(ok.error());
   return meshes;
 }
 
 Result<MeshHashes> CopyBuildings(const fs::path& from, const fs::path& scenes, Console& console) {
-  const auto ids = bench::ListScenes(from);
+  const auto ids = evaluation::ListScenes(from);
   if (!ids) return tl::unexpected(ids.error());
   MeshHashes meshes;
   for (const std::string& id : *ids) {

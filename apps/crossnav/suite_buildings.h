@@ -8,14 +8,14 @@
 #include <string>
 
 #include "commands.h"
-#include "crossnav/bench/suite.h"
+#include "crossnav/evaluation/episodes/suite.h"
 
 namespace crossnav::app {
 
 using MeshHashes = std::map<std::string, std::string>;
 
 /// Houses of the first seeds that give one, whatever the number of processes.
-Result<MeshHashes> GenerateBuildings(const bench::SuiteDefinition& suite,
+Result<MeshHashes> GenerateBuildings(const evaluation::SuiteDefinition& suite,
                                      const std::filesystem::path& scenes,
                                      const world::FurniturePack* pack, int jobs, Console& console);
 

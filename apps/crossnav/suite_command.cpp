@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/episode_generator.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/suite.h"
-#include "crossnav/bench/worker_pool.h"
+#include "crossnav/evaluation/episodes/suite.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/generation/episode_generator.h"
+#include "crossnav/evaluation/running/worker_pool.h"
 #include "eval_progress.h"
 #include "session.h"
 #include "suite_buildings.h"
@@ -27,20 +27,20 @@ struct SuitePlace {
   fs::path runs() const { return folder / "runs"; }
 };
 
-SuitePlace PlaceOf(const bench::SuiteDefinition& suite, const SuiteOptions& options) {
+SuitePlace PlaceOf(const evaluation::SuiteDefinition& suite, const SuiteOptions& options) {
   return {fs::path(options.out) / suite.name};
 }
 
 /// What a suite's episodes are made with; they depend on no settings of the user's.
-bench::RunConfig ConfigOf(const bench::SuiteDefinition& suite) {
-  bench::RunConfig config;
+evaluation::RunConfig ConfigOf(const evaluation::SuiteDefinition& suite) {
+  evaluation::RunConfig config;
   if (!suite.track.empty()) config.dataset.certificate = "detection";
   return config;
 }
 
-bench::GeneratorOptions DrawingOf(const bench::SuiteDefinition& suite,
-                                  std::span<const bench::GeneratorScene> scenes) {
-  bench::GeneratorOptions drawing;
+evaluation::GeneratorOptions DrawingOf(const evaluation::SuiteDefinition& suite,
+                                       std::span<const evaluation::GeneratorScene> scenes) {
+  evaluation::GeneratorOptions drawing;
   drawing.count = suite.per_building > 0 ? suite.per_building * static_cast<int>(scenes.size())
                                          : suite.episodes;
   drawing.seed = suite.episode_seed;
@@ -53,37 +53,37 @@ bench::GeneratorOptions DrawingOf(const bench::SuiteDefinition& suite,
 }
 
 /// In one worker: scenes are loaded there, and this process may go on to fork.
-Result<void> MakeEpisodes(const bench::SuiteDefinition& suite, const SuitePlace& place,
-                          const bench::RunConfig& config, Console& console) {
-  bench::PoolTask task;
+Result<void> MakeEpisodes(const evaluation::SuiteDefinition& suite, const SuitePlace& place,
+                          const evaluation::RunConfig& config, Console& console) {
+  evaluation::PoolTask task;
   task.count = 1;
   task.work = [&](int) -> Result<std::string> {
     SceneCache cache(place.scenes(), config);
-    const auto ids = bench::ListScenes(place.scenes());
+    const auto ids = evaluation::ListScenes(place.scenes());
     if (!ids) return tl::unexpected(ids.error());
     const auto scenes = cache.GetAll(*ids, console);
     if (!scenes) return tl::unexpected(scenes.error());
     console.EndProgress();
-    bench::GeneratorOptions drawing = DrawingOf(suite, *scenes);
+    evaluation::GeneratorOptions drawing = DrawingOf(suite, *scenes);
     CountProgress progress(console, "episodes drawn", static_cast<std::size_t>(drawing.count));
     drawing.drawn = [&](int done) { progress.Done(static_cast<std::size_t>(done)); };
-    auto file = bench::GenerateEpisodes(*scenes, config, drawing);
+    auto file = evaluation::GenerateEpisodes(*scenes, config, drawing);
     if (!file) return tl::unexpected(file.error());
-    for (bench::Episode& episode : file->episodes) episode.track = suite.track;
+    for (evaluation::Episode& episode : file->episodes) episode.track = suite.track;
     console.EndProgress();
-    if (auto ok = bench::WriteEpisodes(place.episodes(), *file); !ok) {
+    if (auto ok = evaluation::WriteEpisodes(place.episodes(), *file); !ok) {
       return tl::unexpected(ok.error());
     }
     return std::string();
   };
-  task.deliver = [&](int, const bench::ItemAnswer& answer) -> Result<void> {
-    if (answer.end == bench::ItemEnd::kDone) return {};
+  task.deliver = [&](int, const evaluation::ItemAnswer& answer) -> Result<void> {
+    if (answer.end == evaluation::ItemEnd::kDone) return {};
     return tl::unexpected(answer.error);
   };
-  return bench::RunPool(task);
+  return evaluation::RunPool(task);
 }
 
-Result<std::optional<world::FurniturePack>> PackOf(const bench::SuiteDefinition& suite,
+Result<std::optional<world::FurniturePack>> PackOf(const evaluation::SuiteDefinition& suite,
                                                    const SuiteOptions& options, Console& console) {
   if (!suite.has_pack) return std::optional<world::FurniturePack>();
   auto pack = OpenFurniture(options.furniture, console);
@@ -94,8 +94,9 @@ Result<std::optional<world::FurniturePack>> PackOf(const bench::SuiteDefinition&
   return pack;
 }
 
-Result<MeshHashes> MakeBuildings(const bench::SuiteDefinition& suite, const SuiteOptions& options,
-                                 const world::FurniturePack* pack, Console& console) {
+Result<MeshHashes> MakeBuildings(const evaluation::SuiteDefinition& suite,
+                                 const SuiteOptions& options, const world::FurniturePack* pack,
+                                 Console& console) {
   const fs::path scenes = PlaceOf(suite, options).scenes();
   if (suite.track == "drawn") return ImportDrawnHomes(options.homes, scenes, options.jobs, console);
   if (suite.track != "bim") return GenerateBuildings(suite, scenes, pack, options.jobs, console);
@@ -108,17 +109,18 @@ Result<MeshHashes> MakeBuildings(const bench::SuiteDefinition& suite, const Suit
   return CopyBuildings(options.buildings, scenes, console);
 }
 
-std::string FurnitureOf(const bench::SuiteDefinition& suite, const world::FurniturePack* pack) {
+std::string FurnitureOf(const evaluation::SuiteDefinition& suite,
+                        const world::FurniturePack* pack) {
   if (suite.track == "drawn") return "as drawn";
   if (suite.track == "bim") return "as imported";
   return pack != nullptr ? "pack " + pack->hash() : std::string("simple shapes");
 }
 
 /// Buildings, episodes, manifest; the manifest is written last, so that what has one is whole.
-Result<bench::SuiteManifest> MakeSuite(const bench::SuiteDefinition& suite,
-                                       const SuiteOptions& options, Console& console) {
+Result<evaluation::SuiteManifest> MakeSuite(const evaluation::SuiteDefinition& suite,
+                                            const SuiteOptions& options, Console& console) {
   const SuitePlace place = PlaceOf(suite, options);
-  if (auto ok = bench::CheckOutputFile(place.manifest(), "--out"); !ok) {
+  if (auto ok = evaluation::CheckOutputFile(place.manifest(), "--out"); !ok) {
     return tl::unexpected(ok.error());
   }
   const auto opened = PackOf(suite, options, console);
@@ -130,47 +132,47 @@ Result<bench::SuiteManifest> MakeSuite(const bench::SuiteDefinition& suite,
   if (!meshes) return tl::unexpected(meshes.error());
   if (auto ok = MakeEpisodes(suite, place, ConfigOf(suite), console); !ok)
     return tl::unexpected(ok.error());
-  const auto file = bench::ReadEpisodes(place.episodes());
+  const auto file = evaluation::ReadEpisodes(place.episodes());
   if (!file) return tl::unexpected(file.error());
-  bench::SuiteManifest manifest;
+  evaluation::SuiteManifest manifest;
   manifest.suite = suite.name;
   manifest.track = suite.track;
   manifest.generator_version = suite.generator_version;
   manifest.furniture = FurnitureOf(suite, pack);
   manifest.episodes = static_cast<int>(file->episodes.size());
-  manifest.first_transitions = bench::FirstTransitions(*file);
-  manifest.episodes_hash = bench::HexHash(file->content_hash);
+  manifest.first_transitions = evaluation::FirstTransitions(*file);
+  manifest.episodes_hash = evaluation::HexHash(file->content_hash);
   manifest.meshes = *meshes;
-  if (auto ok = bench::CheckManifest(suite, manifest, place.manifest()); !ok) {
+  if (auto ok = evaluation::CheckManifest(suite, manifest, place.manifest()); !ok) {
     return tl::unexpected(ok.error());
   }
-  if (auto ok = bench::WriteManifest(place.manifest(), manifest); !ok) {
+  if (auto ok = evaluation::WriteManifest(place.manifest(), manifest); !ok) {
     return tl::unexpected(ok.error());
   }
   return manifest;
 }
 
 /// The suite or track as it is on disk, made where it is not.
-Result<bench::SuiteManifest> EnsureSuite(const bench::SuiteDefinition& suite,
-                                         const SuiteOptions& options, Console& console) {
+Result<evaluation::SuiteManifest> EnsureSuite(const evaluation::SuiteDefinition& suite,
+                                              const SuiteOptions& options, Console& console) {
   const SuitePlace place = PlaceOf(suite, options);
   std::error_code ignored;
   if (!fs::exists(place.manifest(), ignored)) return MakeSuite(suite, options, console);
-  auto manifest = bench::ReadManifest(place.manifest());
+  auto manifest = evaluation::ReadManifest(place.manifest());
   if (!manifest) return manifest;
-  if (auto ok = bench::CheckManifest(suite, *manifest, place.manifest()); !ok) {
+  if (auto ok = evaluation::CheckManifest(suite, *manifest, place.manifest()); !ok) {
     return tl::unexpected(ok.error());
   }
   return manifest;
 }
 
 /// The tracks that the name means and that can be had: without --buildings, not bim.
-Result<std::vector<bench::SuiteDefinition>> WantedTracks(const SuiteOptions& options,
-                                                         Console& console) {
-  auto tracks = bench::FindTracks(options.name);
+Result<std::vector<evaluation::SuiteDefinition>> WantedTracks(const SuiteOptions& options,
+                                                              Console& console) {
+  auto tracks = evaluation::FindTracks(options.name);
   if (!tracks || tracks->size() == 1) return tracks;
   std::error_code ignored;
-  std::erase_if(*tracks, [&](const bench::SuiteDefinition& suite) {
+  std::erase_if(*tracks, [&](const evaluation::SuiteDefinition& suite) {
     const bool is_left_out = suite.track == "bim" && options.buildings.empty() &&
                              !fs::exists(PlaceOf(suite, options).manifest(), ignored);
     if (is_left_out) console.Log(suite.name + " is left out: it needs --buildings");
@@ -180,7 +182,7 @@ Result<std::vector<bench::SuiteDefinition>> WantedTracks(const SuiteOptions& opt
 }
 
 /// A run of the suite, finished.
-Result<void> EnsureRun(const bench::SuiteDefinition& suite, const SuiteOptions& options,
+Result<void> EnsureRun(const evaluation::SuiteDefinition& suite, const SuiteOptions& options,
                        const CommonOptions& common, Console& console) {
   const auto manifest = EnsureSuite(suite, options, console);
   if (!manifest) return tl::unexpected(manifest.error());
@@ -199,7 +201,7 @@ Result<void> EnsureRun(const bench::SuiteDefinition& suite, const SuiteOptions& 
 
 /// A line for people and a document.
 std::pair<std::string, Json> Describe(const SuitePlace& place,
-                                      const bench::SuiteManifest& manifest) {
+                                      const evaluation::SuiteManifest& manifest) {
   int required = 0;
   std::string stages;
   for (const int count : manifest.first_transitions) {
@@ -211,12 +213,12 @@ std::pair<std::string, Json> Describe(const SuitePlace& place,
                {"furniture", manifest.furniture},
                {"episodes", manifest.episodes},
                {"first_transition_stage", manifest.first_transitions},
-               {"hash", bench::SuiteHash(manifest)}};
+               {"hash", evaluation::SuiteHash(manifest)}};
   if (!manifest.track.empty()) json["track"] = manifest.track;
   return {fmt::format("{}: {} houses ({}), {} episodes, {} require a floor change (first at stage "
                       "{}), hash {}\n",
                       place.folder.string(), manifest.meshes.size(), manifest.furniture,
-                      manifest.episodes, required, stages, bench::SuiteHash(manifest)),
+                      manifest.episodes, required, stages, evaluation::SuiteHash(manifest)),
           std::move(json)};
 }
 
@@ -227,7 +229,7 @@ Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& /*commo
   const auto tracks = WantedTracks(options, console);
   if (!tracks) return tl::unexpected(tracks.error());
   Json documents = Json::array();
-  for (const bench::SuiteDefinition& suite : *tracks) {
+  for (const evaluation::SuiteDefinition& suite : *tracks) {
     const auto manifest = EnsureSuite(suite, options, console);
     if (!manifest) return tl::unexpected(manifest.error());
     console.EndProgress();
@@ -245,7 +247,7 @@ Result<void> SuiteRun(const SuiteOptions& options, const CommonOptions& common, 
   if (tracks->size() == 1) return EnsureRun(tracks->front(), options, common, console);
   MetricsOptions metrics;
   Console quiet(false, common.quiet, /*is_silent=*/true);
-  for (const bench::SuiteDefinition& suite : *tracks) {
+  for (const evaluation::SuiteDefinition& suite : *tracks) {
     if (auto ok = EnsureRun(suite, options, common, quiet); !ok) return ok;
     metrics.files.push_back(
         (PlaceOf(suite, options).runs() / options.variant / "results.jsonl").string());
@@ -260,7 +262,7 @@ Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& commo
   Console quiet(false, common.quiet, /*is_silent=*/true);  // the run's figures stand in the report
   ReportOptions report;
   report.out = (fs::path(options.out) / options.name / "report").string();
-  for (const bench::SuiteDefinition& suite : *tracks) {
+  for (const evaluation::SuiteDefinition& suite : *tracks) {
     if (auto ok = EnsureRun(suite, options, common, quiet); !ok) return ok;
     std::vector<std::string> runs;
     for (const auto& run : fs::directory_iterator(PlaceOf(suite, options).runs()))

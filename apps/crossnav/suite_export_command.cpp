@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/habitat_episodes.h"
-#include "crossnav/bench/output_path.h"
-#include "crossnav/bench/suite.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/write_file.h"
-#include "crossnav/sim/habitat_navmesh.h"
+#include "crossnav/evaluation/episodes/habitat_episodes.h"
+#include "crossnav/evaluation/episodes/suite.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/sim/navmesh/habitat_navmesh.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/scene/scene_writer.h"
 #include "session.h"
@@ -53,18 +53,18 @@ Result<void> SuiteExport(const SuiteOptions& options, const CommonOptions& /*com
   if (options.to.front() != "habitat") {
     return Fail(ErrorCode::kInvalid, "is no form to export to; there is habitat", "--to");
   }
-  if (auto ok = bench::CheckOutputFolder(out, "--to"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFolder(out, "--to"); !ok) return ok;
   const fs::path suite = fs::path(options.out) / options.name;
-  const auto manifest = bench::ReadManifest(suite / "manifest.json");
+  const auto manifest = evaluation::ReadManifest(suite / "manifest.json");
   if (!manifest) {
     return Fail(
         manifest.error().code,
         manifest.error().what + "; make the suite first: crossnav suite make " + options.name,
         manifest.error().where);
   }
-  const auto file = bench::ReadEpisodes(suite / "episodes.json.gz");
+  const auto file = evaluation::ReadEpisodes(suite / "episodes.json.gz");
   if (!file) return tl::unexpected(file.error());
-  const bench::RunConfig config;  // a suite does not depend on settings
+  const evaluation::RunConfig config;  // a suite does not depend on settings
   int done = 0;
   for (const auto& [scene, hash] : manifest->meshes) {
     console.Progress(fmt::format("scene {} of {}", ++done, manifest->meshes.size()));
@@ -75,7 +75,7 @@ Result<void> SuiteExport(const SuiteOptions& options, const CommonOptions& /*com
   }
   if (auto ok = world::WriteDatasetConfig(out / "scenes"); !ok) return ok;
   const fs::path episodes = out / "episodes.json.gz";
-  if (auto ok = bench::WriteHabitatEpisodes(episodes, *file); !ok) return ok;
+  if (auto ok = evaluation::WriteHabitatEpisodes(episodes, *file); !ok) return ok;
   console.EndProgress();
   console.Print(fmt::format("{}: {} scenes, {} episodes for Habitat\n", out.string(),
                             manifest->meshes.size(), file->episodes.size()));

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/result_records.h"
 #include "crossnav/core/write_file.h"
-#include "crossnav/sim/object_views.h"
-#include "crossnav/sim/picture.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/sim/sensing/object_views.h"
+#include "crossnav/sim/sensing/picture.h"
 #include "open_scene.h"
 
 namespace crossnav::app {
@@ -59,7 +59,7 @@ Json HeaderJson(const OpenScene& open, const sim::ViewRules& rules) {
   const SensorConfig& sensor = rules.sensor;
   return {{"format", 1},
           {"scene", open.scene->id},
-          {"mesh_hash", bench::HexHash(open.scene->mesh_hash)},
+          {"mesh_hash", evaluation::HexHash(open.scene->mesh_hash)},
           {"sensor",
            {{"width_px", sensor.width_px},
             {"height_px", sensor.height_px},

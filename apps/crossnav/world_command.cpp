@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "contact_sheet.h"
-#include "crossnav/bench/output_path.h"
+#include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/world/house/embedded_house.h"
 #include "crossnav/world/house/house_generator.h"
 
@@ -34,8 +34,9 @@ std::string HouseText(const world::HouseReport& house) {
 
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& /*common*/,
                            Console& console) {
-  if (auto ok = bench::CheckOutputFolder(options.out, "--out"); !ok) return ok;
-  if (auto ok = bench::CheckOutputFile(options.contact_sheet, "--contact-sheet"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFolder(options.out, "--out"); !ok) return ok;
+  if (auto ok = evaluation::CheckOutputFile(options.contact_sheet, "--contact-sheet"); !ok)
+    return ok;
   Json houses = Json::array();
   if (options.embedded) {
     const auto folder = world::WriteEmbeddedHouse(options.out);

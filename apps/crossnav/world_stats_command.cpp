@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossnav/bench/timing.h"
+#include "crossnav/evaluation/running/timing.h"
 #include "crossnav/world/house/house_generator.h"
 
 namespace crossnav::app {
@@ -60,9 +60,9 @@ std::string CountsText(const Counts& counts) {
 }
 
 std::string SpreadText(const std::vector<double>& values, int digits) {
-  return fmt::format("{:.{}f} / {:.{}f} / {:.{}f}", bench::PercentileOf(values, 0.5), digits,
-                     bench::PercentileOf(values, 0.95), digits, bench::PercentileOf(values, 1),
-                     digits);
+  return fmt::format("{:.{}f} / {:.{}f} / {:.{}f}", evaluation::PercentileOf(values, 0.5), digits,
+                     evaluation::PercentileOf(values, 0.95), digits,
+                     evaluation::PercentileOf(values, 1), digits);
 }
 
 std::string Table(const Totals& t) {
@@ -89,9 +89,9 @@ std::string Table(const Totals& t) {
 }
 
 Json SpreadJson(const std::vector<double>& values) {
-  return {{"median", bench::PercentileOf(values, 0.5)},
-          {"p95", bench::PercentileOf(values, 0.95)},
-          {"max", bench::PercentileOf(values, 1)}};
+  return {{"median", evaluation::PercentileOf(values, 0.5)},
+          {"p95", evaluation::PercentileOf(values, 0.95)},
+          {"max", evaluation::PercentileOf(values, 1)}};
 }
 
 Json Document(const Totals& t, const world::FurniturePack* pack) {

@@ -10,7 +10,7 @@
 #include <exception>
 #include <map>
 
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/image_codec.h"
 #endif
 
 namespace crossnav::homes {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crossnav/homes/home_builder.h"
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 
 namespace crossnav::homes {
 

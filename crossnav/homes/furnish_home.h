@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crossnav/homes/home_plan.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/furniture/furniture_source.h"
 
 namespace crossnav::homes {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crossnav/homes/polygon.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/mesh/rect.h"
 
 namespace crossnav::homes {

@@ -8,7 +8,7 @@
 
 #include "crossnav/homes/home_plan.h"
 #include "crossnav/homes/model_store.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::homes {
 

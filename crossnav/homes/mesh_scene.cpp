@@ -5,7 +5,7 @@
 #include <set>
 
 #include "crossnav/core/read_file.h"
-#include "crossnav/sim/gltf_reader.h"
+#include "crossnav/sim/scene/gltf_reader.h"
 #include "crossnav/world/models/obj_reader.h"
 
 namespace crossnav::homes {

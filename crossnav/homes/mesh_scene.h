@@ -9,7 +9,7 @@
 
 #include "crossnav/core/result.h"
 #include "crossnav/homes/objects_file.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::homes {
 

@@ -5,8 +5,8 @@
 #include <cctype>
 
 #include "crossnav/homes/assimp_reader.h"
-#include "crossnav/sim/gltf_reader.h"
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/gltf_reader.h"
+#include "crossnav/sim/scene/image_codec.h"
 #include "crossnav/world/mesh/simplify.h"
 
 namespace crossnav::homes {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <map>
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/furniture/furniture_classes.h"
 
 namespace crossnav::homes {

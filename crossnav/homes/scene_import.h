@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "crossnav/core/result.h"
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 #include "crossnav/world/furniture/furniture_pack.h"
 
 namespace crossnav::homes {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "crossnav/recordings/depth_image.h"
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/image_codec.h"
 
 namespace crossnav::recordings {
 namespace {

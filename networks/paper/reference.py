@@ -21,14 +21,14 @@ import architectures
 import export
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-MERGES = pathlib.Path(__file__).resolve().parents[2] / "tests/networks/data/tokens/merges.txt"
+MERGES = pathlib.Path(__file__).resolve().parents[2] / "tests/inference/data/tokens/merges.txt"
 OTHER = "floor lamp"  # a goal that is no label
 TEXTS = ["chair", "a photo of a bed.", "tv monitor", "Küchentisch", "椅子"]
 BEST = 3  # boxes of a label
 
 
 def picture(size):
-    """The same numbers as in tests/networks/paper_test.cpp: rows x columns x RGB."""
+    """The same numbers as in tests/inference/paper_test.cpp: rows x columns x RGB."""
     v, u = np.mgrid[0:size, 0:size]
     return np.stack([(7 * u + 3 * v) % 256, (u * v) // 8 % 256, (u * u // 16 + 5 * v) % 256], -1).astype(np.uint8)
 

@@ -15,7 +15,7 @@ using StatesOut = Array<std::uint8_t, nb::ndim<1>>;
 
 /// The agent with Python's objects that it asks; they go after it.
 struct AgentHandle {
-  AgentHandle(const bench::RunConfig& c, const PerceptionHandle& p, const nb::object& h)
+  AgentHandle(const evaluation::RunConfig& c, const PerceptionHandle& p, const nb::object& h)
       : perception(p),
         hooks(h),
         config(c),
@@ -23,7 +23,7 @@ struct AgentHandle {
 
   PerceptionHandle perception;
   nb::object hooks;
-  bench::RunConfig config;
+  evaluation::RunConfig config;
   agent::Agent agent;
   bool has_goal = false, has_stepped = false;
   std::atomic<bool> in_use{false};

@@ -2,15 +2,15 @@
 // Episodes, the C++ runner, metrics, and worlds made by code.
 #include <nanobind/stl/map.h>
 
-#include "crossnav/bench/cause.h"
-#include "crossnav/bench/comparison.h"
-#include "crossnav/bench/episode_generator.h"
-#include "crossnav/bench/episodes.h"
-#include "crossnav/bench/metrics_report.h"
-#include "crossnav/bench/outcome.h"
-#include "crossnav/bench/report.h"
-#include "crossnav/bench/result_records.h"
-#include "crossnav/bench/runner.h"
+#include "crossnav/evaluation/episodes/episodes.h"
+#include "crossnav/evaluation/generation/episode_generator.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/evaluation/reporting/comparison.h"
+#include "crossnav/evaluation/reporting/metrics_report.h"
+#include "crossnav/evaluation/reporting/report.h"
+#include "crossnav/evaluation/running/runner.h"
+#include "crossnav/evaluation/scoring/cause.h"
+#include "crossnav/evaluation/scoring/outcome.h"
 #include "crossnav/trace/replay_page.h"
 #include "crossnav/trace/trace_json.h"
 #include "crossnav/world/furniture/furniture_pack.h"
@@ -22,50 +22,51 @@ namespace crossnav::python {
 namespace {
 
 /// Keeps the step records as text.
-class TraceLog : public bench::RunObserver {
+class TraceLog : public evaluation::RunObserver {
  public:
-  Result<void> OnStep(const bench::StepView& step) override {
+  Result<void> OnStep(const evaluation::StepView& step) override {
     lines.push_back(trace::ToJson(step.trace, trace::VoxelText::kOmit));
     return {};
   }
   std::vector<std::string> lines;
 };
 
-nb::tuple RunEpisode(const SceneHandle& scene, const bench::Episode& episode,
+nb::tuple RunEpisode(const SceneHandle& scene, const evaluation::Episode& episode,
                      const Settings& settings) {
-  const bench::RunConfig config = settings.value.is_none() ? scene.config : ConfigOf(settings);
+  const evaluation::RunConfig config = settings.value.is_none() ? scene.config : ConfigOf(settings);
   const InUse guard(*scene.in_use);
   TraceLog log;
-  bench::RunObserver* observers[] = {&log};
+  evaluation::RunObserver* observers[] = {&log};
   const std::string line = [&] {
     const nb::gil_scoped_release others_run;
-    return bench::ToJsonLine(Unwrap(bench::RunEpisode(*scene.context, episode, config, observers)));
+    return evaluation::ToJsonLine(
+        Unwrap(evaluation::RunEpisode(*scene.context, episode, config, observers)));
   }();
   return nb::make_tuple(FromJson(line), log.lines);
 }
 
-bench::Episode MakeEpisode(const SceneHandle& scene, const std::vector<std::string>& goals,
-                           int start_floor, std::uint64_t seed) {
+evaluation::Episode MakeEpisode(const SceneHandle& scene, const std::vector<std::string>& goals,
+                                int start_floor, std::uint64_t seed) {
   const InUse guard(*scene.in_use);
   const nb::gil_scoped_release others_run;
-  return Unwrap(
-      bench::MakeEpisode({scene.id, scene.context.get()}, scene.config, goals, start_floor, seed));
+  return Unwrap(evaluation::MakeEpisode({scene.id, scene.context.get()}, scene.config, goals,
+                                        start_floor, seed));
 }
 
 std::string JudgeStage(bool stopped, bool is_reached, bool is_claim_near, bool all_explored,
                        double recent_path_m, const Settings& settings) {
-  const bench::StageEnd end{stopped, is_reached, is_claim_near, all_explored, recent_path_m};
-  return std::string(bench::NameOf(bench::JudgeStage(end, ConfigOf(settings).eval)));
+  const evaluation::StageEnd end{stopped, is_reached, is_claim_near, all_explored, recent_path_m};
+  return std::string(evaluation::NameOf(evaluation::JudgeStage(end, ConfigOf(settings).eval)));
 }
 
 nb::object MetricsOfFiles(const std::vector<std::filesystem::path>& paths) {
   if (paths.empty()) Raise(ErrorCode::kInvalid, "holds no episode", "metrics");
   const std::string text = [&] {
     const nb::gil_scoped_release others_run;
-    const auto results = Unwrap(bench::MergeResults(paths, /*require_all=*/false));
+    const auto results = Unwrap(evaluation::MergeResults(paths, /*require_all=*/false));
     if (results.episodes.empty())
       Raise(ErrorCode::kInvalid, "holds no episode", paths.front().string());
-    return bench::MetricsJson(results.episodes, {});
+    return evaluation::MetricsJson(results.episodes, {});
   }();
   return FromJson(text);
 }
@@ -73,37 +74,37 @@ nb::object MetricsOfFiles(const std::vector<std::filesystem::path>& paths) {
 /// report.json of the program with the records of each run, and what follows from each record.
 /// Every run against the first, also where that is not fair; runs that share no episode are left
 /// out.
-std::string CompareWithFirst(const std::vector<bench::ReportRun>& runs) {
-  std::vector<bench::Comparison> comparisons;
+std::string CompareWithFirst(const std::vector<evaluation::ReportRun>& runs) {
+  std::vector<evaluation::Comparison> comparisons;
   for (std::size_t i = 1; i < runs.size(); ++i) {
-    auto comparison = bench::CompareRuns(runs[0], runs[i], {}, /*is_forced=*/true);
+    auto comparison = evaluation::CompareRuns(runs[0], runs[i], {}, /*is_forced=*/true);
     if (comparison) comparisons.push_back(std::move(*comparison));
   }
-  return bench::ComparisonsJson(comparisons);
+  return evaluation::ComparisonsJson(comparisons);
 }
 
 nb::object ReportOfRuns(const std::vector<std::filesystem::path>& paths, bool partial) {
-  std::vector<bench::ReportRun> runs;
+  std::vector<evaluation::ReportRun> runs;
   std::string comparisons;
   const std::string text = [&] {
     const nb::gil_scoped_release others_run;
-    runs = Unwrap(bench::ReadRuns(paths, !partial));
+    runs = Unwrap(evaluation::ReadRuns(paths, !partial));
     comparisons = CompareWithFirst(runs);
-    return bench::ReportJson(runs, bench::CollectFigures(runs, {}));
+    return evaluation::ReportJson(runs, evaluation::CollectFigures(runs, {}));
   }();
   nb::object report = FromJson(text);
   report["comparisons"] = FromJson(comparisons);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     nb::list records;
-    for (const bench::EpisodeRecord& episode : runs[i].episodes) {
-      nb::object record = FromJson(bench::ToJsonLine(episode));
+    for (const evaluation::EpisodeRecord& episode : runs[i].episodes) {
+      nb::object record = FromJson(evaluation::ToJsonLine(episode));
       nb::list causes;
       nb::list spl;
-      for (const bench::StageRecord& stage : episode.stages) {
-        causes.append(bench::CauseOf(stage));
-        spl.append(bench::StageSpl(stage));
+      for (const evaluation::StageRecord& stage : episode.stages) {
+        causes.append(evaluation::CauseOf(stage));
+        spl.append(evaluation::StageSpl(stage));
       }
-      const bench::Metrics metrics = bench::ComputeMetrics({&episode, 1});
+      const evaluation::Metrics metrics = evaluation::ComputeMetrics({&episode, 1});
       record["causes"] = causes;
       record["stage_spl"] = spl;
       record["outcome"] = std::string(episode.OutcomeName());
@@ -150,31 +151,31 @@ nb::dict GenerateHouse(const PathIn& out_dir, std::uint64_t seed, int floors, do
 }
 
 void BindEpisodes(nb::module_& m) {
-  nb::class_<bench::Episode>(m, "Episode", "A start and the goals to be found in order.")
+  nb::class_<evaluation::Episode>(m, "Episode", "A start and the goals to be found in order.")
       .def(
           "__init__",
-          [](bench::Episode* self, const std::string& scene_id, const AgentPose& start,
+          [](evaluation::Episode* self, const std::string& scene_id, const AgentPose& start,
              const std::vector<std::string>& goals) {
             if (goals.empty()) Raise(ErrorCode::kInvalid, "must name at least one", "goals");
-            new (self) bench::Episode();
+            new (self) evaluation::Episode();
             self->scene_id = scene_id;
             self->start = start;
             self->goals = goals;
-            self->episode_id = bench::ContentId(*self);
+            self->episode_id = evaluation::ContentId(*self);
             self->where = self->episode_id;
           },
           "scene_id"_a, "start"_a, "goals"_a)
-      .def_ro("episode_id", &bench::Episode::episode_id)
-      .def_ro("scene_id", &bench::Episode::scene_id)
-      .def_ro("start", &bench::Episode::start)
-      .def_ro("goals", &bench::Episode::goals)
-      .def_ro("cross_floor_required", &bench::Episode::cross_floor_required)
-      .def_ro("first_transition_stage", &bench::Episode::first_transition_stage,
+      .def_ro("episode_id", &evaluation::Episode::episode_id)
+      .def_ro("scene_id", &evaluation::Episode::scene_id)
+      .def_ro("start", &evaluation::Episode::start)
+      .def_ro("goals", &evaluation::Episode::goals)
+      .def_ro("cross_floor_required", &evaluation::Episode::cross_floor_required)
+      .def_ro("first_transition_stage", &evaluation::Episode::first_transition_stage,
               "From 1; 0 where no floor change is needed.");
   m.def(
       "read_episodes",
-      [](const PathIn& path) { return Unwrap(bench::ReadEpisodes(path.path)).episodes; }, "path"_a,
-      "Our format, Habitat's ObjectNav or OneMap's; .json or .json.gz.");
+      [](const PathIn& path) { return Unwrap(evaluation::ReadEpisodes(path.path)).episodes; },
+      "path"_a, "Our format, Habitat's ObjectNav or OneMap's; .json or .json.gz.");
   m.def("make_episode", &MakeEpisode, "scene"_a, "goals"_a, "start_floor"_a = 0, "seed"_a = 1,
         "An episode with these goals that is proven solvable; the seed picks the start.");
   m.def("run_episode", &RunEpisode, "scene"_a, "episode"_a, "config"_a = nb::none(),
@@ -209,7 +210,7 @@ void BindBench(nb::module_& m) {
       },
       "replay"_a, "page"_a, "As `crossnav replay export`.");
   m.def(
-      "list_scenes", [](const PathIn& dir) { return Unwrap(bench::ListScenes(dir.path)); },
+      "list_scenes", [](const PathIn& dir) { return Unwrap(evaluation::ListScenes(dir.path)); },
       "scenes_dir"_a, "Ids of all scenes below the folder, sorted.");
   m.def(
       "write_embedded_house",

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "common.h"
-#include "crossnav/bench/config_file.h"
 #include "crossnav/core/action.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/core/colour_grid.h"
+#include "crossnav/evaluation/settings/config_file.h"
 
 namespace crossnav::python {
 namespace {
@@ -194,23 +194,24 @@ void BindPose(nb::module_& m) {
 }
 
 void BindConfig(nb::module_& m) {
-  nb::class_<bench::RunConfig>(
+  nb::class_<evaluation::RunConfig>(
       m, "Config",
       "Every setting: the numbers of the paper's table and our navigator (policy.profile = full; "
       "variant \"paper\" is the paper's method), with a mapping, a TOML text or a TOML file on "
       "top.")
       .def(
           "__init__",
-          [](bench::RunConfig* self, const Settings& settings, const std::string& variant) {
-            bench::RunConfig config = ConfigOf(settings);
-            Unwrap(bench::ApplyVariant(variant, config));
-            new (self) bench::RunConfig(std::move(config));
+          [](evaluation::RunConfig* self, const Settings& settings, const std::string& variant) {
+            evaluation::RunConfig config = ConfigOf(settings);
+            Unwrap(evaluation::ApplyVariant(variant, config));
+            new (self) evaluation::RunConfig(std::move(config));
           },
           "settings"_a = nb::none(), "variant"_a = "full")
       .def(
-          "to_dict", [](const bench::RunConfig& c) { return FromJson(bench::DumpJson(c)); },
+          "to_dict",
+          [](const evaluation::RunConfig& c) { return FromJson(evaluation::DumpJson(c)); },
           nb::sig("def to_dict(self) -> dict[str, typing.Any]"), "Every field, nested.")
-      .def_prop_ro("hash", &bench::ConfigHash, "16 hex digits over every key and value.");
+      .def_prop_ro("hash", &evaluation::ConfigHash, "16 hex digits over every key and value.");
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Scene and Simulator: load, reset, step, observe, judge; ground-truth perception.
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/sensing/simulator.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "crossnav/bench/outcome.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/ground_truth.h"
+#include "crossnav/evaluation/scoring/outcome.h"
+#include "crossnav/sim/sensing/ground_truth.h"
 #include "perception_handle.h"
 #include "scene_handle.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 /// What simulators and their perception share.
 struct Body {
-  explicit Body(const SceneHandle& s, const bench::RunConfig& c)
+  explicit Body(const SceneHandle& s, const evaluation::RunConfig& c)
       : scene(s),
         config(c),
         simulator(s.context->scene(), s.context->navmesh(), s.context->caster(), c.agent.sensor,
@@ -24,7 +24,7 @@ struct Body {
     simulator.UseNoise(c.noise, 0);
   }
   SceneHandle scene;
-  bench::RunConfig config;
+  evaluation::RunConfig config;
   sim::Simulator simulator;
   bool is_placed = false;
   std::atomic<bool> in_use{false};
@@ -135,7 +135,8 @@ Array<std::int32_t, nb::ndim<2>> Instances(const SimulatorHandle& self) {
 // --- Judging ------------------------------------------------------------------------------------
 
 // Callers hold the scene: its navmesh and its table of targets are one thread's at a time.
-const std::vector<bench::Target>& TargetsOf(const SceneHandle& scene, const std::string& goal) {
+const std::vector<evaluation::Target>& TargetsOf(const SceneHandle& scene,
+                                                 const std::string& goal) {
   const nb::gil_scoped_release others_run;
   return scene.context->TargetsOf(goal);
 }
@@ -143,8 +144,8 @@ const std::vector<bench::Target>& TargetsOf(const SceneHandle& scene, const std:
 bool IsReached(const SimulatorHandle& self, const std::string& goal) {
   const Body& body = Placed(self);
   const InUse scene(*body.scene.in_use);
-  return bench::IsGoalReached(*body.scene.context, TargetsOf(body.scene, goal),
-                              body.simulator.agent().p_world, body.config.eval);
+  return evaluation::IsGoalReached(*body.scene.context, TargetsOf(body.scene, goal),
+                                   body.simulator.agent().p_world, body.config.eval);
 }
 
 bool IsClaimNear(const SimulatorHandle& self, const std::string& goal, const Point& p_claimed) {
@@ -153,8 +154,8 @@ bool IsClaimNear(const SimulatorHandle& self, const std::string& goal, const Poi
   const InUse scene(*body.scene.in_use);
   const int floor = body.scene.context->FloorUnder(p);
   const auto& targets = TargetsOf(body.scene, goal);
-  return std::any_of(targets.begin(), targets.end(), [&](const bench::Target& target) {
-    return bench::IsWithinBoxRadius(target, p, floor, body.config.eval);
+  return std::any_of(targets.begin(), targets.end(), [&](const evaluation::Target& target) {
+    return evaluation::IsWithinBoxRadius(target, p, floor, body.config.eval);
   });
 }
 
@@ -172,8 +173,8 @@ SceneHandle LoadScene(const PathIn& scenes_dir, const std::optional<std::string>
   SceneHandle scene;
   scene.config = ConfigOf(settings);
   const nb::gil_scoped_release others_run;
-  scene.id = scene_id ? *scene_id : Unwrap(bench::ListScenes(scenes_dir.path)).front();
-  scene.context = Unwrap(bench::SceneContext::Load(scenes_dir.path, scene.id, scene.config));
+  scene.id = scene_id ? *scene_id : Unwrap(evaluation::ListScenes(scenes_dir.path)).front();
+  scene.context = Unwrap(evaluation::SceneContext::Load(scenes_dir.path, scene.id, scene.config));
   return scene;
 }
 

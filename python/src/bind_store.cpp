@@ -2,7 +2,7 @@
 // Saved memories: save_map, load_map, map_header.
 #include "crossnav/store/map_file.h"
 
-#include "crossnav/bench/result_records.h"
+#include "crossnav/evaluation/records/result_records.h"
 #include "map_handle.h"
 
 namespace crossnav::python {
@@ -16,7 +16,7 @@ nb::dict ToDict(const store::MapHeader& header) {
   out["clearing"] = header.clearing;
   out["feature_dim"] = header.feature_dim;
   out["encoder_name"] = header.encoder_name;
-  out["encoder_hash"] = bench::HexHash(header.encoder_hash);
+  out["encoder_hash"] = evaluation::HexHash(header.encoder_hash);
   out["frame"] = header.frame;
   out["map_blocks"] = header.map_blocks;
   out["feature_blocks"] = header.feature_blocks;

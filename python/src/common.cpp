@@ -3,25 +3,25 @@
 
 #include <cmath>
 
-#include "crossnav/bench/config_file.h"
+#include "crossnav/evaluation/settings/config_file.h"
 
 namespace crossnav::python {
 
-bench::RunConfig ConfigOf(const Settings& settings) {
-  if (nb::isinstance<bench::RunConfig>(settings.value))
-    return nb::cast<bench::RunConfig>(settings.value);
-  bench::RunConfig config;
+evaluation::RunConfig ConfigOf(const Settings& settings) {
+  if (nb::isinstance<evaluation::RunConfig>(settings.value))
+    return nb::cast<evaluation::RunConfig>(settings.value);
+  evaluation::RunConfig config;
   if (settings.value.is_none()) return config;
   const nb::object pair = nb::module_::import_("crossnav._config").attr("toml_of")(settings.value);
   const auto toml = nb::cast<std::string>(pair[0]);
   const auto name = nb::cast<std::string>(pair[1]);
   std::vector<std::string> warnings;
-  Unwrap(bench::ApplyConfigText(toml, name, config, &warnings));
+  Unwrap(evaluation::ApplyConfigText(toml, name, config, &warnings));
   for (const std::string& warning : warnings)
     if (PyErr_WarnEx(PyExc_FutureWarning, warning.c_str(), 1) != 0) nb::raise_python_error();
   if (config.noise.profile != "none") {  // whose settings lie below those of the user
-    config = bench::DefaultsOfProfile(config.noise.profile);
-    Unwrap(bench::ApplyConfigText(toml, name, config));
+    config = evaluation::DefaultsOfProfile(config.noise.profile);
+    Unwrap(evaluation::ApplyConfigText(toml, name, config));
   }
   return config;
 }

@@ -20,9 +20,9 @@
 #include <utility>
 #include <vector>
 
-#include "crossnav/bench/run_config.h"
 #include "crossnav/core/observation.h"
 #include "crossnav/core/result.h"
+#include "crossnav/evaluation/settings/run_config.h"
 #include "crossnav/geometry/voxel_key.h"
 
 namespace crossnav::python {
@@ -68,7 +68,7 @@ struct Settings {
 };
 
 /// The paper's defaults with these settings on top. Problems raise with the program's own text.
-bench::RunConfig ConfigOf(const Settings& settings);
+evaluation::RunConfig ConfigOf(const Settings& settings);
 
 /// A path as users give it; named apart for its type in Python.
 struct PathIn {

@@ -5,14 +5,14 @@
 #include <memory>
 
 #include "common.h"
-#include "crossnav/bench/scene_context.h"
+#include "crossnav/evaluation/scoring/scene_context.h"
 
 namespace crossnav::python {
 
 struct SceneHandle {
   std::string id;  ///< "<folder>/<file>.glb", as in episode files
-  bench::RunConfig config;
-  std::shared_ptr<const bench::SceneContext> context;
+  evaluation::RunConfig config;
+  std::shared_ptr<const evaluation::SceneContext> context;
   std::shared_ptr<std::atomic<bool>> in_use = std::make_shared<std::atomic<bool>>(false);
 };
 

@@ -11,10 +11,10 @@ namespace {
 class NetworksCli : public Cli {
  protected:
   void SetUp() override {
-    if (!networks::test::HasBackend()) GTEST_SKIP() << "no inference library is built in";
+    if (!inference::test::HasBackend()) GTEST_SKIP() << "no inference library is built in";
     Cli::SetUp();
     fs::create_directory(At("nets"));
-    networks::test::WriteSmallNetwork(At("nets"));
+    inference::test::WriteSmallNetwork(At("nets"));
   }
   const std::string use_ =
       " --set networks.dir=nets --set networks.detector=small --set networks.segmenter=small"
@@ -63,7 +63,7 @@ TEST_F(NetworksCli, AnEpisodeFromPixelsSaysSoAndNamesTheFiles) {
 }
 
 TEST_F(NetworksCli, AFolderWithoutOpenVinoIsNamed) {
-  const auto all = networks::test::BuiltBackends();
+  const auto all = inference::test::BuiltBackends();
   if (std::find(all.begin(), all.end(), "openvino") == all.end()) GTEST_SKIP() << "no OpenVINO";
   const Outcome check =
       RunIn(folder_, "networks check small --set networks.backend=openvino" + use_,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/networks/model_card.h"
+#include "crossnav/inference/model_card.h"
 #include "fuzz/harness.h"
 
 FUZZ(card, input) {
-  (void)crossnav::networks::ReadModelCard(crossnav::fuzz::FileWith("network.toml", input));
+  (void)crossnav::inference::ReadModelCard(crossnav::fuzz::FileWith("network.toml", input));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/bench/episodes.h"
+#include "crossnav/evaluation/episodes/episodes.h"
 #include "fuzz/harness.h"
 
 FUZZ(episodes, input) {
-  (void)crossnav::bench::ReadEpisodes(crossnav::fuzz::FileWith("episodes.json", input));
+  (void)crossnav::evaluation::ReadEpisodes(crossnav::fuzz::FileWith("episodes.json", input));
 }

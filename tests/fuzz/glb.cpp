@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/gltf_reader.h"
+#include "crossnav/sim/scene/gltf_reader.h"
 #include "fuzz/harness.h"
 
 // A folder that cannot exist: what the file names beside it is not there.

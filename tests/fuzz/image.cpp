@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/recordings/depth_image.h"
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/image_codec.h"
 #include "fuzz/harness.h"
 
 FUZZ(image, input) {

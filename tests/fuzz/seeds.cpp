@@ -3,12 +3,11 @@
 
 #include <string>
 
-#include "bench/record_builder.h"
-#include "crossnav/bench/config_file.h"
-#include "crossnav/bench/episodes.h"
-#include "crossnav/bench/result_records.h"
-#include "crossnav/bench/suite.h"
 #include "crossnav/core/png_image.h"
+#include "crossnav/evaluation/episodes/episodes.h"
+#include "crossnav/evaluation/episodes/suite.h"
+#include "crossnav/evaluation/records/result_records.h"
+#include "crossnav/evaluation/settings/config_file.h"
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/store/block_codec.h"
 #include "crossnav/store/map_file.h"
@@ -18,6 +17,7 @@
 #include "crossnav/trace/trace_json.h"
 #include "crossnav/trace/voxel_codec.h"
 #include "crossnav/world/furniture/furniture_pack.h"
+#include "evaluation/record_builder.h"
 #include "fuzz/plain_mcap.h"
 #include "homes/home_maker.h"
 #include "sim/glb_maker.h"
@@ -151,8 +151,8 @@ void AddPack(const Seeds& seeds) {
 }
 
 void AddEpisodes(const Seeds& seeds) {
-  bench::EpisodeFile file;
-  bench::Episode episode;
+  evaluation::EpisodeFile file;
+  evaluation::Episode episode;
   episode.scene_id = "00001-House";
   episode.goals = {"bed", "chair"};
   episode.has_certificate = true;
@@ -160,11 +160,11 @@ void AddEpisodes(const Seeds& seeds) {
   episode.certificate = {{1}, {0, 1}};
   episode.cross_floor_required = true;
   episode.first_transition_stage = 1;
-  episode.episode_id = bench::ContentId(episode);
+  episode.episode_id = evaluation::ContentId(episode);
   file.episodes = {episode};
   file.goals_by_category["House.glb_bed"] = {{7, "bed_7", "bed", {1, 2, 3}, {{1, 1, 1}}}};
-  (void)bench::WriteEpisodes(seeds.Path("episodes", "ours.json"), file);
-  (void)bench::WriteEpisodes(seeds.Path("episodes", "ours.json.gz"), file);
+  (void)evaluation::WriteEpisodes(seeds.Path("episodes", "ours.json"), file);
+  (void)evaluation::WriteEpisodes(seeds.Path("episodes", "ours.json.gz"), file);
   seeds.Put("episodes", "objectnav.json",
             R"({"episodes":[{"episode_id":"0","scene_id":"hm3d/a/b.glb","start_position":[1,2,3],)"
             R"("start_rotation":[0,0,0,1],"object_category":"bed","goals":[]}],)"
@@ -177,19 +177,19 @@ void AddEpisodes(const Seeds& seeds) {
 }
 
 void AddResults(const Seeds& seeds) {
-  bench::RunHeader header;
+  evaluation::RunHeader header;
   header.variant = "full";
   header.config_json = "{\"sensor\":{\"width_px\":64}}";
   header.episodes = 1;
   header.scenes["house"] = {"0123456789abcdef", "0123456789abcdef"};
-  auto record = bench::test::MakeEpisode("e1", 2, {{true, 2, 3}, {false, 4, 5}});
-  record.stages[1].extra.cause = bench::StageCause{{{"go_to", 3}}, "go_to", true, "", {}, 0.5};
-  bench::EpisodeRecord failed = bench::test::MakeEpisode("e2", 1, {});
-  failed.failed = bench::EpisodeFailure{"crash", "signal 11"};
+  auto record = evaluation::test::MakeEpisode("e1", 2, {{true, 2, 3}, {false, 4, 5}});
+  record.stages[1].extra.cause = evaluation::StageCause{{{"go_to", 3}}, "go_to", true, "", {}, 0.5};
+  evaluation::EpisodeRecord failed = evaluation::test::MakeEpisode("e2", 1, {});
+  failed.failed = evaluation::EpisodeFailure{"crash", "signal 11"};
   seeds.Put("results", "results.jsonl",
-            bench::ToJsonLine(header) + "\n" + bench::ToJsonLine(record) + "\n" +
-                bench::ToJsonLine(failed) + "\n");
-  bench::SuiteManifest manifest;
+            evaluation::ToJsonLine(header) + "\n" + evaluation::ToJsonLine(record) + "\n" +
+                evaluation::ToJsonLine(failed) + "\n");
+  evaluation::SuiteManifest manifest;
   manifest.suite = "crossnav-mfmon-1-mini";
   manifest.generator_version = 1;
   manifest.furniture = "simple shapes";
@@ -197,7 +197,7 @@ void AddResults(const Seeds& seeds) {
   manifest.first_transitions = {1, 0};
   manifest.episodes_hash = "0123456789abcdef";
   manifest.meshes = {{"00001-House", "0123456789abcdef"}};
-  (void)bench::WriteManifest(seeds.Path("suite", "suite.json"), manifest);
+  (void)evaluation::WriteManifest(seeds.Path("suite", "suite.json"), manifest);
 }
 
 void AddReplays(const Seeds& seeds) {
@@ -252,7 +252,7 @@ void AddMap(const Seeds& seeds) {
 }
 
 void AddTexts(const Seeds& seeds) {
-  const std::string defaults = bench::DumpToml(bench::RunConfig());
+  const std::string defaults = evaluation::DumpToml(evaluation::RunConfig());
   seeds.Put("config", "defaults.toml", defaults);
   seeds.Put("config", "dotted.toml", "[policy]\npoi.use_history = false # comment\n");
   seeds.Put("setting", "lines",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/scene_reader.h"
+#include "crossnav/sim/scene/scene_reader.h"
 #include "fuzz/harness.h"
 
 FUZZ(semantic_glb, input) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/bench/config_file.h"
+#include "crossnav/evaluation/settings/config_file.h"
 #include "fuzz/harness.h"
 
 // The values of --set, one a line.
 FUZZ(setting, input) {
-  crossnav::bench::RunConfig config;
+  crossnav::evaluation::RunConfig config;
   std::vector<std::string> overrides(1);
   for (const char c : crossnav::fuzz::Text(input)) {
     if (c == '\n') {
@@ -13,6 +13,7 @@ FUZZ(setting, input) {
       overrides.back() += c;
     }
   }
-  (void)crossnav::bench::ApplyOverrides(overrides, config);
-  for (const std::string& text : overrides) (void)crossnav::bench::ApplyOverrides({text}, config);
+  (void)crossnav::evaluation::ApplyOverrides(overrides, config);
+  for (const std::string& text : overrides)
+    (void)crossnav::evaluation::ApplyOverrides({text}, config);
 }

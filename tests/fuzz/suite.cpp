@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/bench/suite.h"
+#include "crossnav/evaluation/episodes/suite.h"
 #include "fuzz/harness.h"
 
 FUZZ(suite, input) {
-  (void)crossnav::bench::ReadManifest(crossnav::fuzz::FileWith("suite.json", input));
+  (void)crossnav::evaluation::ReadManifest(crossnav::fuzz::FileWith("suite.json", input));
 }

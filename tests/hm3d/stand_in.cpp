@@ -7,9 +7,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "crossnav/bench/gzip_file.h"
 #include "crossnav/core/write_file.h"
-#include "crossnav/sim/habitat_navmesh.h"
+#include "crossnav/evaluation/files/gzip_file.h"
+#include "crossnav/sim/navmesh/habitat_navmesh.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/scene/scene_writer.h"
 #ifdef CROSSNAV_HAS_BASIS
@@ -110,7 +110,7 @@ void WriteAsHm3d(const sim::Scene& scene, const std::string& hash,
 
 void WriteAsObjectNavV2(const std::filesystem::path& episodes, const std::string& hash,
                         const std::filesystem::path& folder) {
-  const auto text = bench::ReadTextFile(episodes);
+  const auto text = evaluation::ReadTextFile(episodes);
   ASSERT_TRUE(text.has_value()) << text.error().Message();
   const Json ours = Json::parse(*text);
   Json content = {{"goals_by_category", Json::object()}, {"episodes", Json::array()}};
@@ -127,9 +127,9 @@ void WriteAsObjectNavV2(const std::filesystem::path& episodes, const std::string
        {"category_to_task_category_id", "category_to_scene_annotation_category_id"}) {
     index[ids] = content[ids] = ours[ids];
   }
-  ASSERT_TRUE(bench::WriteTextFile(folder / "val.json.gz", index.dump()).has_value());
-  ASSERT_TRUE(
-      bench::WriteTextFile(folder / "content" / (hash + ".json.gz"), content.dump()).has_value());
+  ASSERT_TRUE(evaluation::WriteTextFile(folder / "val.json.gz", index.dump()).has_value());
+  ASSERT_TRUE(evaluation::WriteTextFile(folder / "content" / (hash + ".json.gz"), content.dump())
+                  .has_value());
 }
 
 }  // namespace crossnav::test

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::test {
 

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
 #include "home_maker.h"
 #include "support/temp_folder.h"
 

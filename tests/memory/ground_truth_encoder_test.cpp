@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The encoder that stands in for a network: what the memory's queries are tested with.
-#include "crossnav/sim/ground_truth_encoder.h"
+#include "crossnav/sim/sensing/ground_truth_encoder.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include "crossnav/core/rng.h"
 #include "crossnav/planner/ground_map.h"
 #include "crossnav/planner/ground_search.h"
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
 #include "support/stair_case.h"
 
 namespace crossnav::planner {

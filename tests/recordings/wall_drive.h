@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "crossnav/recordings/recording.h"
-#include "crossnav/sim/picture.h"
+#include "crossnav/sim/sensing/picture.h"
 #include "support/text_file.h"
 
 namespace crossnav::recordings::testing {

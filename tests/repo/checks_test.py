@@ -44,7 +44,7 @@ class Checks(unittest.TestCase):
 
     def test_the_agent_including_the_simulator_is_found(self):
         self.assert_found("includes", {"crossnav/agent/agent.cpp":
-                                       SPDX + '#include "crossnav/sim/scene.h"\n'},
+                                       SPDX + '#include "crossnav/sim/scene/scene.h"\n'},
                           "agent may not include sim")
 
     def test_a_folder_of_a_room_including_a_higher_one_is_found(self):
@@ -63,8 +63,8 @@ class Checks(unittest.TestCase):
 
     def test_the_agent_linking_the_evaluator_is_found(self):
         self.assert_found("includes", {"crossnav/agent/CMakeLists.txt":
-                                       "crossnav_library(agent SOURCES agent.cpp DEPS core bench)\n"},
-                          "agent may not link bench")
+                                       "crossnav_library(agent SOURCES agent.cpp DEPS core evaluation)\n"},
+                          "agent may not link evaluation")
 
     def test_a_third_party_header_outside_its_adapter_is_found(self):
         self.assert_found("includes", {"crossnav/core/pose.h": SPDX + "#include <tl/expected.hpp>\n"},

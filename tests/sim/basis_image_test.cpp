@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/basis_image.h"
+#include "crossnav/sim/scene/basis_image.h"
 
 #include <gtest/gtest.h>
 

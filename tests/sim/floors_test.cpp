@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 #include "micro_scene.h"
 
 namespace crossnav::sim::test {

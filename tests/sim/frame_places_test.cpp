@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/frame_places.h"
+#include "crossnav/sim/sensing/frame_places.h"
 
 #include <gtest/gtest.h>
 

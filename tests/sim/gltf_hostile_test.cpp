@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/gltf_reader.h"
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/gltf_reader.h"
+#include "crossnav/sim/scene/image_codec.h"
 #include "glb_maker.h"
 #include "support/png_bytes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/gltf_reader.h"
+#include "crossnav/sim/scene/gltf_reader.h"
 
 #include <gtest/gtest.h>
 

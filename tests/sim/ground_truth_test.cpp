@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/ground_truth.h"
+#include "crossnav/sim/sensing/ground_truth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bytes are read as habitat-sim reads them.
-#include "crossnav/sim/habitat_navmesh.h"
+#include "crossnav/sim/navmesh/habitat_navmesh.h"
 
 #include <gtest/gtest.h>
 #include <recastnavigation/DetourAlloc.h>

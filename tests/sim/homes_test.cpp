@@ -2,10 +2,10 @@
 // Two homes drawn by people, in HM3D's layout, handed to the project from outside.
 #include <gtest/gtest.h>
 
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/scene.h"
-#include "crossnav/sim/scene_info.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
+#include "crossnav/sim/sensing/scene_info.h"
 
 namespace crossnav::sim::test {
 namespace {

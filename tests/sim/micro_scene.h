@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::sim::test {
 

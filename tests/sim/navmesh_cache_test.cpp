@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/navmesh_detail.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh_detail.h"
 #include "micro_scene.h"
 #include "support/temp_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/object_views.h"
+#include "crossnav/sim/sensing/object_views.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "crossnav/sim/instance_scene.h"
+#include "crossnav/sim/sensing/instance_scene.h"
 #include "micro_scene.h"
 
 namespace crossnav::sim::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/rasterizer.h"
+#include "crossnav/sim/render/rasterizer.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/ray_caster.h"
-#include "crossnav/sim/triangle_clusters.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/render/triangle_clusters.h"
 #include "micro_scene.h"
 #include "ray_oracle.h"
 

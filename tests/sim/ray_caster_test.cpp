@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/ray_caster.h"
+#include "crossnav/sim/render/ray_caster.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

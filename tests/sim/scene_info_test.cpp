@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/scene_info.h"
+#include "crossnav/sim/sensing/scene_info.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <fstream>
 
-#include "crossnav/sim/scene_reader.h"
+#include "crossnav/sim/scene/scene_reader.h"
 #include "glb_maker.h"
 #include "micro_scene.h"
 #include "support/temp_folder.h"

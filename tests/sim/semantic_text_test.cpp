@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "crossnav/core/categories.h"
-#include "crossnav/sim/scene_reader.h"
+#include "crossnav/sim/scene/scene_reader.h"
 
 namespace crossnav::sim::test {
 namespace {

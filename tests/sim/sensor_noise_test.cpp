@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each kind of noise against its setting; off changes nothing; the same seed gives the same bytes.
-#include "crossnav/sim/sensor_noise.h"
+#include "crossnav/sim/sensing/sensor_noise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/shade_lanes.h"
+#include "crossnav/sim/render/shade_lanes.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/shading.h"
+#include "crossnav/sim/render/shading.h"
 #include "micro_scene.h"
 
 namespace crossnav::sim::test {

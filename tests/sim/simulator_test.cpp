@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/sensing/simulator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shortest paths against a visibility graph over the mesh's border, and against Detour's own
 // search.
-#include "crossnav/sim/walk_graph.h"
+#include "crossnav/sim/navmesh/walk_graph.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "crossnav/core/cells.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/planner/ground_map.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::test {
 

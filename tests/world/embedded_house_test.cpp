@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/shell/architecture.h"
 #include "oracle_walk.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 #include "crossnav/world/furniture/groups.h"
 #include "crossnav/world/house/house_file.h"
 #include "crossnav/world/house/house_gate.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/world/house/house_generator.h"
 #include "crossnav/world/layout/house_plan.h"
 #include "crossnav/world/shell/architecture.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/sensing/simulator.h"
 
 namespace crossnav::world {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crossnav/sim/ray_caster.h"
+#include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/world/furniture/furniture.h"
 #include "crossnav/world/furniture/furniture_source.h"
 #include "crossnav/world/scene/glb_writer.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "crossnav/sim/navmesh.h"
-#include "crossnav/sim/ray_caster.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/world/house/embedded_house.h"
 #include "crossnav/world/mesh/subdivide.h"
 #include "crossnav/world/shell/architecture.h"

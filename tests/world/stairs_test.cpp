@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crossnav/sim/simulator.h"
+#include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/world/plan/plan_walls.h"
 #include "crossnav/world/scene/scene_writer.h"
 #include "crossnav/world/shell/architecture.h"

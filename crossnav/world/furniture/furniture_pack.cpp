@@ -13,7 +13,7 @@
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/text_shape.h"
 #include "crossnav/core/write_file.h"
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/image_codec.h"
 
 namespace crossnav::world {
 namespace {

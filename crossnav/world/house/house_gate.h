@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "crossnav/core/result.h"
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 #include "crossnav/world/plan/plan.h"
 
 namespace crossnav::world {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crossnav/sim/navmesh.h"
+#include "crossnav/sim/navmesh/navmesh.h"
 #include "crossnav/world/furniture/furnish.h"
 #include "crossnav/world/furniture/furniture_pack.h"
 #include "crossnav/world/furniture/lived_in.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "crossnav/core/pose.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/mesh/rect.h"
 
 namespace crossnav::world {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/mesh/mesh_builder.h"
 
 namespace crossnav::world {

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::world {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "crossnav/sim/image_codec.h"
+#include "crossnav/sim/scene/image_codec.h"
 #include "crossnav/world/models/face_triangles.h"
 
 namespace crossnav::world {

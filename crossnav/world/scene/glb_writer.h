@@ -8,7 +8,7 @@
 #include <string>
 
 #include "crossnav/core/image.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::world {
 

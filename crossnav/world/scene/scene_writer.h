@@ -10,7 +10,7 @@
 #include <string>
 
 #include "crossnav/core/result.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::world {
 

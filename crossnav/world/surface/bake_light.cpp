@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/ray_caster.h"
+#include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/world/plan/plan_walls.h"
 
 namespace crossnav::world {

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/plan/plan.h"
 
 namespace crossnav::world {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "crossnav/core/rng.h"
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/mesh/object_model.h"
 
 namespace crossnav::world {

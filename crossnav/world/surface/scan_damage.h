@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::world {
 

@@ -4,7 +4,7 @@
 // without a seam.
 #pragma once
 
-#include "crossnav/sim/scene.h"
+#include "crossnav/sim/scene/scene.h"
 #include "crossnav/world/plan/plan.h"
 
 namespace crossnav::world {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The graph of a generated house's map against the plan that the house was built from.
+#pragma once
+
+#include <cstdint>
+
+#include "crossnav/core/result.h"
+#include "crossnav/evaluation/settings/run_config.h"
+#include "crossnav/scenegraph/scene_graph.h"
+#include "crossnav/world/plan/plan.h"
+
+namespace crossnav::evaluation {
+
+struct GraphScore {
+  int floors = 0, floors_found = 0, floors_wrong = 0;  ///< of the plan; of those; besides them
+  int rooms = 0, rooms_found = 0, rooms_wrong = 0;     ///< likewise, by IoU of at least 0.5
+
+  double RoomsF1() const {
+    const int all = 2 * rooms_found + rooms_wrong + (rooms - rooms_found);
+    return all > 0 ? 2.0 * rooms_found / all : 0;
+  }
+  GraphScore& operator+=(const GraphScore& other);
+};
+
+/// Rooms of the plan with no wall between them count as one; voids are none. Pieces of a room that
+/// have no floor are left out of it.
+GraphScore ScoreGraph(const scenegraph::SceneGraph& graph, const world::HousePlan& plan);
+
+struct GraphTrial {
+  std::string house;
+  GraphScore score;
+  scenegraph::SceneGraph graph;
+  double seconds = 0;  ///< of BuildGraph, wall clock
+};
+
+/// House `seed` of edition 1 or 2 as the generator draws it, its survey
+/// (evaluation/running/survey.h), its graph.
+Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& config);
+
+}  // namespace crossnav::evaluation

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// What has to be known of a network file to use it, in a TOML file beside it (docs/networks.md):
+// which adapter, what goes in, what the numbers that come out mean, and which bytes exactly.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "crossnav/core/result.h"
+
+namespace crossnav::inference {
+
+struct ModelCard {
+  std::filesystem::path path;  ///< of the card; its stem is the network's name
+  std::filesystem::path file;  ///< the ONNX file
+  std::string family;          ///< name of an adapter, see Families()
+  std::string sha256;          ///< of the file, 64 hexadecimal digits
+  std::string licence, source;
+
+  struct Input {
+    int width = 0, height = 0;                 ///< [px]
+    std::string resize = "plain";              ///< plain | letterbox | corner
+    bool antialias = true;                     ///< average over the pixels that become one
+    std::string colour = "rgb";                ///< rgb | bgr
+    double scale = 1.0 / 255;                  ///< of a byte, before mean and deviation
+    std::array<double, 3> mean{0, 0, 0};       ///< subtracted, by channel of `colour`
+    std::array<double, 3> deviation{1, 1, 1};  ///< then divided by
+    std::string layout = "chw";                ///< chw | hwc
+  } input;
+
+  struct Output {
+    int classes = 0;                 ///< that the network knows; 0 = as many as labels
+    int rows = 0, cols = 0;          ///< of dense features
+    int dim = 0;                     ///< of dense features, or number of mask prototypes
+    std::string layout = "hwc";      ///< of dense features: hwc | chw
+    int top = 0;                     ///< boxes that a detector gives; 0 = any number
+    std::vector<int> stair_classes;  ///< from 0
+  } output;
+
+  std::vector<std::string> labels;  ///< of the classes, in order
+  /// What the file calls an input or output of the family `crossnav`, where not as the family does.
+  std::map<std::string, std::string> ports;
+
+  std::string PortName(const std::string& port) const {
+    const auto own = ports.find(port);
+    return own == ports.end() ? port : own->second;
+  }
+
+  struct Thresholds {
+    double score = 0.3;  ///< below it nothing is a detection
+    /// Score of each label that counts as the policy's confidence 0.60, and as its 0.70; empty =
+    /// the score counts as it is.
+    std::vector<double> weak, accept;
+    double nms_iou = 0.6;  ///< overlap from which two boxes of a class are one object
+    double mask = 0.5;     ///< probability from which a pixel belongs to a mask
+    double stairs = 0.25;  ///< probability that counts as the policy's 0.25
+  } thresholds;
+
+  struct Text {
+    std::filesystem::path table;               ///< .npy, a row for each name; empty = none
+    std::vector<std::string> names;            ///< or
+    std::filesystem::path names_file;          ///< the same in a file, one a line
+    std::filesystem::path encoder;             ///< ONNX file for texts that the table does not have
+    std::string sha256;                        ///< of that file
+    std::string tokenizer;                     ///< clip | wordpiece
+    std::filesystem::path vocabulary;          ///< of the tokenizer
+    int length = 77;                           ///< numbers that the encoder takes
+    std::string padding = "end";               ///< end (the tokenizer's own) | zero
+    std::vector<std::string> templates{"{}"};  ///< "{}" stands for the text
+  } text;
+
+  /// The second file of a network that has two.
+  struct Second {
+    std::filesystem::path file;
+    std::string sha256;
+  } decoder;
+
+  std::string name() const { return path.stem().string(); }
+};
+
+/// Errors name the card and the key: unknown, missing, of the wrong type or out of range.
+Result<ModelCard> ReadModelCard(const std::filesystem::path& path);
+
+/// The content of the card's file; an error where it is not the one that the card was written for.
+Result<std::string> ReadNetworkFile(const ModelCard& card);
+
+/// What a detector's score for a label is worth on the policy's scale: straight lines through
+/// (0, 0), (weak, 0.60), (accept, 0.70) and (1, 1), or the score itself.
+double ConfidenceOf(const ModelCard::Thresholds& thresholds, int label, double score);
+
+/// What a probability of stairs is worth: lines through (0, 0), (thresholds.stairs, 0.25), (1, 1).
+void ScaleStairs(const ModelCard::Thresholds& thresholds, std::vector<float>& probability);
+
+}  // namespace crossnav::inference

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The networks that a configuration names, as a perception suite. Cards are read first, so that
+// what is wrong is said before anything runs; files are opened when a suite is made, once a
+// process.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/inference/networks_config.h"
+#include "crossnav/inference/parts.h"
+#include "crossnav/perception/perception.h"
+
+namespace crossnav::inference {
+
+inline constexpr std::string_view kDepthSegmenter = "depth";  ///< the segmenter without a file
+
+/// "crossnav_small" -> dir/crossnav_small.toml; a path of a card stays as it is.
+std::filesystem::path CardPath(const std::filesystem::path& dir, const std::string& name);
+
+/// Folders of network files that are not beside their cards: the one that CROSSNAV_NETWORKS names,
+/// then crossnav/networks in $XDG_DATA_HOME (~/.local/share).
+std::vector<std::filesystem::path> FileDirs();
+
+/// Points `card.file`, where it is not beside its card, to the file of that name in `dirs` or
+/// FileDirs().
+void FindFile(ModelCard& card, const std::vector<std::filesystem::path>& dirs = {});
+
+/// Paths of all cards (*.toml) in a folder, sorted by name.
+Result<std::vector<std::filesystem::path>> ListCards(const std::filesystem::path& dir);
+
+class NetworkSet {
+ public:
+  /// Reads the cards that `config` names, below `dir`, and hashes their files. An empty name is a
+  /// part that is left out. Opens no network:
+  /// this may be called before processes are forked. Errors: a card, a part that its family lacks,
+  /// a file that is not there or not the card's. Files that are not beside their cards are looked
+  /// for in `file_dirs` and FileDirs().
+  static Result<NetworkSet> Read(const NetworksConfig& config, const std::filesystem::path& dir,
+                                 const std::vector<std::filesystem::path>& file_dirs = {});
+
+  /// A suite over networks that are opened at the first call. One suite at a time. Parts that are
+  /// left out are null, which an agent cannot do with: see IsComplete.
+  Result<perception::PerceptionSuite> MakeSuite(double camera_height_m);
+
+  /// An error that names the first part that is left out.
+  Result<void> IsComplete() const;
+
+  /// SHA-256 of each file that is used, by name of its card.
+  const std::map<std::string, std::string>& hashes() const { return hashes_; }
+  /// As the suite's encoder will be called.
+  const std::string& encoder_name() const { return encoder_name_; }
+
+ private:
+  Result<void> HashFiles(const ModelCard& card);
+  Result<Model*> ModelOf(const std::string& name, const ModelOptions& options);
+
+  NetworksConfig config_;
+  std::map<std::string, ModelCard> cards_;
+  std::map<std::string, std::string> hashes_;
+  std::string encoder_name_;
+  std::map<std::string, std::shared_ptr<Model>> models_;
+};
+
+}  // namespace crossnav::inference

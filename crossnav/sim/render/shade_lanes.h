@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Colours of a packet's hits, several at a time (Highway, chosen at run time): scalar reference:
+// shading.h, byte for byte. Internal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crossnav/sim/scene/scene.h"
+
+namespace crossnav::sim {
+
+inline constexpr int kShadeLanes = 8;
+
+/// Inputs of a triangle's colour, by its index in the scene; one cache line each.
+class Skins {
+ public:
+  explicit Skins(const Scene& scene);
+
+  /// Words of a triangle. Colours are packed as red, green, blue from the lowest byte.
+  enum Word : int {
+    kU = 0,         ///< texture coordinates of the three corners, bits of floats
+    kV = 3,         ///< likewise
+    kCorner = 6,    ///< colours of the three corners; white where there are none
+    kBase = 9,      ///< the material's
+    kTexture = 10,  ///< number, -1 without
+    kWidth = 11,    ///< of the texture [px]
+    kHeight = 12,
+    kUnlit = 13,  ///< 1 where the colour is shown as it is
+    kWords = 16
+  };
+
+  struct alignas(64) Skin {
+    std::array<std::int32_t, kWords> words{};
+  };
+
+  std::vector<Skin> triangles;
+  std::vector<const Rgb8*> textures;  ///< rows of pixels
+  bool has_textures = false, has_corners = false;
+};
+
+/// Where the rays of a packet met the scene, kShadeLanes of each; those without a hit may name any
+/// triangle and hold anything finite.
+struct PacketHits {
+  const std::int32_t* triangle = nullptr;
+  const float *s = nullptr, *t = nullptr;  ///< weights of the second and third corner
+  std::array<const float*, 3> normal{}, ray{};
+};
+
+/// Colours, packed as above.
+void ShadePacket(const Skins& skins, const PacketHits& hits,
+                 std::span<std::uint32_t, kShadeLanes> colours);
+
+}  // namespace crossnav::sim

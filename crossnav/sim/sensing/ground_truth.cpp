@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/sim/sensing/ground_truth.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "crossnav/core/categories.h"
+#include "crossnav/sim/sensing/ground_truth_encoder.h"
+
+namespace crossnav::sim {
+namespace {
+
+using perception::Detection;
+using perception::PixelBox;
+
+constexpr float kStairProbability = 0.9F;  // chosen: sure, but not certain
+constexpr std::array<std::string_view, 3> kStairNames{"stairs", "staircase", "stair"};
+
+/// 0.5 for something barely seen, up to 0.98; halves its distance to that with every 2 % of the
+/// image, and loses up to 0.2 over the range.
+float ConfidenceOf(const SeenInstance& s, const SensorConfig& sensor,
+                   double max_distance_m) {  // chosen: shaped like a detector's, not fitted
+  const double share = s.pixels / (static_cast<double>(sensor.width_px) * sensor.height_px);
+  const double by_size = 0.98 - 0.48 * std::exp2(-share / 0.02);
+  const double by_distance = 0.2 * std::clamp(s.nearest_m / max_distance_m, 0.0, 1.0);
+  return static_cast<float>(std::clamp(by_size - by_distance + 0.1, 0.0, 0.98));
+}
+
+bool IsCategory(std::string_view goal) {
+  return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
+}
+
+/// The simulator's last frame, or null where it cannot be the one that `obs` was made from. Only
+/// the sizes are compared: depth and pose of an observation may have had noise added.
+const Frame* FrameOf(const Simulator& simulator, const Observation& obs) {
+  const Frame& frame = simulator.last_frame();
+  const bool same = frame.instance.width == obs.depth_m.width &&
+                    frame.instance.height == obs.depth_m.height && !frame.instance.empty();
+  return same ? &frame : nullptr;
+}
+
+tl::unexpected<Error> StaleFrame() {
+  return Fail(ErrorCode::kMismatch,
+              "ground-truth perception was asked about an observation that is not the simulator's "
+              "last one");
+}
+
+class GroundTruthDetector : public perception::Detector {
+ public:
+  GroundTruthDetector(const Simulator& simulator, const GroundTruthConfig& config)
+      : simulator_(simulator), config_(config) {}
+
+  Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) override {
+    const Frame* frame = FrameOf(simulator_, obs);
+    if (frame == nullptr) return StaleFrame();
+    std::map<int, SeenInstance> seen;  // by instance id, so that the order is fixed
+    for (const SceneInstance& instance : simulator_.scene().instances) {
+      const bool wanted = IsCategory(goal) ? instance.category == goal : instance.name == goal;
+      if (wanted) seen[instance.id];
+    }
+    if (!seen.empty()) Collect(*frame, seen);
+    std::vector<Detection> detections;
+    for (const auto& [id, s] : seen) {
+      if (auto detection = DetectionOf(s, simulator_.sensor(), config_))
+        detections.push_back(std::move(*detection));
+    }
+    std::stable_sort(detections.begin(), detections.end(),
+                     [](const auto& a, const auto& b) { return a.confidence > b.confidence; });
+    return detections;
+  }
+
+ private:
+  static void Collect(const Frame& frame, std::map<int, SeenInstance>& seen) {
+    std::int32_t last_id = 0;
+    SeenInstance* last = nullptr;
+    for (int v = 0; v < frame.instance.height; ++v) {
+      for (int u = 0; u < frame.instance.width; ++u) {
+        const std::int32_t id = frame.instance.At(u, v);
+        if (id == 0) continue;
+        if (id != last_id) {
+          const auto found = seen.find(id);
+          last = found == seen.end() ? nullptr : &found->second;
+          last_id = id;
+        }
+        if (last == nullptr) continue;
+        last->Add(u, v, frame.depth_m.At(u, v));
+      }
+    }
+  }
+
+  const Simulator& simulator_;
+  GroundTruthConfig config_;
+};
+
+/// Exactly the visible pixels of the instance that fills most of the box.
+class GroundTruthSegmenter : public perception::Segmenter {
+ public:
+  explicit GroundTruthSegmenter(const Simulator& simulator) : simulator_(simulator) {}
+
+  Result<void> Segment(const Observation& obs, Detection& detection) override {
+    const Frame* frame = FrameOf(simulator_, obs);
+    if (frame == nullptr) return StaleFrame();
+    const PixelBox box{std::max(detection.box.u0, 0), std::max(detection.box.v0, 0),
+                       std::min(detection.box.u1, frame->instance.width),
+                       std::min(detection.box.v1, frame->instance.height)};
+    const int id = InstanceOf(*frame, box);
+    detection.mask = MaskImage(frame->instance.width, frame->instance.height);
+    detection.mask_quality = id == 0 ? 0.0F : 1.0F;
+    for (int v = box.v0; v < box.v1; ++v) {
+      for (int u = box.u0; u < box.u1; ++u) {
+        detection.mask.At(u, v) = id != 0 && frame->instance.At(u, v) == id ? 1 : 0;
+      }
+    }
+    return {};
+  }
+
+ private:
+  /// The goal-like instance whose own visible box is `box`; else the one with most pixels in it.
+  int InstanceOf(const Frame& frame, const PixelBox& box) const {
+    std::map<int, int> count;
+    for (int v = box.v0; v < box.v1; ++v) {
+      for (int u = box.u0; u < box.u1; ++u) ++count[frame.instance.At(u, v)];
+    }
+    count.erase(0);
+    // Walls and floors often fill more of the box than the object: prefer the instance that fits
+    // the box.
+    int best = 0;
+    double best_score = -1;
+    for (const auto& [id, pixels] : count) {
+      const SceneInstance* instance = simulator_.scene().FindInstance(id);
+      const bool is_goal = instance != nullptr && !instance->category.empty();
+      const double score =
+          BoxOverlap(frame, id, box) + (is_goal ? 0.5 : 0) + 1e-9 * static_cast<double>(pixels);
+      if (score > best_score) {
+        best = id;
+        best_score = score;
+      }
+    }
+    return best;
+  }
+
+  /// Intersection over union of `box` and the box of the visible pixels of `id`.
+  static double BoxOverlap(const Frame& frame, int id, const PixelBox& box) {
+    PixelBox own{1 << 30, 1 << 30, 0, 0};
+    for (int v = 0; v < frame.instance.height; ++v) {
+      for (int u = 0; u < frame.instance.width; ++u) {
+        if (frame.instance.At(u, v) != id) continue;
+        own = {std::min(own.u0, u), std::min(own.v0, v), std::max(own.u1, u + 1),
+               std::max(own.v1, v + 1)};
+      }
+    }
+    const PixelBox both{std::max(own.u0, box.u0), std::max(own.v0, box.v0),
+                        std::min(own.u1, box.u1), std::min(own.v1, box.v1)};
+    if (both.u1 <= both.u0 || both.v1 <= both.v0) return 0;
+    return both.Area() / (own.Area() + box.Area() - both.Area());
+  }
+
+  const Simulator& simulator_;
+};
+
+class GroundTruthStairs : public perception::StairSegmenter {
+ public:
+  explicit GroundTruthStairs(const Simulator& simulator) : simulator_(simulator) {
+    for (const SceneInstance& instance : simulator.scene().instances) {
+      const auto& names = kStairNames;
+      if (std::find(names.begin(), names.end(), instance.name) != names.end()) {
+        stairs_.insert(instance.id);
+      }
+    }
+  }
+
+  Result<Image<float>> SegmentStairs(const Observation& obs) override {
+    const Frame* frame = FrameOf(simulator_, obs);
+    if (frame == nullptr) return StaleFrame();
+    Image<float> probability(frame->instance.width, frame->instance.height, 0.0F);
+    if (stairs_.empty()) return probability;
+    for (std::size_t i = 0; i < probability.data.size(); ++i) {
+      const std::int32_t id = frame->instance.data[i];
+      if (id != 0 && stairs_.count(id) != 0) probability.data[i] = kStairProbability;
+    }
+    return probability;
+  }
+
+ private:
+  const Simulator& simulator_;
+  std::set<int> stairs_;
+};
+
+}  // namespace
+
+void SeenInstance::Add(int u, int v, float depth_m) {
+  ++pixels;
+  nearest_m = std::min(nearest_m, static_cast<double>(depth_m));
+  box = {std::min(box.u0, u), std::min(box.v0, v), std::max(box.u1, u + 1),
+         std::max(box.v1, v + 1)};
+}
+
+std::optional<Detection> DetectionOf(const SeenInstance& seen, const SensorConfig& sensor,
+                                     const GroundTruthConfig& config) {
+  if (seen.pixels < config.min_visible_px || seen.nearest_m > config.max_distance_m)
+    return std::nullopt;
+  return Detection{seen.box, ConfidenceOf(seen, sensor, config.max_distance_m), {}, 0};
+}
+
+std::string EncoderName(const GroundTruthConfig& config) {
+  return config.clip_dir.empty() ? "ground-truth" : "ground-truth-clip";
+}
+
+Result<perception::PerceptionSuite> GroundTruthPerception(const Simulator& simulator,
+                                                          const GroundTruthConfig& config) {
+  auto encoder = MakeGroundTruthEncoder(simulator, config);
+  if (!encoder) return tl::unexpected(encoder.error());
+  perception::PerceptionSuite suite;
+  suite.detector = std::make_unique<GroundTruthDetector>(simulator, config);
+  suite.segmenter = std::make_unique<GroundTruthSegmenter>(simulator);
+  suite.stairs = std::make_unique<GroundTruthStairs>(simulator);
+  suite.encoder = std::move(*encoder);
+  return suite;
+}
+
+}  // namespace crossnav::sim

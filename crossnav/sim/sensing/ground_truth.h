@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Ground-truth perception: the four interfaces of crossnav/perception answered from the simulator's
+// instance image. For tests and for evaluation without networks; results say "oracle-perception".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "crossnav/perception/perception.h"
+#include "crossnav/sim/sensing/simulator.h"
+
+namespace crossnav::sim {
+
+struct GroundTruthConfig {
+  double max_distance_m = 8.0;  // chosen: detectors miss far objects
+  int min_visible_px = 200;     // chosen: and tiny objects
+  int feature_dim = 768;
+  int feature_rows = 24, feature_cols = 24;
+  double feature_noise = 0.25;  // chosen: norm of the seeded noise against unit text vectors
+  double confusion = 0.35;      // chosen: cosine between look-alikes such as bed and sofa
+  std::uint64_t seed = 1;
+  /// Folder of real CLIP text vectors (docs/cli.md, "Words"), which give the dimension and make
+  /// synonyms work; empty = vectors made up from the names.
+  std::string clip_dir;
+};
+
+template <class V>
+void Visit(V& visit, GroundTruthConfig& c) {
+  visit("max_distance_m", c.max_distance_m, 0.1, 100.0);
+  visit("min_visible_px", c.min_visible_px, 1, 1000000);
+  visit("feature_dim", c.feature_dim, 8, 4096);
+  visit("feature_rows", c.feature_rows, 1, 256);
+  visit("feature_cols", c.feature_cols, 1, 256);
+  visit("feature_noise", c.feature_noise, 0.0, 10.0);
+  visit("confusion", c.confusion, 0.0, 0.99);
+  visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
+  visit("clip_dir", c.clip_dir);
+}
+
+/// View of one instance in a picture.
+struct SeenInstance {
+  int pixels = 0;
+  double nearest_m = 1e30;  ///< depth of its nearest pixel
+  perception::PixelBox box{1 << 30, 1 << 30, 0, 0};
+
+  void Add(int u, int v, float depth_m);
+};
+
+/// The detection that ground truth makes of it, without a mask; empty where it is too small or too
+/// far away.
+std::optional<perception::Detection> DetectionOf(const SeenInstance& seen,
+                                                 const SensorConfig& sensor,
+                                                 const GroundTruthConfig& config);
+
+/// All four interfaces, answered from `simulator`, which must outlive the suite. Detections of the
+/// goal category are true instances; names that are not one of kCategories match raw names exactly.
+/// Errors: `clip_dir` without readable vectors.
+Result<perception::PerceptionSuite> GroundTruthPerception(const Simulator& simulator,
+                                                          const GroundTruthConfig& config);
+
+/// Name of the encoder that `config` asks for: features of one mean nothing to the other.
+std::string EncoderName(const GroundTruthConfig& config);
+
+}  // namespace crossnav::sim

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// One instance of a scene as a scene of its own, for rays that nothing else may stop.
+#pragma once
+
+#include "crossnav/sim/scene/scene.h"
+
+namespace crossnav::sim {
+
+/// The triangles of instance `id` with the materials and textures they use (holes stay holes).
+Scene ExtractInstance(const Scene& scene, int id);
+
+}  // namespace crossnav::sim

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Imperfect sensors: noise on perfect frames, poses and steps. The same settings, seed and calls
+// give the same bytes. Every kind of noise draws from its own stream, so that its settings do not
+// change another kind's draws.
+#pragma once
+
+#include <cstdint>
+
+#include "crossnav/core/action.h"
+#include "crossnav/core/image.h"
+#include "crossnav/core/pose.h"
+#include "crossnav/core/rng.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/sensing/noise_config.h"
+
+namespace crossnav::sim {
+
+/// Standard deviation of a depth reading at planar depth `z_m` [m].
+inline double DepthSigma(const NoiseConfig& noise, double z_m) {
+  return noise.depth_sigma_m + noise.depth_sigma_per_m2 * z_m * z_m;
+}
+
+/// Shifted pixels, lost edges, patches without depth, noise, steps, range: in this order. Invalid
+/// pixels (0) stay invalid; what noise takes to 0 or below is invalid.
+DepthImage NoisyDepth(const NoiseConfig& noise, const DepthImage& depth_m, std::uint64_t seed);
+
+/// Exposure, then motion blur.
+RgbImage NoisyColour(const NoiseConfig& noise, const RgbImage& rgb, std::uint64_t seed);
+
+/// One episode's worth of noise.
+class SensorNoise {
+ public:
+  /// `episode_seed` makes episodes differ; noise.seed is mixed with it.
+  SensorNoise(const NoiseConfig& noise, std::uint64_t episode_seed);
+
+  /// Nothing is drawn and nothing is copied where everything is off.
+  bool IsOn() const { return is_on_; }
+
+  /// Executed share of a move's length: 0 = slipped, 1 = perfect.
+  double MoveFactor();
+  /// Error of a turn [rad].
+  double TurnError_rad();
+
+  /// Begins the episode anew: the same numbers are drawn again. The agent believes the truth.
+  void Start(const AgentPose& true_pose);
+  /// Updates the odometry by the true motion of `action`.
+  void Moved(Action action, const AgentPose& true_pose);
+  /// Where the agent believes to be: world as it was at the start, drift included.
+  const AgentPose& believed() const { return believed_; }
+
+  /// Makes a frame imperfect. A lost frame has no depth and no instances and is black.
+  void Disturb(Frame& frame);
+
+ private:
+  void CloseLoop(const AgentPose& true_pose);
+
+  NoiseConfig noise_;
+  bool is_on_;
+  std::uint64_t seed_;
+  std::uint64_t frames_ = 0;
+  Rng action_rng_, drift_rng_, drop_rng_;
+  AgentPose true_pose_, believed_;
+};
+
+}  // namespace crossnav::sim

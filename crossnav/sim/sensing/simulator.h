@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The robot in the scene: six discrete actions on the navmesh, and the camera. Deterministic.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "crossnav/core/action.h"
+#include "crossnav/core/camera.h"
+#include "crossnav/core/observation.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/sim/render/ray_caster.h"
+#include "crossnav/sim/scene/scene.h"
+#include "crossnav/sim/sensing/sensor_noise.h"
+
+namespace crossnav::sim {
+
+class Simulator {
+ public:
+  /// All three must outlive the simulator.
+  Simulator(const Scene& scene, const NavMesh& navmesh, const RayCaster& caster,
+            const SensorConfig& sensor, const ActionConfig& action);
+
+  /// Places the agent; the point is snapped to the navmesh. Error if none is near or it is not
+  /// finite.
+  Result<void> Reset(const AgentPose& start);
+
+  /// Executes one action (kStop does nothing). A blocked forward stops at the obstacle: no sliding.
+  /// Returns the distance really moved [m].
+  double Step(Action action);
+
+  /// Renders the current view. Also keeps the frame for ground-truth perception. Under noise the
+  /// pose is the believed one.
+  Observation Observe();
+
+  /// Whether observations carry colour; without it their pictures are black and come sooner.
+  void ShowColour(bool is_wanted) {
+    channels_ = is_wanted ? Channels::kAll : Channels::kWithoutColour;
+  }
+
+  /// From the next Reset on, steps, poses and frames are as imperfect as `noise` says; the same
+  /// seed gives the same. Settings that are all off change nothing.
+  void UseNoise(const NoiseConfig& noise, std::uint64_t episode_seed);
+
+  const AgentPose& agent() const { return agent_; }  ///< the true one
+  const Frame& last_frame() const { return frame_; }
+  const Scene& scene() const { return scene_; }
+  const NavMesh& navmesh() const { return navmesh_; }
+  const SensorConfig& sensor() const { return sensor_; }
+
+ private:
+  const Scene& scene_;
+  const NavMesh& navmesh_;
+  const RayCaster& caster_;
+  SensorConfig sensor_;
+  ActionConfig action_;
+  double Execute(Action action);
+
+  AgentPose agent_;
+  std::optional<SensorNoise> noise_;  // nothing = perfect
+  Frame frame_;
+  Channels channels_ = Channels::kAll;
+};
+
+}  // namespace crossnav::sim

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/evaluation/episodes/held_out.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace crossnav::evaluation {
+namespace {
+
+/// A camera that looks along +x at a wall `depth_m` ahead.
+Observation LookAtWall(double depth_m) {
+  Observation obs;
+  obs.camera = {64, 64, 60, 60, 31.5, 31.5};
+  obs.depth_m = DepthImage(64, 64, static_cast<float>(depth_m));
+  Eigen::Matrix3d R;
+  R.col(0) = -Vector3d::UnitY();
+  R.col(1) = -Vector3d::UnitZ();
+  R.col(2) = Vector3d::UnitX();
+  obs.T_world_camera = Pose::Identity();
+  obs.T_world_camera.linear() = R;
+  return obs;
+}
+
+geometry::VoxelMap MapOfWall(double depth_m) {
+  geometry::VoxelMap map{geometry::MapConfig{}};
+  const Observation obs = LookAtWall(depth_m);
+  map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
+  map.UpdateStates();
+  return map;
+}
+
+TEST(HeldOut, AnotherFrameOfTheSameWallIsPredictedToHalfAVoxel) {
+  HeldOutResult result;
+  AddHeldOut(MapOfWall(3.04), LookAtWall(3.04), &result);
+  EXPECT_EQ(result.rays, 16 * 16);
+  EXPECT_EQ(result.known, result.rays);
+  EXPECT_EQ(result.violations, 0);
+  ASSERT_GT(result.errors_m.size(), 200U);
+  EXPECT_LE(*std::max_element(result.errors_m.begin(), result.errors_m.end()), 0.1);
+}
+
+TEST(HeldOut, ARayThatEndsInTheMiddleOfFreeSpaceViolatesIt) {
+  HeldOutResult result;
+  AddHeldOut(MapOfWall(3.04), LookAtWall(1.5), &result);
+  EXPECT_EQ(result.violations, result.rays);
+  EXPECT_NEAR(result.errors_m.front(), 1.54, 0.1);
+}
+
+TEST(HeldOut, WhatTheMapDoesNotKnowIsNoViolation) {
+  HeldOutResult result;
+  AddHeldOut(MapOfWall(3.04), LookAtWall(4.0), &result);
+  EXPECT_EQ(result.violations, 0);
+  EXPECT_LT(result.known, result.rays / 10);
+  HeldOutResult empty;
+  AddHeldOut(geometry::VoxelMap{geometry::MapConfig{}}, LookAtWall(3), &empty);
+  EXPECT_EQ(empty.known, 0);
+  EXPECT_TRUE(empty.errors_m.empty());
+  HeldOutResult blind;
+  AddHeldOut(MapOfWall(3.04), LookAtWall(0), &blind);
+  EXPECT_EQ(blind.rays, 0);
+}
+
+}  // namespace
+}  // namespace crossnav::evaluation
