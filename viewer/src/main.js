@@ -160,20 +160,20 @@ class ReplayApp {
     this.fitCamera(box);
     const matrix = this.camera.matrix();
     this.updateFloorRange(step);
-    const { lines, triangles } = this.builder.build(this.index);
+    const shapes = this.builder.build(this.index);
     if (this.renderer) {
       this.updateMesh();
       this.renderer.resize(box.width, box.height, ratio);
-      this.renderer.draw({
-        ...this.view, matrix, ratio, background: rgbOf(colours.view),
+      this.renderer.draw(this.camera.three, {
+        ...this.view, background: rgbOf(colours.view),
         voxel_m: this.replay.info.voxel_m,
         colours: this.replay.states.map((s) => s.colour.map((v) => v / 255)),
         walkable: rgbOf(WALKABLE), inflated: rgbOf(INFLATED),
-      }, lines, triangles);
+      }, shapes);
     }
     this.overlay.draw({
       width: box.width, height: box.height, ratio, matrix, step, view: this.view, colours,
-      flatLines: this.renderer ? null : lines,
+      flatLines: this.renderer ? null : shapes.lines,
     });
     this.timeline.show(this.index, colours);
     document.body.dataset.drawn = String(this.index);
