@@ -19,7 +19,7 @@ declare -A PACKAGES=(
   [build]="g++ cmake ninja-build ccache python3-dev python3-venv \
     libeigen3-dev libexpected-dev libfmt-dev libembree-dev libtbb-dev libtinygltf-dev \
     librecast-dev nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
-    zlib1g-dev libzip-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
+    zlib1g-dev libzip-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev libevent-dev \
     protobuf-compiler libmeshoptimizer-dev libpugixml-dev libgtest-dev"
   [homes]="libassimp-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
