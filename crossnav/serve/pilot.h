@@ -26,6 +26,8 @@ struct PilotOptions {
   /// A new agent for a camera so high above the ground, with the saved memory or without. The
   /// one before is gone by then.
   std::function<Result<agent::Agent>(double camera_height_m, bool restore)> make_agent;
+  /// After each step of the agent; may be empty.
+  std::function<void(const Observation&, const agent::StepResult&, const agent::Agent&)> on_step{};
 };
 
 class Pilot {
