@@ -260,11 +260,14 @@ struct NetworksOptions {
   std::vector<std::string> cards;  ///< to check; empty = all
   std::string image, depth, text, out;
   std::string network;  ///< a card that answers alone; empty = those of the settings
+  std::string scenes;   ///< development houses
 };
 Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& common,
                           Console& console);
 Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& common,
                            Console& console);
+Result<void> NetworksCalibrate(const NetworksOptions& options, const CommonOptions& common,
+                               Console& console);
 Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& common,
                           Console& console);
 

@@ -27,10 +27,10 @@ enum class Verdict { kPresent, kAbsent, kUnknown };
 std::string_view NameOf(Verdict verdict);
 
 /// From which match on a text counts as present among features of `encoder` (by the name in map
-/// files); nullopt where that was never measured.
+/// files); nullopt where that was never measured. Of networks the card says it.
 std::optional<double> PresentFrom(std::string_view encoder);
 
-/// kUnknown where PresentFrom has no answer.
-Verdict Judge(const QueryMatch& match, std::string_view encoder);
+/// kUnknown where no threshold was measured.
+Verdict Judge(const QueryMatch& match, std::optional<double> present_from);
 
 }  // namespace crossnav::memory
