@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Colours of a packet's hits, several at a time (Highway, chosen at run time): scalar reference:
-// shading.h, byte for byte. Internal.
+// Colours of a packet's hits, several at a time (Highway, chosen at run time). Internal.
+//
+// Scalar reference: shading.h, equal byte for byte (tests/sim/shade_lanes_test.cpp). For one hit at
+// barycentric (s, t):
+//   colour = material colour, times the bilinear texture sample at the interpolated (u, v) / 255,
+//            times the interpolated corner colour / 255
+//   light  = 1 for unlit materials, else 0.52 + 0.32 |n . d| / (|n| |d|)
+//            + (0.10 n_z + 0.06 n_x + 0.03 n_y) / |n|, n turned towards the viewer
+//   byte   = floor(colour * light + 0.5) for each channel
 #pragma once
 
 #include <array>
