@@ -6,8 +6,7 @@
 //   depth: rise / (n . d) in double precision. At grazing rays, (n . d)^2 < least, this quotient is
 //     unstable; depth is 1 / (the canvas's inverse depth).
 //   instance: the triangle's; 0 where nothing is drawn.
-//   colour: ShadePacket at the barycentric weights w_k(u, v) / (w_0 + w_1 + w_2), clamped to [0,
-//   1].
+//   colour: ShadePacket at the barycentric weights w_k(u, v) / (w_0 + w_1 + w_2), clamped to 0..1.
 // Reference: single rays (Rasterizer.ColoursDepthsAndHolesAreThoseOfRays). Every instruction set
 // gives the same bytes.
 #pragma once
