@@ -47,7 +47,7 @@ std::map<std::string, std::string> SettingsOf(const RunHeader& header) {
   Flatten(Json::parse(DumpJson(RunConfig())), "", defaults);
   for (const auto& [key, value] : defaults) {
     const bool is_newer = key.starts_with("noise.") || key == "dataset.certificate";
-    if (is_newer) flat.emplace(key, value);  // records from before there was any
+    if (is_newer) flat.emplace(key, value);  // older records lack the key
   }
   flat.erase("eval.seed");        // header.seed
   flat.erase("eval.perception");  // header.perception

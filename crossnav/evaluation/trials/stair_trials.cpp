@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kSameFloor_m = 0.25;  // chosen: below two risers
 
-/// Where a start is looked for, and what it must see.
+/// Region of possible starts, and the point that a start must see.
 struct View {
   double floor_m = 0;
   Vector3d p_seen_world = Vector3d::Zero();
 };
 
-/// Whether the camera of an agent at `start` sees the point: in the picture, nothing before it.
+/// Whether an agent's camera at `start` sees the point: in the picture, not occluded.
 bool Sees(const SceneContext& context, const AgentPose& start, const Vector3d& p_world,
           const SensorConfig& sensor) {
-  constexpr double kBefore_m = 0.15;  // chosen: the thing itself may surround the point
+  constexpr double kBefore_m = 0.15;  // chosen: the object itself may surround the point
   const Pose T_world_camera = CameraPose(start, sensor.camera_height_m);
   const CameraIntrinsics camera = sensor.Intrinsics();
   const Vector3d p_camera = T_world_camera.inverse() * p_world;
@@ -56,7 +56,7 @@ Result<AgentPose> DrawStart(const SceneContext& context, const View& view, std::
               context.scene().id + " seed " + std::to_string(seed));
 }
 
-/// Notes whether the agent was ever at a height.
+/// Notes whether the agent reached a height.
 class HeightWatch : public RunObserver {
  public:
   explicit HeightWatch(double height_m) : height_m_(height_m) {}
@@ -128,7 +128,7 @@ Result<FalseAttempt> TryFalseEntrance(FalseEntrance kind, std::uint64_t seed,
                                       const RunConfig& config) {
   const FalseWorld world = MakeFalseWorld(kind, seed);
   const auto context = SceneContext::Of(world::BuildHouse(world.plan), config);
-  // Furniture may leave no ground to walk on.
+  // Furniture may leave no walkable ground.
   if (!context) return Fail(ErrorCode::kNotFound, context.error().what, context.error().where);
   const auto start = DrawStart(**context, {world.start_m, world.p_seen_world}, seed, config);
   if (!start) return tl::unexpected(start.error());
@@ -139,7 +139,8 @@ Result<FalseAttempt> TryFalseEntrance(FalseEntrance kind, std::uint64_t seed,
   if (!perception) return tl::unexpected(perception.error());
   agent::Agent agent(config.agent, std::move(*perception));
   if (auto ok = simulator.Reset(*start); !ok) return tl::unexpected(ok.error());
-  if (auto ok = agent.SetGoal("toilet"); !ok) return tl::unexpected(ok.error());  // there is none
+  // The world has no toilet.
+  if (auto ok = agent.SetGoal("toilet"); !ok) return tl::unexpected(ok.error());
   FalseAttempt attempt;
   while (attempt.actions < config.eval.action_budget && !attempt.started) {
     const auto step = agent.Step(simulator.Observe());
