@@ -233,7 +233,7 @@ Result<ResultWriter> ResultWriter::Open(const std::filesystem::path& path, const
   if (auto ok = Lock(*descriptor, path); !ok) return tl::unexpected(ok.error());
   auto file = ReadResults(path);
   if (!file) return tl::unexpected(file.error());
-  // Locked after reading, because reading ends the lock.
+  // Locks again, because reading releases the lock.
   if (auto ok = Lock(*descriptor, path); !ok) return tl::unexpected(ok.error());
   const bool is_new = file->valid_bytes == 0;
   if (!is_new) {
