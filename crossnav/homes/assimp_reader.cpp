@@ -39,7 +39,7 @@ int TextureOf(const aiMaterial& material, const world::FileLookup& lookup, world
   return it->second = static_cast<int>(out.model.textures.size()) - 1;
 }
 
-/// Per material of the file: its index in `out`, -1 where it is as good as invisible.
+/// Per material of the file: its index in `out`, -1 if it is nearly invisible.
 std::vector<int> AddMaterials(const aiScene& scene, const world::FileLookup& lookup,
                               world::NamedObj& out) {
   std::vector<int> index;

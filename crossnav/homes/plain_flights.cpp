@@ -10,10 +10,11 @@ namespace crossnav::homes {
 namespace {
 
 constexpr double kRiser_m = 0.19;     // chosen: a house's usual step
-constexpr double kMinTread_m = 0.14;  // chosen: below it the navmesh ends
-constexpr double kMinSpiral_m = 1.1;  // chosen: diameter; narrower ones have no tread to stand on
+constexpr double kMinTread_m = 0.14;  // chosen: minimum of the navmesh
+constexpr double kMinSpiral_m = 1.1;  // chosen: diameter; narrower spirals have no walkable tread
 constexpr double kPole_m = 0.06;
-constexpr double kSector_rad = std::numbers::pi / 3;  // of a spiral: the landing above, the way in
+// of a spiral: the landing above, the entry below
+constexpr double kSector_rad = std::numbers::pi / 3;
 constexpr int kOrientations = 8;
 constexpr Rgb8 kWood{150, 110, 75};
 
@@ -59,7 +60,7 @@ std::optional<world::NamedObj> Straight(const HomePiece& piece, double rise_m, i
   return Finished(builder);
 }
 
-/// Treads around a pole; the sector around `exit_rad` is the way in below and the landing above.
+/// Treads around a pole; the sector around `exit_rad` is the entry below and the landing above.
 std::optional<world::NamedObj> Spiral(const HomePiece& piece, double rise_m, double exit_rad,
                                       bool is_clockwise) {
   const Vector2d radius(0.5 * piece.width_m, 0.5 * piece.depth_m);
@@ -89,7 +90,7 @@ std::optional<world::NamedObj> Spiral(const HomePiece& piece, double rise_m, dou
   return Finished(builder);
 }
 
-/// How much higher the far end of the model is than the near end, in a direction.
+/// Height of the model's far end above its near end, in a direction.
 double RiseAlong(const world::NamedObj& model, const HomePiece& piece, int direction,
                  double rise_m) {
   const Way way = WayOf(piece, direction);
