@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// From which match on a text counts as present (crossnav/memory/query_match.h): houses are
-// explored, then asked for every name that any of them has and for things that no house has. Usage:
-// query_calibration [--clip DIR | --networks DIR] [--lines] HOUSE_FOLDER... Words that are nearer
-// than a cosine of 0.9 to a name in the house are left out of the absent ones.
+// Calibrates the match at which a text counts as present (crossnav/memory/query_match.h): explores
+// houses, then queries every name of their objects and names of objects that no house has. Usage:
+//
+//   query_calibration [--clip DIR | --networks DIR] [--lines] HOUSE_FOLDER...
+//
+// Words with a cosine above 0.9 to a name in the house are left out of the absent names.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,10 +37,10 @@ constexpr std::array<const char*, 20> kNowhere = {
     "zebra",    "giraffe", "airplane",   "submarine",  "volcano",       "tractor",      "trumpet",
     "banana",   "penguin", "helicopter", "skateboard", "traffic light", "fire hydrant", "surfboard",
     "elephant", "violin",  "canoe",      "tank",       "castle",        "rocket"};
-constexpr double kSpacing_m = 2.2;  // between the places from which a house is seen
+constexpr double kSpacing_m = 2.2;  // between the places of exploration
 constexpr int kYaws = 5;
 constexpr int kSide_px = 240;
-constexpr int kLeastVoxels = 5;  // of an instance that was seen
+constexpr int kLeastVoxels = 5;  // of a seen instance
 constexpr double kSameWord = 0.9;
 
 struct Options {
@@ -56,7 +58,7 @@ std::string NameOf(const sim::SceneInstance& instance) {
   return SpacedName(instance.category.empty() ? instance.name : instance.category);
 }
 
-/// The encoder of the options, and what it stands on.
+/// The encoder of the options, with the objects that it uses.
 struct Encoder {
   inference::NetworkSet networks;
   perception::PerceptionSuite suite;
@@ -103,7 +105,7 @@ Result<void> Explore(const sim::NavMesh& navmesh, sim::Simulator& simulator,
   return {};
 }
 
-/// Names in the house -> the most voxels that any of its instances has in the memory.
+/// Names in the house -> largest number of voxels of an instance in the memory.
 std::map<std::string, int> SeenNames(const sim::Scene& scene,
                                      const memory::SemanticMemory& memory) {
   std::map<std::string, int> seen;

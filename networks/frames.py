@@ -64,5 +64,5 @@ class Sample:
 
     def inputs(self):
         height = height_above_foot(self.depth, self.rows, self.focal, self.pitch_rad, self.camera_height_m)
-        return {"image": self.rgb.transpose(2, 0, 1),  # u8: divided by 255 on the way in
+        return {"image": self.rgb.transpose(2, 0, 1),  # u8: divided by 255 on input
                 "depth": self.depth[None], "height": height[None]}

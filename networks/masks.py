@@ -11,11 +11,11 @@ from model import Plain, conv
 from torch import nn
 
 SIZE = 96  # of a window
-SIDE = 2  # pixels of a window that are computed as one
-MARGIN = 0.06  # chosen: of the box's sides, that the window shows beyond each edge; boxes are about as exact
+SIDE = 2  # pixels of a window that share one computation
+MARGIN = 0.06  # chosen: margin of the window beyond each edge, as a share of the box
 NEAREST_M = 0.05  # chosen: nearer readings count as this near
 SPREAD = 0.2  # chosen: of the logarithm of range within one object
-LEAST_SHARE = 0.5  # chosen: of the goal in a cell or one beside it; elsewhere a table before a sofa was drawn as one
+LEAST_SHARE = 0.5  # chosen: minimum share of the goal in a cell or its neighbours
 OUTPUTS = ["mask", "window"]
 
 

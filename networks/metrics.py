@@ -16,7 +16,7 @@ NMS_IOU = 0.5
 LOWEST_SCORE = 0.02
 FALSE_PER_FRAME = 0.1
 MASK_SHARE = 0.5
-STAIR_SHARE = 0.01  # of the picture, for it to be a picture of stairs
+STAIR_SHARE = 0.01  # minimum share of a picture of stairs
 
 
 def overlap(a, b):

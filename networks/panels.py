@@ -22,7 +22,7 @@ def write(image, text, at):
     cv2.putText(image, text, at, cv2.FONT_HERSHEY_SIMPLEX, 0.35, (255, 255, 255), 1, cv2.LINE_AA)
 
 
-LOWEST = 0.2  # chosen: scores below it are not drawn
+LOWEST = 0.2  # chosen: lower scores are not drawn
 
 
 def claims_picture(rgb, answer, lowest=LOWEST):

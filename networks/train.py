@@ -196,7 +196,7 @@ def train(args):
     last, saved, told, means = time.time(), time.time(), time.time(), {}
     pool = concurrent.futures.ThreadPoolExecutor(1)
     draw = lambda: pool.submit(batch_of, places, weights, args.batch, size_at(share_of(run, args), args), rng)
-    coming = draw()  # the next batch, while the network learns from the last
+    coming = draw()  # the next batch, prepared during the step
     while (share := share_of(run, args)) < 1:
         for group in run.optimizer.param_groups:
             group["lr"] = rate_at(share, args.rate)

@@ -22,9 +22,9 @@ import torch
 import train
 from model import GOALS, Network
 
-MIN_SHARE = 1 / 100  # chosen: of the picture, that an object's box fills
+MIN_SHARE = 1 / 100  # chosen: minimum share of the picture in an object's box
 MIN_PX = 40  # chosen: of an object in its window
-BOX_ERROR = 0.05  # chosen: of a box's sides, about as in claims
+BOX_ERROR = 0.05  # chosen: of a box's sides, similar to claims
 TELL_EVERY_S = 60
 
 

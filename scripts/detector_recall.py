@@ -25,7 +25,7 @@ try:
     import onnxruntime
     from PIL import Image, ImageDraw
 except ImportError as error:
-    np, MISSING = None, error.name  # the judging below works without
+    np, MISSING = None, error.name  # the scoring below works without it
 else:
     MISSING = None
 

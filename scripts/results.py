@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("CROSSNAV", str(ROOT / "build/release/apps/crossnav/crossnav"))
-# The methods of the paper's tables, then ours. A comparison is with the last of its list.
+# The methods of the paper's tables, then ours. Comparisons are with the last of its list.
 METHODS = ("onemap", "paper-no-history-poi", "paper")
 OURS = ("planar", "no-history-poi", "no-history-poi-pure", "full")
 # tab:single_object_results has no row without History POIs: one goal has no history.

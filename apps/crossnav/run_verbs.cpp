@@ -32,7 +32,7 @@ void AddProtocol(CLI::App* verb, T& options) {
   AddPerception(verb, options.perception);
 }
 
-/// What `eval` and `slurm` share.
+/// Options common to `eval` and `slurm`.
 void AddEvaluation(CLI::App* verb, EvalOptions& eval) {
   verb->add_option("--scenes", eval.scenes, "Folder of scenes")->required();
   verb->add_option("--episodes", eval.episodes, "Episode file")->required();
@@ -181,7 +181,7 @@ void AddResults(CLI::App& app, Options& o) {
   AddReplay(app, o);
 }
 
-/// What a recording does not say of itself, or says wrongly.
+/// Parameters that a recording lacks, or states wrongly.
 void AddSensor(CLI::App* verb, MapBuildOptions& o) {
   verb->add_option("--intrinsics", o.intrinsics,
                    "Colour camera [px], and the depth camera's where it has none of its own")

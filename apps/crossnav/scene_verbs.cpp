@@ -7,7 +7,7 @@
 namespace crossnav::app {
 namespace {
 
-/// What to draw houses from.
+/// Parameters of generated houses.
 void AddHouses(CLI::App* verb, WorldOptions& world) {
   verb->add_option("--seed", world.seed, "First seed");
   verb->add_option("--count", world.count, "Number of houses")->check(CLI::Range(1, 100000));

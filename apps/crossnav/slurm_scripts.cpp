@@ -8,7 +8,7 @@
 namespace crossnav::app {
 namespace {
 
-// chosen: seconds before its time is over in which a task requeues itself; Slurm may signal up to a
+// chosen: a task requeues itself this many seconds before its time limit; Slurm may signal up to a
 // minute earlier
 constexpr int kRequeueSeconds = 60;
 
@@ -16,12 +16,12 @@ std::string Option(const char* name, const std::string& value) {
   return value.empty() ? std::string() : fmt::format("#SBATCH --{}={}\n", name, value);
 }
 
-/// What both jobs say to sbatch. Logs are relative to the folder of the scripts.
+/// Common #SBATCH lines of both jobs. Logs are relative to the scripts' folder.
 std::string Head(const SlurmJob& job, const std::string& name, const std::string& log) {
   std::string text = "#!/bin/bash\n";
   text += Option("job-name", name);
   text += Option("output", log);
-  text += Option("open-mode", "append");  // a requeued task goes on in its log, too
+  text += Option("open-mode", "append");  // a requeued task appends to its log
   text += "#SBATCH --requeue\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n";
   text += Option("partition", job.partition);
   text += Option("account", job.account);

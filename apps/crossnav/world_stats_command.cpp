@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Counts = std::map<std::string, int>;
 
-/// What a set of houses amounts to.
+/// Statistics of a set of houses.
 struct Totals {
   int asked = 0, plans = 0;
   std::vector<std::string> failed;  ///< messages

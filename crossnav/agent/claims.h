@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the agent does about claims that may be wrong (verify.memory = on, policy.profile = full):
-// the rules of policy/claim.h, asked at the places where the step needs them. World frame, metres.
+// Verification of claims in a step (verify.memory = on, policy.profile = full): calls the rules of
+// policy/claim.h. World frame, metres.
 #pragma once
 
 #include <vector>

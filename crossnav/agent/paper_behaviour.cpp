@@ -134,7 +134,7 @@ void NoticeBump(Situation& now) {
   auto& bumps = now.world.paper.bumps;
   if (!bumps.Update(now.agent, now.world.step, now.config.map)) return;
   now.goal.events.push_back("bump");
-  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
+  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another route
   const auto escape =
       policy::EscapeActions(now.world.map, now.agent, bumps.bumped_yaws(), now.config.action);
   now.goal.paper.script.assign(escape.begin(), escape.end());

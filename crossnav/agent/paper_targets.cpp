@@ -290,7 +290,7 @@ std::optional<Target> ChooseStairFrontier(const Situation& now) {
   const auto frontiers = StairFrontiers(*now.goal.paper.session, now.world.map, now.agent.p_world);
   const double here_m = now.goal.paper.session->direction *
                         (now.agent.p_world.z() - now.goal.paper.session->entrance_level_m);
-  // Steps that were seen one by one first; the sphere bridges treads that hide behind their risers.
+  // First by individually seen steps; the sphere bridges treads hidden behind their risers.
   for (const GraphKind kind : {GraphKind::kNormal, GraphKind::kStair}) {
     planner::PlannerConfig local = now.config.planner;
     // chosen: a flight and its landings; an expansion of the sphere looks at 4,188 neighbours.

@@ -40,7 +40,7 @@ void NoteBump(StepState& now) {
   }
   if (Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity))) {
     pursued->route.motion.clear();
-    // Where nothing was learnt, the next step would be the same.
+    // Without new knowledge the next step would be the same.
     pursued->route.idle_steps +=
         now.config.policy.explore.progress_steps / (is_new ? kBumps : kBumpsInVain);
   }

@@ -12,7 +12,7 @@ struct OneMapConfig {
   double peak_window_m = 0.5;        // chosen: a peak is the largest within half a metre
   double cluster_share = 0.8;        // chosen: of a peak, down to which its cluster grows
   double keep_score = 0.01;          // chosen: a goal is kept while its score falls by less
-  double same_goal_m = 0.5;          // chosen: a goal this near to the last one is the same
+  double same_goal_m = 0.5;          // chosen: goals within this distance are the same goal
   double consensus_quantile = 0.95;  // chosen: of the similarity, for detections to be believed
   double consensus_reach_m = 0.3;    // chosen: blur of the map
   double replace_factor = 1.1;       // chosen: by which another detection must answer better

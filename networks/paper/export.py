@@ -34,7 +34,7 @@ def set_random(modules, seed):
 def write(part, path):
     with torch.no_grad(), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        part.module(*[x.clone() for x in part.inputs.values()])  # grids and anchors are made in the first run
+        part.module(*[x.clone() for x in part.inputs.values()])  # creates grids and anchors
         torch.onnx.export(part.module, tuple(part.inputs.values()), str(path), input_names=list(part.inputs), output_names=part.outputs,
                           opset_version=OPSET, dynamo=False, do_constant_folding=True)
 
@@ -46,7 +46,7 @@ def export(name, wish, out, prepare=None):
     if not wish.weights:
         set_random([part.module for part in made.parts], wish.seed)
     for part in made.parts:
-        part.module.eval()  # the exporter gives modules back in the mode in which they came
+        part.module.eval()  # the exporter restores the previous mode of modules
     if prepare:
         prepare(made)
     out.mkdir(parents=True, exist_ok=True)
@@ -56,7 +56,7 @@ def export(name, wish, out, prepare=None):
         write(part, path)
         hashes.append(hashlib.sha256(path.read_bytes()).hexdigest())
     card, texts = made.card, out / "clip_text.onnx"
-    if 'encoder = "clip_text.onnx"' in card and texts.exists():  # its last lines are of [text]
+    if 'encoder = "clip_text.onnx"' in card and texts.exists():  # its last lines belong to [text]
         card += f'sha256 = "{hashlib.sha256(texts.read_bytes()).hexdigest()}"\n'
     keys = ["sha256", "decoder_sha256"] if name != "clip_text" else []
     head = "".join(f'{key} = "{value}"\n' for key, value in zip(keys, hashes))

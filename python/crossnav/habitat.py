@@ -99,7 +99,7 @@ class HabitatAgent:
         self._goal_names = tuple(goal_names)
         self._flat_world = flat_world
         settings = crossnav.Config(config).to_dict()
-        # What the sensor clips is no surface.
+        # Readings at the sensor's limit are no surface.
         settings["map"]["depth_max_m"] = min(settings["map"]["depth_max_m"],
                                              self._depth.max_depth_m)
         self.config = crossnav.Config(settings)

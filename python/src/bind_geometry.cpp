@@ -96,8 +96,8 @@ Array<double, nb::ndim<2>> ToRows(const std::vector<Vector3d>& points) {
   return ToArray<Array<double, nb::ndim<2>>>(std::move(rows), {points.size(), 3});
 }
 
-/// Each flight as a dict of its ends, its steps, how often it was walked, and from where it was
-/// seen and tried.
+/// Each flight as a dict of its ends, its steps, its number of walks, and its viewing and trial
+/// places.
 nb::list Flights(const MapHandle& self) {
   nb::list out;
   for (const geometry::StairFlight& flight : self.Flights()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hooks: the choice of where to look next and the belief in a claim, written in Python.
+// Hooks in Python: the choice of the next place, and the belief in a claim.
 #include <nanobind/trampoline.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using policy::ClaimVerdict;
 
 namespace {
 
-/// A claim that Python may keep.
+/// A copy of a claim that Python may keep.
 struct ClaimOut {
   Vector3d p_center_world;
   int voxels;

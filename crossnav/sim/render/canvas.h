@@ -28,7 +28,7 @@ struct Squares {
 
 /// A triangle that some pixel was given to: 32 words, so that lanes can gather them.
 struct alignas(128) Drawn {
-  /// By corner: what its weight is at pixel (u, v) as a u + b v + c, all three up to one factor.
+  /// By corner: weight a u + b v + c at pixel (u, v), all three up to one factor.
   std::array<float, 9> weights{};
   std::array<float, 3> normal{};  ///< world, any length
   std::uint32_t triangle = 0;     ///< of the mesh

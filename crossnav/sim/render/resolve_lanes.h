@@ -25,7 +25,7 @@
 namespace crossnav::sim {
 
 /// Rays through the middle of pixels, world frame; z of the direction in the camera frame is 1, so
-/// that the ray parameter is planar depth. A ray is the sum of what its column and its row say.
+/// that the ray parameter is planar depth. A ray is the sum of its column's and its row's part.
 struct PixelRays {
   PixelRays(const CameraIntrinsics& K, const Pose& T_world_camera);
 

@@ -35,7 +35,7 @@ class Skins {
     kTexture = 10,  ///< number, -1 without
     kWidth = 11,    ///< of the texture [px]
     kHeight = 12,
-    kUnlit = 13,  ///< 1 where the colour is shown as it is
+    kUnlit = 13,  ///< 1 for colours without lighting
     kWords = 16
   };
 
@@ -48,8 +48,8 @@ class Skins {
   bool has_textures = false, has_corners = false;
 };
 
-/// Where the rays of a packet met the scene, kShadeLanes of each; those without a hit may name any
-/// triangle and hold anything finite.
+/// Hits of a packet of kShadeLanes rays; lanes without a hit may name any triangle and hold any
+/// finite numbers.
 struct PacketHits {
   const std::int32_t* triangle = nullptr;
   const float *s = nullptr, *t = nullptr;  ///< weights of the second and third corner

@@ -48,7 +48,7 @@ struct ClusterInView {
   std::uint32_t cluster = 0;
 };
 
-/// Those whose boxes reach into the picture, near ones first.
+/// Clusters with boxes in the picture, near clusters first.
 std::vector<ClusterInView> ClustersInView(const TriangleClusters& triangles,
                                           const RasterView& view);
 

@@ -28,7 +28,7 @@ class Report:
     causes: pd.DataFrame  # run, cause, outcome, stages
     differences: pd.DataFrame  # before, after, metric, difference, low, high, episodes, scenes
     flips: pd.DataFrame  # before, after, episode, goals, outcome_.., goals_.., cause, replay
-    notes: list[str]  # what was compared, and what makes it unfair
+    notes: list[str]  # compared runs, and reasons against fairness
 
     def tables(self) -> dict[str, pd.DataFrame]:
         return {"figures": self.figures, "episodes": self.episodes, "stages": self.stages,

@@ -31,7 +31,7 @@ DISTANCES_M = (0.0, 2.0, 5.0, 10.0, 20.0, float("inf"))  # chosen: a room, a flo
 class Plot:
     name: str
     title: str
-    note: str  # what is shown and how to read it
+    note: str  # content, and how to read it
     svg: str
     png: bytes
     pdf: bytes

@@ -66,7 +66,7 @@ def log(result: "StepResult", observation: "Observation | None" = None,
         draw.statics(stream)
     draw.step_record(stream, record)
     if observation is not None:
-        if observation.rgb_camera is not None:  # boxes lie on the grid of depth
+        if observation.rgb_camera is not None:  # boxes are on the grid of depth
             observation = observation.registered()
         k = observation.camera
         camera = Camera(k.width_px, k.height_px,

@@ -21,7 +21,7 @@ STATES = {1: ("occupied", (201, 205, 212)), 2: ("traversable", (120, 190, 140)),
           3: ("traversable_stair", (250, 214, 120)), 4: ("traversable_fake", (200, 220, 240)),
           5: ("stair", (245, 159, 0)), 6: ("stair_expanded", (240, 120, 40)),
           7: ("fake_stair", (190, 75, 150))}
-SEEN_THROUGH = (1, 2, 4)  # small points, to see ways, boxes and what is behind
+SEEN_THROUGH = (1, 2, 4)  # small points, so that paths and boxes stay visible
 KINDS = {"live_poi": (214, 51, 108), "history_poi": (156, 54, 181),
          "traversable_frontier": (28, 126, 214), "descend_frontier": (232, 89, 12),
          "ascent_frontier": (245, 159, 0), "stair_frontier": (245, 159, 0)}
