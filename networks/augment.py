@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What is done to a sample before it is trained on: where it looks, its light and colours, its sensors' faults.
+"""Augmentation of a training sample: camera direction, light and colours, faults of the sensors.
 
-Everything is drawn from the given generator; a sample is changed in place.
+All draws come from the given generator; a sample is changed in place.
 """
 
 import cv2

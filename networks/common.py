@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every part of the pipeline agrees on: folders, sets of houses, goals, classes."""
+"""Constants common to the pipeline: folders, sets of houses, goals, classes."""
 
 import pathlib
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Frames of a set of houses as memory-mapped arrays, and what a picture of them becomes as network input."""
+"""Frames of a set of houses as memory-mapped arrays, and their conversion to network input."""
 
 import json
 import math

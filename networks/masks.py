@@ -31,8 +31,8 @@ def sampler(box, size):
 
 
 def window(image, depth, height, share, box):
-    """What is seen in and around `box` [n, 4] (left, top, right, bottom, input px): [n, 7, 96, 96] of colour, range
-    beside that of the object, whether it was read, height, and the first network's share of the goal."""
+    """Window around `box` [n, 4] (left, top, right, bottom, input px): [n, 7, 96, 96] of colour, range
+    relative to the object's, validity of the range, height, and the first network's share of the goal."""
     take = sampler(box, image.shape[-1])
     image, depth, height = torch.split(take(torch.cat([image, depth, height], 1), "nearest"), [3, 1, 1], 1)
     share = take(share, "bilinear")
@@ -53,7 +53,7 @@ class Masks(nn.Module):
         self.out = nn.Sequential(nn.ReLU(), Plain(fine), nn.Conv2d(fine, SIDE**2, 1))
 
     def forward(self, seen):
-        """Logits [n, 1, 96, 96] of what `window` gives."""
+        """Logits [n, 1, 96, 96] for the output of `window`."""
         colour, far, rest = torch.split(seen, [3, 1, 3], 1)
         pixels = F.pixel_unshuffle(torch.cat([colour, torch.tanh(far * 4), torch.tanh(far * 20), rest], 1), SIDE)
         line = torch.linspace(-1, 1, SIZE // SIDE, device=seen.device).expand(len(seen), 1, SIZE // SIDE, -1)
@@ -65,7 +65,7 @@ class Masks(nn.Module):
 
 
 class MaskOfBox(nn.Module):
-    """What the exported file answers (docs/networks-training.md)."""
+    """Output of the exported file (docs/networks-training.md)."""
 
     def __init__(self, masks):
         super().__init__()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Draws what the network answers beside what is true, and finds the pictures where it is most wrong."""
+"""Draws the network's output beside the truth, and finds the pictures with the largest errors."""
 
 import augment
 import common

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Makes houses and renders their frames: one process a house and verb, arrays on disk.
 
-Houses that are there are kept, so that a run that was stopped goes on.
+Existing houses are kept, so that an interrupted run resumes.
 """
 
 import argparse

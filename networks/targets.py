@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the network should answer, made from a sample's instance ids at input size."""
+"""Training targets, computed from a sample's instance ids at input size."""
 
 import common
 import numpy as np

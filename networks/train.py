@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trains the network on a number of frames or for a number of minutes, or goes on with what an earlier run left.
+"""Trains the network on a number of frames or for a number of minutes, or resumes an earlier run.
 
 The learning rate follows the share of the frames or minutes that is used up, whichever is more, so that a run
 is whole however fast the machine is. Every few minutes the state goes to `checkpoint.pt`; the mean of the

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks who includes whom (docs/architecture.md): rooms one way, third-party headers in adapters.
+"""Checks includes (docs/architecture.md): rooms one way, third-party headers in adapters.
 
     scripts/check_includes.py [ROOT]
 
@@ -151,7 +151,7 @@ def check_room_include(room, name):
 
 
 def check_folder(room, relative):
-    """The problem with where a file of a room lies, or None."""
+    """The problem with the place of a room's file, or None."""
     parts = relative.split("/")
     if room in FOLDERS and (len(parts) < 4 or parts[2] not in FOLDERS[room]):
         return f"{relative}: {room} has the folders {', '.join(sorted(FOLDERS[room]))}"

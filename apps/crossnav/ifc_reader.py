@@ -2,7 +2,7 @@
 """Reads an IFC file with IfcOpenShell; prints the building as docs/formats/building.md has it.
 
 `crossnav scene import FILE.ifc` runs this text with `python3 -c`, with limits of time and memory.
-Exit status 0: standard output is the building. 1: it is one line that says what is wrong. 3: the
+Exit status 0: standard output is the building. 1: one line with the error. 3: the
 package ifcopenshell is missing. World frame, z up, metres.
 """
 import sys
@@ -44,7 +44,7 @@ LEFT_OUT = ("IfcOpeningElement", "IfcFeatureElement", "IfcVirtualElement", "IfcR
 
 
 class Refused(Exception):
-    """What is wrong with the file."""
+    """An error in the file."""
 
 
 def is_a(entity, names):
@@ -80,7 +80,7 @@ def kind_of(entity):
 
 
 def names_of(entity):
-    """Names that may say what it is, the most certain first."""
+    """Names that may give its kind, the most certain first."""
     from ifcopenshell.util import element as util
     kind = util.get_type(entity)
     names = [predefined(entity), getattr(entity, "LongName", None), entity.Name,
@@ -168,7 +168,7 @@ class Building:
         return self.colours.setdefault(key, len(self.colours))
 
     def move_near(self):
-        """Drops what is far from the rest and moves the rest to the origin."""
+        """Drops elements far from the others and moves the others to the origin."""
         import numpy
         middles = {i: 0.5 * (s[0].min(0) + s[0].max(0)) for i, s in self.shapes.items()}
         middle = numpy.median(numpy.array(list(middles.values())), axis=0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The paper's networks from their public Python packages, wrapped so that crossnav's adapters can use what they export.
+"""The paper's networks from their public Python packages, wrapped so that crossnav's adapters can use their exports.
 
 Each function takes a `Wish` and gives a `Made`: modules with their inputs, and the lines of the card. With `small` the same classes are built with few
 channels, for tests; without weights they are random, by the seed.

@@ -22,7 +22,7 @@ OPSET = 17
 
 @torch.no_grad()
 def set_random(modules, seed):
-    """Random running statistics too: those of a new network would hide errors."""
+    """Random running statistics, too: a new network's statistics would hide errors."""
     generator = torch.Generator().manual_seed(seed)
     for module in modules:
         for norm in module.modules():
@@ -40,7 +40,7 @@ def write(part, path):
 
 
 def export(name, wish, out, prepare=None):
-    """Files and card of network `name` in folder `out`; what was made. `prepare` may change it before it is written."""
+    """Writes files and card of network `name` to folder `out`; returns the network. `prepare` may change it before."""
     torch.manual_seed(wish.seed)
     made = architectures.NETWORKS[name](wish)
     if not wish.weights:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Small random networks of the paper's architectures as files for crossnav's tests, and what PyTorch says of a made-up picture.
+"""Small random networks of the paper's architectures as files for crossnav's tests, and PyTorch's output for a synthetic picture.
 
     reference.py OUT [NETWORK ...]
 

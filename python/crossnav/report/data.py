@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a report is about, as tables: one row per figure, episode, stage, time and cause."""
+"""Tables of a report: one row per figure, episode, stage, time and cause."""
 
 import os
 import re
@@ -95,7 +95,7 @@ def _notes(comparison: dict[str, Any]) -> list[str]:
 
 
 def _flip(comparison: dict[str, Any], flip: dict[str, Any]) -> dict[str, Any]:
-    """A row; cause and replay are those of the run that did not complete the episode."""
+    """A row; cause and replay are of the run that did not complete the episode."""
     worse = "before" if flip["goals_after"] > flip["goals_before"] else "after"
     return {"before": comparison["before"], "after": comparison["after"],
             "episode": flip["episode_id"], "goals": flip["goals"],

@@ -42,7 +42,7 @@ class Camera:
 
 @dataclass
 class Frame:
-    """All messages of one time: as a rule one step."""
+    """All messages of one time: usually one step."""
 
     time_s: float
     step: dict[str, Any] | None = None
@@ -131,7 +131,7 @@ TOPICS = ("/agent/step", "/map/voxel_changes", "/camera/image", "/camera/calibra
 
 
 class Replay:
-    """An open replay; a context manager. Every CRC of what is read is checked.
+    """An open replay; a context manager. Checks every CRC.
 
     Raises crossnav.Error, on opening and while frames are read: the file is missing, no MCAP, cut
     off, damaged, no replay of crossnav, or of a later format.
