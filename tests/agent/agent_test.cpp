@@ -70,7 +70,7 @@ TEST(Agent, TellsWhenAClosedRoomWithoutTheGoalIsExplored) {
   EXPECT_FALSE(walk.p_claimed_world.has_value());
 }
 
-TEST(Agent, NeverStopsAtWhatItWasNotAskedFor) {
+TEST(Agent, NeverStopsAtAnObjectOfAnotherCategory) {
   Agent agent(SmallConfig(), FakeSuite(CouchSight()));
   ASSERT_TRUE(agent.SetGoal("toilet").has_value());
   BoxWalker walker = TwoRooms();
@@ -269,7 +269,7 @@ TEST(Agent, MovesOnlyThroughFreeSpace) {
   EXPECT_LE(10 * bumps, forward);
 }
 
-TEST(Agent, WhatIsClaimedIsShownWhereItIs) {
+TEST(Agent, AClaimedObjectIsReportedAtItsPlace) {
   Agent agent(SmallConfig(), FakeSuite(CouchSight()));
   ASSERT_TRUE(agent.SetGoal("couch").has_value());
   BoxWalker walker = TwoRooms();

@@ -104,7 +104,7 @@ TEST(Claims, OffBelievesTheFrame) {
   EXPECT_TRUE(SearchForBed(Liar(15, false), "off").at_sofa);
 }
 
-TEST(Claims, WhatTheMemoryCallsByAnotherNameIsNotClaimed) {
+TEST(Claims, AnObjectThatTheMemoryNamesOtherwiseIsNotClaimed) {
   const Outcome outcome = SearchForBed(Liar(180, true), "on");
   EXPECT_TRUE(outcome.at_bed) << outcome.walk.traces.size();
   EXPECT_EQ(CountEvents(outcome.walk, "claim refuted"), 1) << "the couch is remembered as refuted";

@@ -123,7 +123,7 @@ TEST(Explore, AFlightDownComesFirstForASofaAndLastForABed) {
 
 // The price of the flight is negative there, and "its class was paid for" took that away: at every
 // second look the door was nearer than what was left of the way.
-TEST(Explore, TheWayToALikelierStoreyIsKeptTo) {
+TEST(Explore, APathToALikelierFloorIsContinued) {
   VoxelMap map = Room();
   AddTreads(map, 6, 2);
   const VoxelKey at_door{3, 15, 1};
@@ -150,7 +150,7 @@ TEST(Explore, AHintBehindAWallIsGoneToThroughTheDoorThatLeadsThere) {
 }
 
 // The top of a slope to nowhere, 1.2 m up, was taken for a flight of stairs.
-TEST(Explore, WhatMerelyRisesIsNoStair) {
+TEST(Explore, RisingGroundWithoutStepsIsNoStair) {
   const Config config;
   World world(config);
   world.has_level = true;
@@ -168,7 +168,7 @@ TEST(Explore, WhatMerelyRisesIsNoStair) {
 
 // Two treads bordering on a few unseen columns were worth a tenth of their way, like what is left
 // behind a bed, and the flight came after everything else on two floors.
-TEST(Explore, TheFirstTreadsDownAreAWayToAStorey) {
+TEST(Explore, TheFirstTreadsDownLeadToAnotherFloor) {
   VoxelMap map = Room();
   AddTreads(map, 2, -2);
   for (int y = 11; y <= 18; ++y) Wall(map, kSide + 6, y);  // little unseen ground beyond
@@ -180,7 +180,7 @@ TEST(Explore, TheFirstTreadsDownAreAWayToAStorey) {
 
 // The next tread is always the nearest: the agent went from the third floor to the ground past two
 // floors that it had not looked at.
-TEST(Explore, AFloorOnTheWayDownComesBeforeTheFlightGoesOn) {
+TEST(Explore, AnIntermediateFloorIsExploredBeforeTheNextFlight) {
   VoxelMap map = Room();
   AddTreads(map, 10, -3);
   for (int y = 12; y < 18; ++y) Wall(map, -1, y);  // no door

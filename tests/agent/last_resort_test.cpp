@@ -69,7 +69,7 @@ TEST(CutOff, GroundBehindANarrowGapIsNamedAndTheGapIsTried) {
   EXPECT_TRUE(FindCutOff(given.now).IsEmpty());
 }
 
-TEST(CutOff, ALevelThatNoWayLeadsToIsNamedInTheDeclaration) {
+TEST(CutOff, AnUnreachableLevelIsNamedInTheDeclaration) {
   TwoFloors given;
   AddGround(given.world.map, 0, 0, 10, 10, 28);
   given.world.ground.Rebuild(given.world.map);

@@ -102,7 +102,7 @@ TEST(Mounting, TheHeightOfTheMountingHoldsOnlyWhereItIsGiven) {
   EXPECT_EQ(plain->trace.agent.p_world, walker.pose.p_world);
 }
 
-TEST(Mounting, WhatIsNoMountingIsAnErrorThatNamesItsKey) {
+TEST(Mounting, AnInvalidMountingIsAnErrorThatNamesItsKey) {
   Agent agent(SmallConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());
   const Observation good = Look(ClosedRoom(), {0.2, 0, 0.6});
@@ -177,7 +177,7 @@ TEST(ColourCamera, ThatOfDepthGivesTheSameTracesByteForByte) {
   EXPECT_EQ(traces[0], traces[1]);
 }
 
-TEST(ColourCamera, WhatIsNoneIsAnErrorThatNamesItsKey) {
+TEST(ColourCamera, AnInvalidColourCameraIsAnErrorThatNamesItsKey) {
   Agent agent(SmallConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());
   const auto where = [&](auto&& change) {

@@ -117,7 +117,7 @@ TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
 }
 
 // A body that slid along a door frame marked the middle of the door.
-TEST(Progress, AStepThatSlidMarksWhatLiesBesideIt) {
+TEST(Progress, ASlidingStepMarksTheObstacleBesideIt) {
   const auto is_open = [](const Vector3d& moved, const VoxelKey& key) {
     Ground given;
     AgentPose before = given.now.agent;  // heads east

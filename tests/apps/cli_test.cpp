@@ -209,7 +209,7 @@ TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {
   EXPECT_EQ(Run("map export run/m.map --out m.ply").exit_code, 0);
 }
 
-TEST_F(Cli, ARunGoesOnFromASavedMemory) {
+TEST_F(Cli, ARunContinuesFromASavedMemory) {
   const std::string run =
       "run --quiet --json --scenes scenes --episodes e.json --episode " + FirstId() + kSmall;
   ASSERT_EQ(Run(run + " --out first --save-map m.map").exit_code, 0);
@@ -375,7 +375,7 @@ TEST_F(Cli, WorldStatsCountsHousesAndKeepsNone) {
   EXPECT_FALSE(fs::exists(At("houses")));
 }
 
-TEST_F(Cli, WithoutAPackTheGeneratorSaysSoAndGoesOn) {
+TEST_F(Cli, WithoutAPackTheGeneratorReportsItAndContinues) {
   ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
   const Outcome house = Run(kOneRoom);
   const Outcome wished = Run(std::string(kOneRoom) + " --furniture none");

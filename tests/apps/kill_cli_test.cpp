@@ -126,7 +126,7 @@ TEST_F(Killed, SceneImportLeavesAWholeSceneOrNone) {
                     [&] { ExpectWholeScenes("homes"); });
 }
 
-TEST_F(Killed, EvalLeavesWholeRecordsAndGoesOnFromThem) {
+TEST_F(Killed, EvalLeavesWholeRecordsAndResumesFromThem) {
   const std::string eval = "eval --quiet --scenes scenes --episodes e.json --out run --jobs 2";
   ExpectNothingHalf(eval + kSmall, {"run"}, [&] { ExpectWholeLines(At("run")); });
   const Outcome metrics = Run("metrics run/results.jsonl --json");

@@ -77,7 +77,7 @@ TEST_F(MapCli, ContrastiveRelevancyIsOffUnlessAskedFor) {
   EXPECT_NE(test::ReadText(At("a.ply")), test::ReadText(At("b.ply")));
 }
 
-TEST_F(MapCli, WhatIsNotInTheMapIsAbsentAndWhatIsInItHasAMatchOnTheScale) {
+TEST_F(MapCli, UnknownObjectsAreAbsentAndKnownObjectsHaveAMatch) {
   ASSERT_EQ(Run(RunCommand() + " --save-map m.map --set eval.action_budget=120").exit_code, 0);
   const Json sofa = Query("m.map sofa");
   EXPECT_EQ(sofa["verdict"], "present");

@@ -21,7 +21,7 @@ class NetworksCli : public Cli {
       " --set networks.stairs=small --set networks.encoder=small";
 };
 
-TEST_F(NetworksCli, ListAndCheckSayWhatIsThere) {
+TEST_F(NetworksCli, ListAndCheckReportTheNetworks) {
   const Outcome list = Run("networks list --json" + use_);
   ASSERT_EQ(list.exit_code, 0) << list.err;
   const Json json = Json::parse(list.out);
@@ -35,7 +35,7 @@ TEST_F(NetworksCli, ListAndCheckSayWhatIsThere) {
   EXPECT_EQ(Run("networks check --quiet" + use_).exit_code, 1);
 }
 
-TEST_F(NetworksCli, LookDrawsWhatTheySee) {
+TEST_F(NetworksCli, LookDrawsTheNetworksOutput) {
   ASSERT_EQ(
       Run("scene render scenes/00001-CrossnavHouse --out view.png" + std::string(kSmall)).exit_code,
       0);

@@ -13,7 +13,7 @@ using test::kSmall;
 using test::Outcome;
 using test::ReadText;
 
-TEST_F(NoiseCli, TheSweepHasARowForEachValueAndWritesWhatItPrints) {
+TEST_F(NoiseCli, TheSweepWritesItsPrintedRowForEachValue) {
   const Outcome outcome =
       Run("bench noise --scenes scenes --episodes e.json --count 1 --kind slip --out sweep.json "
           "--quiet" +
@@ -30,7 +30,7 @@ TEST_F(NoiseCli, TheSweepHasARowForEachValueAndWritesWhatItPrints) {
   }
 }
 
-TEST_F(NoiseCli, ASweepThatWasCutOffGoesOn) {
+TEST_F(NoiseCli, AnInterruptedSweepResumes) {
   const std::string sweep =
       "bench noise --scenes scenes --episodes e.json --count 1 --kind slip --out sweep.json "
       "--quiet" +

@@ -229,7 +229,7 @@ TEST_F(Paths, NamesThatAreNotUtf8AreReadAndWritten) {
   ExpectRefused("scene info scenes/00001-Caf\xe9", {"not UTF-8", "rename"});
 }
 
-TEST_F(Paths, TheSameInputTwiceIsRefusedUnderWhateverName) {
+TEST_F(Paths, TheSameInputTwiceIsRefusedUnderAnyNames) {
   fs::create_symlink("run", At("again"));
   before_ = Files();
   ExpectRefused("merge run again --out new", {"again", "given twice"});

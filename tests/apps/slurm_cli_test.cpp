@@ -46,7 +46,7 @@ std::vector<Json> Records(const fs::path& path) {
   return lines;
 }
 
-TEST_F(SlurmCli, TheScriptsSayWhatWasAskedFor) {
+TEST_F(SlurmCli, TheScriptsContainTheRequestedOptions) {
   const Outcome outcome =
       Run("slurm " + kEval +
           " --out run --tasks 3 --cpus 2 --time 2:00:00 --memory 4G --partition cpu --account lab "
@@ -154,7 +154,7 @@ TEST_F(SlurmCli, AnotherDivisionOfTheSameRunIsRefused) {
   EXPECT_EQ(Run("slurm --dry-run --out run --tasks 4 " + kEval).exit_code, 0);
 }
 
-TEST_F(SlurmCli, MergeRefusesWhatIsMissingUnlessToldOtherwise) {
+TEST_F(SlurmCli, MergeRefusesMissingEpisodesUnlessPartial) {
   ASSERT_EQ(Run("eval --quiet --out run/shards --shard 0/2 " + kEval).exit_code, 0);
   const Outcome outcome = Run("merge run/shards --out merged.jsonl");
   EXPECT_EQ(outcome.exit_code, 1);

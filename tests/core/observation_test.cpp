@@ -48,7 +48,7 @@ TEST(FootPoseOf, IsTheBaseOfAnyMounting) {
   }
 }
 
-TEST(FootPoseOf, ABaseThatLeansStillStandsOnItsFoot) {
+TEST(FootPoseOf, ALeaningBaseKeepsItsFoot) {
   Pose T_world_base = Pose::Identity();
   T_world_base.translate(Vector3d(1, 2, 3));
   T_world_base.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));

@@ -68,7 +68,7 @@ TEST(Comparison, HeadersThatDifferInTheTaskAreUnfairAndTheKeyIsNamed) {
   ExpectUnfair(other, "config_hash: aa and dd");
 }
 
-TEST(Comparison, SettingsOfTheAgentAreWhatIsCompared) {
+TEST(Comparison, SettingsOfTheAgentAreCompared) {
   RunHeader other = Header();
   other.config_json.replace(other.config_json.find("true"), 4, "false");
   other.config_json.replace(other.config_json.find("1800"), 4, "3600");
@@ -79,7 +79,7 @@ TEST(Comparison, SettingsOfTheAgentAreWhatIsCompared) {
                                                        "policy.poi.use_history: true and false"}));
 }
 
-TEST(Comparison, UnfairRunsAreRefusedAndForcedOnesSaySo) {
+TEST(Comparison, UnfairRunsAreRefusedAndForcedRunsAreMarked) {
   ReportRun a = MakeRun("before", 4), b = MakeRun("after", 6);
   b.header->seed = 9;
   const auto refused = CompareRuns(a, b, {100, 1}, /*is_forced=*/false);

@@ -147,7 +147,7 @@ TEST_F(EvaluationTest, AFailedEpisodeCountsAsNotSuccessfulInEveryFigure) {
   EXPECT_EQ(records[0].OutcomeName(), "misdetection");
 }
 
-TEST_F(EvaluationTest, KilledRunGoesOnToTheSameRecordsAndLeavesNoOrphan) {
+TEST_F(EvaluationTest, AKilledRunResumesToTheSameRecordsAndLeavesNoOrphan) {
   ASSERT_TRUE(Run("whole", 1, Plain()));
   const test::PidFolder pids;
   const pid_t parent = ::fork();

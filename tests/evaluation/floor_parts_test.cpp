@@ -79,7 +79,7 @@ TEST_F(FloorPartsTest, AFloorInTwoHalvesIsTwoParts) {
   EXPECT_EQ(parts.PartAt({1, 3, 1}), -1);
 }
 
-TEST_F(FloorPartsTest, WhatIsBeyondTheBridgeRequiresAFloorChange) {
+TEST_F(FloorPartsTest, GroundBeyondTheBridgeRequiresAFloorChange) {
   EXPECT_EQ(From(kLeft, {"sofa", "bed"}).first_transition_stage, 2);
   EXPECT_EQ(From(kRight, {"sofa", "bed"}).first_transition_stage, 1);
   EXPECT_EQ(From(kLeft, {"sofa"}).first_transition_stage, 0);

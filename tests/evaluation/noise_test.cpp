@@ -36,7 +36,7 @@ TEST(NoiseConfig, AProfileGivesItsSettingsAndEvidenceClears) {
   EXPECT_EQ(ConfigHash(again), ConfigHash(config));
 }
 
-TEST(NoiseConfig, WhatTheUserSetsWinsWhereverItStands) {
+TEST(NoiseConfig, UserSettingsTakePrecedenceInAnyOrder) {
   const crossnav::test::TempFolder folder;
   const auto file = folder.path() / "a.toml";
   crossnav::test::WriteText(file, "[noise]\nslip = 0.5\n[map]\nclearing = \"never\"\n");
@@ -47,7 +47,7 @@ TEST(NoiseConfig, WhatTheUserSetsWinsWhereverItStands) {
   EXPECT_EQ(config.agent.map.clearing, "never");
 }
 
-TEST(NoiseConfig, AnUnknownProfileNamesThoseThatThereAre) {
+TEST(NoiseConfig, AnUnknownProfileListsTheKnownProfiles) {
   const auto config = ReadConfig({{}, "full", {"noise.profile=lidar"}});
   ASSERT_FALSE(config);
   EXPECT_NE(config.error().Message().find("noise.profile"), std::string::npos);
@@ -103,7 +103,7 @@ class NoisyRun : public test::EmbeddedHouseTest {
   }
 };
 
-TEST_F(NoisyRun, OffIsThePerfectRunWhateverTheSeed) {
+TEST_F(NoisyRun, OffIsThePerfectRunForEverySeed) {
   sim::NoiseConfig off;
   off.seed = 77;
   const Played perfect = Play({}), other = Play(off);

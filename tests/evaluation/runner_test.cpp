@@ -93,7 +93,7 @@ TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
 
 // A stage that began where the agent had walked onto a sliver of the mesh ended the whole episode
 // as failed: "cannot be reached from where its stage starts".
-TEST_F(Runner, AStageOffTheMeshStartsFromTheNearestWay) {
+TEST_F(Runner, AStageOffTheMeshStartsFromTheNearestConnectedPlace) {
   const Vector3d p_floor = context_->TargetsOf("sofa").front().viewpoints_world.front();
   const auto from_floor_m = context_->DistanceToGoal(p_floor, "toilet");
   ASSERT_TRUE(from_floor_m);
@@ -107,7 +107,7 @@ TEST_F(Runner, AStageOffTheMeshStartsFromTheNearestWay) {
   EXPECT_FALSE(context_->DistanceToGoalFromAbout(p_off - Vector3d(50, 0, 0), "toilet"));
 }
 
-TEST_F(Runner, RecordAgreesWithWhatWasWatched) {
+TEST_F(Runner, TheRecordAgreesWithTheObserver) {
   const Episode episode = ClimbingEpisode();
   Recorder recorder;
   RunObserver* observers[] = {&recorder};

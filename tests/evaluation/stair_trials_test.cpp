@@ -124,7 +124,7 @@ TEST(StairTrials, TheSameSeedGivesTheSameAttempt) {
   }
 }
 
-TEST(StairTrials, AnAttemptAtWhatIsNoStairEnds) {
+TEST(StairTrials, AnAttemptAtAFalseEntranceEnds) {
   RunConfig config = test::SmallConfig();
   config.eval.action_budget = 20;
   const auto attempt = TryFalseEntrance(FalseEntrance::kFurniture, 1, config);

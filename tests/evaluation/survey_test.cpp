@@ -92,7 +92,7 @@ class Teller : public RunObserver {
   SceneSurvey survey_;
 };
 
-TEST_F(Survey, AnAgentThatIsToldWalksLessAndItsRecordSaysInWhichParts) {
+TEST_F(Survey, AnInformedAgentWalksLessAndItsRecordHasTheParts) {
   Episode episode;
   episode.scene_id = "micro";
   episode.start.p_world = Vector3d(1, 0.5, 0);

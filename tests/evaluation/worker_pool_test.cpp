@@ -152,7 +152,7 @@ TEST(WorkerPoolProcesses, NothingToDoIsFine) {
   EXPECT_TRUE(RunPool(task));
 }
 
-TEST(ItemQueue, AWorkerStaysWithItsGroupAndIdleOnesHelpWhereMostIsLeft) {
+TEST(ItemQueue, AWorkerKeepsItsGroupAndIdleWorkersJoinTheLargestGroup) {
   //                   0  1  2  3  4  5  6
   ItemQueue queue(7, {8, 8, 9, 8, 8, 9, 9});
   EXPECT_EQ(queue.Take(-1), 0);  // first worker: group 8

@@ -67,7 +67,7 @@ TEST_P(EvidenceTest, AnObjectThatMovedAwayIsGoneAfterFiveFramesThatLookThroughIt
     }
 }
 
-TEST_P(EvidenceTest, WhatAppearsWhereAllWasFreeForLongIsThereAfterTwoFramesAndGoesAgain) {
+TEST_P(EvidenceTest, ANewObjectInLongFreeSpaceAppearsAfterTwoFramesAndVanishesAgain) {
   BoxRooms rooms;
   rooms.shell = BoxOf(0.03, 0.03, 0.03, 6.03, 5.03, 2.63);
   BoxRooms with_box = rooms;

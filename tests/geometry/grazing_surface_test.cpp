@@ -50,7 +50,7 @@ Passed Spare(const std::vector<TestFrame>& frames, GapSearch search) {
   return {before, PassedOf(data)};
 }
 
-TEST(Grazing, LookingWhereVoxelsAreContestedSparesWhatLookingEverywhereDoes) {
+TEST(Grazing, TheContestedSearchSparesTheSameVoxelsAsTheFullSearch) {
   Rng rng(7);
   int spared = 0, gone = 0;
   for (int round = 0; round < 60; ++round) {

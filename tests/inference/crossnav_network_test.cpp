@@ -116,7 +116,7 @@ TEST_F(CrossnavFamily, ADepthClusterCanMakeTheMask) {
   EXPECT_EQ(seen->detections[0].mask.At(9, 9), 1);  // a wall fills the whole box
 }
 
-TEST_F(CrossnavFamily, WhatDoesNotFitTheCardIsNamed) {
+TEST_F(CrossnavFamily, MismatchesWithTheCardAreNamed) {
   EXPECT_EQ(ErrorOf(), "no error");
   std::string card = SmallCard();
   Write(card.replace(card.find("size = 32"), 9, "size = 64"));

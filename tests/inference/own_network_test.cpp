@@ -82,7 +82,7 @@ class OwnNetwork : public EachBackend {
 };
 CROSSNAV_FOR_EACH_BACKEND(OwnNetwork);
 
-TEST_P(OwnNetwork, MasksOfBoxesAreThoseOfThePipelinesPython) {
+TEST_P(OwnNetwork, MasksOfBoxesEqualThePythonPipelines) {
   const Observation obs = Picture();
   std::ifstream file(DataFile("crossnav_small.tsv"));
   int boxes = 0;

@@ -112,7 +112,7 @@ TEST_P(PaperNetworks, DetectorsGiveTheBoxesOfPyTorch) {
   EXPECT_GE(tried, Folder() == DataFile("paper") ? 5 : 1);
 }
 
-TEST_P(PaperNetworks, SegFormersStairsAreThoseOfPyTorch) {
+TEST_P(PaperNetworks, SegFormersStairsEqualPyTorchs) {
   const auto model = OpenIt("segformer_b2");
   ASSERT_NE(model, nullptr);
   const Observation obs = Picture(size_);
@@ -147,7 +147,7 @@ TEST_P(PaperNetworks, MobileSamsMaskIsThatOfPyTorchAndThePictureIsEncodedOnce) {
   }
 }
 
-TEST_P(PaperNetworks, ClipsTextVectorsAreThoseOfPyTorch) {
+TEST_P(PaperNetworks, ClipsTextVectorsEqualPyTorchs) {
   ModelCard card;
   card.path = Folder() / "clip_text.toml";
   card.text.encoder = Folder() / "clip_text.onnx";

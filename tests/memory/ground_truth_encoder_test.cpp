@@ -108,7 +108,7 @@ TEST_F(GroundTruthEncoderTest, LookAlikesLieNearerThanStrangers) {
   EXPECT_NEAR(Cosine(*encoder, "wall", "floor"), 0.5, 0.06);
 }
 
-TEST_F(GroundTruthEncoderTest, CellsShowWhatIsThereAndRunsRepeat) {
+TEST_F(GroundTruthEncoderTest, CellsShowTheVisibleObjectsAndRunsRepeat) {
   const auto encoder = *MakeGroundTruthEncoder(simulator_, {});
   const Observation obs = LookAt(0);
   const auto grid = encoder->EncodeImage(obs);

@@ -98,7 +98,7 @@ TEST(HistoryPoiTest, EqualsBruteForce) {
   EXPECT_GT(clusters.size(), 3u);
 }
 
-TEST(HistoryPoiTest, NothingThatStandsOutGivesNothing) {
+TEST(HistoryPoiTest, WithoutOutstandingVoxelsTheResultIsEmpty) {
   World w;
   w.Floor(40);
   EXPECT_TRUE(Query(w.memory, RandomVector(w.rng, 1.0), {}).empty());
@@ -138,7 +138,7 @@ TEST(HistoryPoiTest, BestViewIsTheCameraThatSawMostOfThePlace) {
   EXPECT_GT(p_camera.z(), 0);
 }
 
-TEST(HistoryPoiTest, ContrastiveRelevancySuppressesWhatABackgroundPromptExplainsBetter) {
+TEST(HistoryPoiTest, ContrastiveRelevancySuppressesBackground) {
   World w;
   const std::vector<float> text = RandomVector(w.rng, 1.0);
   std::vector<float> other = RandomVector(w.rng, 1.0);
@@ -161,7 +161,7 @@ TEST(HistoryPoiTest, ContrastiveRelevancySuppressesWhatABackgroundPromptExplains
   }
 }
 
-TEST(HistoryPoiTest, QueryLeavesTheMemoryAsItIs) {
+TEST(HistoryPoiTest, QueryDoesNotChangeTheMemory) {
   World w;
   const std::vector<float> text = RandomVector(w.rng, 1.0);
   w.Blob({10, 10, 5}, 4, text, 2.0);

@@ -48,7 +48,7 @@ TEST(ObservationQualityTest, IsZeroExactlyWhereDepthIsInvalid) {
     }
 }
 
-TEST(ObservationQualityTest, RowsInAnyOrderAreThoseOfTheWholeImage) {
+TEST(ObservationQualityTest, RowsInAnyOrderEqualTheWholeImage) {
   Rng rng(4);
   const CameraIntrinsics camera = IntrinsicsFromHfov(37, 11, 1.5);
   QualityRows rows;

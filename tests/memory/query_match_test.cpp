@@ -73,7 +73,7 @@ TEST(QueryMatch, ScaleIsTheSameHoweverMuchAllWordsHaveInCommon) {
   }
 }
 
-TEST(QueryMatch, WhatFillsMostOfTheMapIsPresentThoughNoPlaceStandsOut) {
+TEST(QueryMatch, SurfacesThatFillTheMapArePresentWithoutAnOutstandingPlace) {
   Words w(0.5);
   const auto wall = w.Word();
   w.Show(wall, {0, 0, 0}, 12);

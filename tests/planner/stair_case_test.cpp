@@ -62,7 +62,7 @@ struct Tally {
   int tried = 0, up = 0, down = 0;
 };
 
-TEST(StairCases, WhatTheNavmeshClimbsTheGroundClimbsBothWays) {
+TEST(StairCases, StairsOfTheNavmeshAreClimbedUpAndDown) {
   Rng rng(29);
   int failures = 0;
   const int offsets = IsLong() ? 20 : 1;
@@ -185,7 +185,7 @@ std::string WalkFlight(const StairCase& stair, double voxel_m, bool goes_up) {
   return closed;
 }
 
-TEST(StairCases, AFlightThatIsSeenStepByStepIsWalkedAndLeadsBack) {
+TEST(StairCases, AFlightSeenDuringTheClimbIsWalkedUpAndDown) {
   Rng rng(31);
   int failures = 0, tries = 0;
   for (const double voxel_m : {0.10, 0.05})

@@ -41,7 +41,7 @@ AgentPose Facing(double yaw_rad) {
   return pose;
 }
 
-TEST(Glance, GoesToTheSideThatLiesOpen) {
+TEST(Glance, TurnsToTheOpenSide) {
   const auto heading_rad = GlanceHeading(Room(true), kPlace, Facing(0), kHfov_rad, {}, {});
   ASSERT_TRUE(heading_rad);
   EXPECT_NEAR(*heading_rad, M_PI / 2, 1e-9);

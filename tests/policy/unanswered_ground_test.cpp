@@ -88,7 +88,7 @@ TEST(UnansweredGround, HolesOfNoiseAreNoEdge) {
     EXPECT_GE(geometry::CenterOf(key, 0.1).x(), kEdge_m - 0.05) << "on the platform";
 }
 
-TEST(UnansweredGround, BehindAWallThatIsTooNearNothingIsSettled) {
+TEST(UnansweredGround, BehindANearWallNothingIsSettled) {
   Platform given;
   const double wall_m = 0.4;
   for (int i = 0; i < 5; ++i) given.Add(At(0, 0), given.Look(At(0, 0), wall_m));

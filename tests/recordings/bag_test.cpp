@@ -175,7 +175,7 @@ TEST_F(MadeBag, InAFolderNeedsNoMetadata) {
   ExpectError(ReadAll(folder_.path() / "bag"), {"gone.mcap", "cannot be opened"});
 }
 
-TEST_F(MadeBag, ThatLacksSomethingSaysWhatAndHowToGiveIt) {
+TEST_F(MadeBag, NamesTheMissingPartAndTheRemedy) {
   AddColour("/rgb/image", "cam");
   ExpectError(Read(), {"made.mcap", "no depth images", "/rgb/image"});
   AddDepth("/depth/image", "cam");
@@ -199,7 +199,7 @@ TEST_F(MadeBag, ThatLacksSomethingSaysWhatAndHowToGiveIt) {
   EXPECT_EQ(Read(options).frames.at(0).obs.T_world_camera.translation(), Vector3d(5, 0, 0.7));
 }
 
-TEST_F(MadeBag, ThatHasTooMuchListsWhatThereIs) {
+TEST_F(MadeBag, ListsTheAlternativesIfAmbiguous) {
   AddSimple();
   AddDepth("/rear/depth/image", "rear");
   ExpectError(Read(),
@@ -245,7 +245,7 @@ TEST_F(MadeBag, ExtrinsicsComeFromTransformsOrAreAskedFor) {
   EXPECT_EQ(result.frames[0].obs.T_world_camera.translation(), Vector3d(0, 0, 0.5));
 }
 
-TEST_F(MadeBag, LensesAndCamerasThatAreNotReadAreNamed) {
+TEST_F(MadeBag, UnsupportedLensesAndCamerasAreNamed) {
   AddDepth("/depth/image", "cam");
   AddOdometry("/odom", "cam");
   AddInfo("/depth/camera_info", {"cam", "equidistant", 8, 6, 0, {0.1, 0, 0, 0}, 6.0});
@@ -268,7 +268,7 @@ TEST_F(MadeBag, UncalibratedAndBinnedCamerasAreRefused) {
   ExpectError(Read(options), {"binned", "--intrinsics"});
 }
 
-TEST_F(MadeBag, MessagesThatAreNotWhatTheirTypeSaysAreNamed) {
+TEST_F(MadeBag, MessagesThatContradictTheirTypeAreNamed) {
   AddSimple();
   bag_.Add("/tf", "tf2_msgs/msg/TFMessage", 2 * kSecond_ns, std::string("\0\1\0\0\xff\0\0\0", 8));
   ExpectError(Read(), {"made.mcap, /tf at 2.000 s", "no tf2_msgs/msg/TFMessage"});

@@ -74,7 +74,7 @@ TEST(RosMessages, CountsThatLieAreRefused) {
   EXPECT_FALSE(ReadRosHeader(""));
 }
 
-TEST(RosMessages, ATransformIsReadAsItStands) {
+TEST(RosMessages, ATransformIsReadUnchanged) {
   const auto read = ReadRosTransforms(
       testing::TransformMessage(3, "/odom", "base", {1, 2, 3, 0.5, 0.5, 0.5, 0.5}));
   ASSERT_TRUE(read);

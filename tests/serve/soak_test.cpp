@@ -214,7 +214,7 @@ class Soak {
   int answered_ = 0, dropped_ = 0, malformed_ = 0;
 };
 
-TEST(LiveSoak, FramesAreLostAndDamagedAndClientsDieAndTheServerGoesOn) {
+TEST(LiveSoak, TheServerSurvivesLostAndDamagedFramesAndDyingClients) {
   const int frames = FrameCount();
   const TempFolder folder;
   ServeProgram server(folder.path());

@@ -159,7 +159,7 @@ TEST(NavMesh, NeverWalksThroughAWallFromAnywhereInAnyDirection) {
   }
 }
 
-TEST(NavMesh, LowSillsAreSteppedOverAndHighOnesAreNot) {
+TEST(NavMesh, LowSillsAreSteppedOverAndHighSillsAreNot) {
   for (const double sill_m : {0.25, 0.40}) {
     MicroScene m;
     m.Room(0, 0, 6, 4);

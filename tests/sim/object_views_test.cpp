@@ -97,7 +97,7 @@ TEST(GoodViews, AreNotWhereSomethingHidesMostOfTheObject) {
             World(ChairInARoom().Finish()).ViewsOf("chair", all).size());
 }
 
-TEST(GoodViews, CountWhatLiesOutsideThePictureAsHidden) {
+TEST(GoodViews, CountPartsOutsideThePictureAsHidden) {
   MicroScene m;
   m.Room(0, 0, 8, 8);
   m.Begin("tower", "chair");

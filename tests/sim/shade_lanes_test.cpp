@@ -96,7 +96,7 @@ std::uint32_t OneByOne(const Scene& scene, const Hits& hits, std::size_t i) {
   return byte(colour.r) | byte(colour.g) << 8 | byte(colour.b) << 16;
 }
 
-TEST(ShadeLanes, EveryByteIsThatOfShadingOneByOneOnEveryInstructionSet) {
+TEST(ShadeLanes, EveryByteEqualsTheScalarReferenceOnEveryInstructionSet) {
   const std::int64_t all = hwy::SupportedTargets() & HWY_TARGETS;
   std::size_t compared = 0;
   for (const unsigned parts : {0U, unsigned{kTextures}, unsigned{kCorners}, kTextures | kCorners}) {

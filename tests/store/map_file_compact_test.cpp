@@ -69,7 +69,7 @@ TEST(MapFileCompactTest, CompactedRowsTakeHalfTheBlock) {
   EXPECT_EQ(bytes_of(few), 2u + 4 * (26 + 4 + testing::kDim));
 }
 
-TEST(MapFileCompactTest, BrokenBlocksAreRefusedWhateverIsBroken) {
+TEST(MapFileCompactTest, BlocksWithAnyDamageAreRefused) {
   SmallWorld world({}, Bounded(2500));
   for (int i = 0; i < 4; ++i) world.AddFrame(i);
   // Rows of one block, some of each kind.

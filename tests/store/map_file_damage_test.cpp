@@ -231,7 +231,7 @@ TEST(MapFileDamageTest, CountsAndVoxelSizesThatNoFileHasAreRefused) {
   EXPECT_NE(loaded.error().what.find("more blocks than the file can hold"), std::string::npos);
 }
 
-TEST(MapFileDamageTest, TruncationIsFoundAndWhatIsLeftLoads) {
+TEST(MapFileDamageTest, TruncationIsFoundAndIntactBlocksLoad) {
   const TempFile file("truncated.map");
   SmallWorld world;
   for (int i = 0; i < 8; ++i) world.AddFrame(i);

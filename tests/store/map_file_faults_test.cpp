@@ -83,7 +83,7 @@ TEST(MapFileFaults, AFirstSaveOnAFullDiskLeavesNothing) {
   }
 }
 
-TEST(MapFileFaults, WhoReadsDuringSavesGetsOneWholeRevision) {
+TEST(MapFileFaults, AReaderDuringSavesGetsOneWholeRevision) {
   const TempFile file("read.map");
   const SmallWorld small = WorldOf(3), large = WorldOf(8);
   ASSERT_TRUE(SaveMemory(file.path(), small.map, small.memory, {}));

@@ -56,7 +56,7 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
 }
 
 /// What was drawn before there were editions: named benchmarks are made of it.
-TEST(HouseGenerator, EditionOneDrawsTheHousesThatItAlwaysDrew) {
+TEST(HouseGenerator, EditionOneDrawsUnchangedHouses) {
   struct Known {
     std::uint64_t seed;
     int floors;
@@ -84,7 +84,7 @@ TEST(HouseGenerator, EditionOneDrawsTheHousesThatItAlwaysDrew) {
   }
 }
 
-TEST(HouseGenerator, EditionTwoHasWhatOthersBuild) {
+TEST(HouseGenerator, EditionTwoHasTheShapesOfRealBuildings) {
   std::map<std::string, int> seen;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     HouseParams params;
@@ -259,7 +259,7 @@ TEST(HouseGenerator, FurnitureKeepsDoorsFree) {
 }
 
 /// A house of one room with a chair, a wall across it, or a second storey without a stair.
-TEST(HouseGate, RefusesWhatCannotBeReached) {
+TEST(HouseGate, RefusesUnreachableRooms) {
   HouseParams params;
   params.seed = 5;
   params.floors = 2;

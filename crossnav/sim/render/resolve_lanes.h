@@ -7,7 +7,7 @@
 //     unstable; depth is 1 / (the canvas's inverse depth).
 //   instance: the triangle's; 0 where nothing is drawn.
 //   colour: ShadePacket at the barycentric weights w_k(u, v) / (w_0 + w_1 + w_2), clamped to 0..1.
-// Reference: single rays (Rasterizer.ColoursDepthsAndHolesAreThoseOfRays). Every instruction set
+// Reference: single rays (Rasterizer.ColoursDepthsAndHolesEqualRays). Every instruction set
 // gives the same bytes.
 #pragma once
 
