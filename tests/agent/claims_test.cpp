@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A detector that lies: it takes a couch for a bed. What the agent does about it.
+// A detector that mistakes a couch for a bed, and the agent's verification of its claims.
 #include <cmath>
 
 #include <gtest/gtest.h>

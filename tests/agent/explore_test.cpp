@@ -56,7 +56,7 @@ struct Choice {
   bool is_flight = false;
 };
 
-/// Of an agent at `start` that looks west, is on its way to `committed` and saw `hints`.
+/// Choice of an agent at `start` that looks west, pursues `committed` and saw `hints`.
 Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart,
               const policy::Candidate* committed = nullptr,
               const std::vector<policy::Sighting>& hints = {}) {
@@ -121,8 +121,8 @@ TEST(Explore, AFlightDownComesFirstForASofaAndLastForABed) {
   EXPECT_FALSE(Choose(map, "chair").is_flight);
 }
 
-// The price of the flight is negative there, and "its class was paid for" took that away: at every
-// second look the door was nearer than what was left of the way.
+// Regression: the price of the flight is negative there, and the refund of its class cancelled it:
+// at every second look the door was nearer than the rest of the path.
 TEST(Explore, APathToALikelierFloorIsContinued) {
   VoxelMap map = Room();
   AddTreads(map, 6, 2);
@@ -166,8 +166,8 @@ TEST(Explore, RisingGroundWithoutStepsIsNoStair) {
   EXPECT_TRUE(IsOverStairs(now, p_top)) << "stairs were seen there";
 }
 
-// Two treads bordering on a few unseen columns were worth a tenth of their way, like what is left
-// behind a bed, and the flight came after everything else on two floors.
+// Regression: two treads that border on a few unseen columns had a tenth of their weight, like
+// ground behind a bed, and the flight came after everything else on two floors.
 TEST(Explore, TheFirstTreadsDownLeadToAnotherFloor) {
   VoxelMap map = Room();
   AddTreads(map, 2, -2);
@@ -186,7 +186,7 @@ TEST(Explore, AnIntermediateFloorIsExploredBeforeTheNextFlight) {
   for (int y = 12; y < 18; ++y) Wall(map, -1, y);  // no door
   constexpr int kFloor = -30, kWest = kSide + 20, kEast = kWest + 36;
   AddGround(map, kWest, 12, kEast, 18, kFloor);
-  AddGround(map, kWest, 18, kWest + 4, 20, kFloor - 3);  // it goes on here
+  AddGround(map, kWest, 18, kWest + 4, 20, kFloor - 3);  // continues here
   for (int z = kFloor - 6; z <= kFloor + 16; ++z) {
     for (int x = kWest; x < kEast; ++x) {
       SetState(map, {x, 11, z}, VoxelState::kOccupied);

@@ -126,7 +126,7 @@ TEST(FloorChange, ALevelIsLookedAroundOnOnce) {
   EXPECT_EQ(looks, 0);
 }
 
-// The links of floors are in the map: a restored one is walked at once.
+// The map holds the links of floors: a restored map is used at once.
 TEST(FloorChange, ARestoredMemoryKnowsThePathToTheOtherFloor) {
   BoxWalker walker = testing::TwoStoreys();
   walker.rooms.solids.push_back(testing::kUpperCouch);

@@ -25,7 +25,7 @@ struct Mount {
   double ahead_m = 0, yaw_deg = 0, height_m = 0.88;
 };
 
-/// What a walker's robot sees with such a camera, pitched as the walker's.
+/// View of a walker's robot with such a camera, at the walker's pitch.
 Observation Look(const BoxWalker& walker, const Mount& mount) {
   Observation obs = walker.Look();
   obs.T_base_camera =
@@ -124,7 +124,8 @@ TEST(Mounting, AnInvalidMountingIsAnErrorThatNamesItsKey) {
   expect_bad(changed([](Pose& T) { T.translation().z() = 0; }));
   expect_bad(changed([](Pose& T) { T.translation().z() = 5.1; }));
   expect_bad(changed([](Pose& T) { T.translation().y() = -6; }));
-  // The other way round, and a camera of ROS's other frame (x ahead) instead of the optical one.
+  // The inverse transform, and a camera of ROS's other frame (x ahead) instead of the optical
+  // frame.
   expect_bad(good.T_base_camera->inverse());
   expect_bad(Pose(Eigen::Translation3d(0.2, 0, 0.6)));
   EXPECT_EQ(agent.map().Stats().known, 0);

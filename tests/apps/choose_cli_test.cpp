@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes are chosen, listed, and episodes drawn in those of the list.
+// Chooses scenes, lists them, and draws episodes in the listed scenes.
 #include "cli_fixture.h"
 
 namespace crossnav::test {

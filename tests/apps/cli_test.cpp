@@ -220,7 +220,7 @@ TEST_F(Cli, ARunContinuesFromASavedMemory) {
     return Json::parse(Run("map info " + std::string(map) + settings).out)["feature_rows"]
         .get<int>();
   };
-  EXPECT_GE(rows("n.map"), rows("m.map"));  // what was known stays known
+  EXPECT_GE(rows("n.map"), rows("m.map"));  // known features stay
 
   EXPECT_EQ(Run(run + " --out third --memory nowhere.map").exit_code, 1);
   const Outcome other = Run(run + " --out third --memory m.map --set map.voxel_m=0.2");

@@ -26,7 +26,7 @@ void ExpectParts(const std::string& text, const std::vector<std::string>& parts)
   }
 }
 
-/// An executable that stands for one of Slurm's commands, in `bin`.
+/// A stand-in executable for one of Slurm's commands, in `bin`.
 void Fake(const fs::path& bin, const std::string& name, const std::string& body) {
   fs::create_directories(bin);
   WriteText(bin / name, "#!/bin/bash\n" + body + "\n");
@@ -91,7 +91,7 @@ TEST_F(SlurmCli, TheTasksRunByHandAreTheRunOfOneProcess) {
     return std::system((scripts + line + " >>log 2>&1").c_str());
   };
   ASSERT_EQ(bash("SLURM_ARRAY_TASK_ID=0 bash shards.sbatch"), 0);
-  EXPECT_NE(bash("bash merge.sbatch"), 0);  // names what is missing
+  EXPECT_NE(bash("bash merge.sbatch"), 0);  // names the missing episodes
   ExpectParts(ReadText(At(folder + "/slurm/log")), {"2 of 4 episodes are missing"});
   EXPECT_FALSE(fs::exists(At(folder + "/results.jsonl")));
   ASSERT_EQ(bash("SLURM_ARRAY_TASK_ID=1 bash shards.sbatch"), 0);
@@ -161,7 +161,7 @@ TEST_F(SlurmCli, MergeRefusesMissingEpisodesUnlessPartial) {
   ExpectParts(outcome.err, {"2 of 4 episodes are missing"});
   EXPECT_FALSE(fs::exists(At("merged.jsonl")));
   EXPECT_EQ(Run("merge run/shards --out merged.jsonl --partial").exit_code, 0);
-  // What was merged is a run that eval goes on with.
+  // eval can resume the merged run.
   fs::create_directories(At("rest"));
   fs::rename(At("merged.jsonl"), At("rest/results.jsonl"));
   EXPECT_EQ(Run("eval --quiet --out rest " + kEval).exit_code, 0);

@@ -137,7 +137,8 @@ TEST(Comparison, AFlipLinksToTheReplayOfTheRunThatFailed) {
   const auto comparison = CompareRuns(a, b, {100, 1}, false);
   ASSERT_TRUE(comparison) << comparison.error().Message();
   ASSERT_EQ(comparison->flips.size(), 2u);
-  const auto report = std::filesystem::proximate(folder.path()) / "report";  // as it is typed
+  // relative, as from the command line
+  const auto report = std::filesystem::proximate(folder.path()) / "report";
   const std::string text = ComparisonMarkdown(*comparison, report);
   EXPECT_NE(text.find("| House/1:4 | misdetection (0/1) | success (1/1) | stopped at the wrong "
                       "object | [replay](<../runs/before/replays/House_1_4.mcap>) |"),

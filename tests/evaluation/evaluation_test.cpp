@@ -151,7 +151,7 @@ TEST_F(EvaluationTest, AKilledRunResumesToTheSameRecordsAndLeavesNoOrphan) {
   ASSERT_TRUE(Run("whole", 1, Plain()));
   const test::PidFolder pids;
   const pid_t parent = ::fork();
-  if (parent == 0) {  // the program: three workers, of which those at e106 and later never finish
+  if (parent == 0) {  // the program: three workers; workers at e106 and later never finish
     Evaluation evaluation;
     evaluation.play = [&](const Episode& episode) -> Result<EpisodeRecord> {
       pids.Add();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be reached without a floor change, held against a house whose ground floor is in two
-// halves, joined by a bridge above.
+// Ground reachable without a floor change, in a house with a ground floor in two halves, joined by
+// a bridge above.
 #include "crossnav/evaluation/scoring/floor_parts.h"
 
 #include "crossnav/evaluation/generation/episode_generator.h"

@@ -6,7 +6,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-/// A successful stage: shortest path, and what was walked in three parts.
+/// A successful stage: shortest path, and the walked path in three parts.
 StageRecord Stage(double shortest_m, double length_m, StageReach reach) {
   StageRecord stage;
   stage.goal = "bed";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Imperfect sensors as a run has them: profiles and settings, determinism, what they do to a map.
+// Imperfect sensors in a run: profiles and settings, determinism, effect on a map.
 #include "crossnav/core/config_visitor.h"
 #include "crossnav/evaluation/generation/episode_generator.h"
 #include "crossnav/evaluation/records/result_records.h"
@@ -62,7 +62,7 @@ TEST(NoiseConfig, EveryProfileIsWithinTheRangesOfItsSettings) {
   }
 }
 
-/// What an episode of a few steps amounts to.
+/// Summary of an episode of a few steps.
 struct Played {
   std::string record, traces;
   MapError map;

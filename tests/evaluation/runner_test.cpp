@@ -13,7 +13,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-/// Everything that happened, as text, and the agent's way.
+/// All events as text, and the agent's path.
 class Recorder : public RunObserver {
  public:
   Result<void> OnStep(const StepView& step) override {
@@ -64,7 +64,7 @@ TEST_F(Runner, SameSeedGivesTheSameRecordsAndTraces) {
   EXPECT_FALSE(traces[0].empty());
 }
 
-// An ObjectNav file's viewpoints are X(g): shortest way and success follow from them.
+// Viewpoints of an ObjectNav file are X(g): shortest path and success follow from them.
 TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
   RunConfig config = test::SmallConfig();
   config.eval.success = "viewpoint";
@@ -73,7 +73,7 @@ TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
   const Target ours = (*context)->TargetsOf("toilet").front();
   const Vector3d p_far = (*context)->TargetsOf("sofa").front().viewpoints_world.front();
   EXPECT_GT(*(*context)->DistanceToGoal(p_far, "toilet"),
-            1);  // what was worked out before is forgotten
+            1);  // earlier results are discarded
   GoalObject goal;
   goal.object_id = ours.instance;
   goal.category = "toilet";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the benchmark tells the variants known-map and known-objects.
+// Initial knowledge of the variants known-map and known-objects.
 #include "crossnav/evaluation/running/survey.h"
 
 #include "crossnav/evaluation/running/runner.h"

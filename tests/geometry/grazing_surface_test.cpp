@@ -31,7 +31,7 @@ struct Passed {
   std::vector<BlockMask> before, after;
 };
 
-/// What the last frame passes, before and after sparing, in a map that has seen those before it.
+/// Voxels passed by the last frame, before and after sparing, in a map of the earlier frames.
 Passed Spare(const std::vector<TestFrame>& frames, GapSearch search) {
   MapConfig config;
   config.clearing = "evidence";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Areas must add up: triangles of concave outlines, pieces and what was cut from them.
+// Areas must add up: triangles of concave outlines, pieces and their cut-outs.
 #include "crossnav/homes/polygon.h"
 
 #include <gtest/gtest.h>

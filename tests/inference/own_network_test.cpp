@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The networks of our own give the masks that the pipeline's Python gives (make_golden.py), which
-// is what its evaluation measures.
+// Our networks give the same masks as the Python pipeline (make_golden.py), which its evaluation
+// measures.
 #include <fstream>
 #include <sstream>
 

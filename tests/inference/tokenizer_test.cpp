@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tokenizers against those of transformers, on 1,000 texts of all scripts (make_tokens.py).
+// Tokenizers against transformers' tokenizers, on 1,000 texts of all scripts (make_tokens.py).
 #include "crossnav/inference/tokenizer.h"
 
 #include <zlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The encoder that stands in for a network: what the memory's queries are tested with.
+// The stand-in encoder, with which the memory's queries are tested.
 #include "crossnav/sim/sensing/ground_truth_encoder.h"
 
 #include <gtest/gtest.h>

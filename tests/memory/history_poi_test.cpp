@@ -128,7 +128,7 @@ TEST(HistoryPoiTest, BestViewIsTheCameraThatSawMostOfThePlace) {
   const auto clusters = Query(w.memory, text, {});
   ASSERT_EQ(clusters.size(), 1u);
   EXPECT_EQ(clusters[0].p_best_view_world, Vector3d(1, 2, 3));
-  // A camera turned that way has the centre in its middle.
+  // The best view's direction puts the centre in the middle of the image.
   const MemoryCluster& c = clusters[0];
   const Pose T_world_camera =
       CameraPose({c.p_best_view_world, c.best_view_yaw_rad, c.best_view_pitch_rad}, 0);

@@ -24,7 +24,7 @@ std::vector<float> Unit(Rng& rng) {
   return v;
 }
 
-/// Words that share `common`, and what shows one of them.
+/// Words with a common part, and cells that show one of them.
 struct Words {
   SemanticMemory memory;
   Rng rng{3};

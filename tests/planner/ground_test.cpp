@@ -227,7 +227,7 @@ TEST(GroundSearch, TheFrontOfASeatIsNoTread) {
   EXPECT_TRUE(CostsFrom(GroundOf(stair), {1, 1, 1}).contains({6, 1, 5}));
 }
 
-/// Bellman and Ford's relaxation until nothing changes, over a dictionary: as slow as it is plain.
+/// Bellman and Ford's relaxation until nothing changes, over a dictionary: slow and simple.
 std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& start, int side) {
   const PlannerConfig config;
   std::map<VoxelKey, double> costs{{start, 0}};
@@ -278,7 +278,7 @@ TEST(GroundSearch, CostsEqualPlainRelaxationOnRandomGround) {
   }
 }
 
-// Searches keep what they asked of a place until something near it changes.
+// Searches cache a place until a change near it.
 TEST(GroundSearch, AfterEachChangeTheCostsEqualThoseOfFreshGround) {
   Rng rng(11);
   VoxelMap map;

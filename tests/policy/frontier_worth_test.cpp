@@ -39,7 +39,7 @@ TEST(FrontierWorth, UnseenAreaEndsAtSeenGround) {
   EXPECT_GT(room, 4 * pocket);
   VoxelMap open;
   AddGround(open, 0, 0, 20, 20, 0);
-  // Half a disc of four metres lies beyond the edge of what was seen.
+  // Half a disc of four metres lies beyond the edge of the seen ground.
   EXPECT_NEAR(UnseenBeyond(GroundOf(open), place, 4.0), 0.5 * M_PI * 16, 3);
 }
 

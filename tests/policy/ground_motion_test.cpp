@@ -62,8 +62,8 @@ TEST(GroundMotion, EndsNoTurnWithoutAStep) {
   EXPECT_EQ(actions.back(), Action::kMoveForward);
 }
 
-// A way that doubles back behind a wall came near its own end: cost-to-go by distance to the way
-// saw no step that helped, and the agent stood still (found in house 8).
+// Regression: a path that doubles back behind a wall came near its own end: with cost-to-go by
+// distance to the path no step helped, and the agent stood still (found in house 8).
 TEST(GroundMotion, LeavesAPocketWithAPathThatDoublesBackBehindAThinWall) {
   VoxelMap map;
   AddGround(map, 0, 0, 30, 12, 0);

@@ -22,7 +22,7 @@ struct Platform {
 
   Platform() { sensor.width_px = sensor.height_px = 160; }
 
-  /// What a camera sees of the platform; `wall_m` < 0: none, else an upright plane at that x.
+  /// Camera view of the platform; `wall_m` < 0: none, else an upright plane at that x.
   Observation Look(const AgentPose& agent, double wall_m = -1) const {
     Observation obs;
     obs.camera = sensor.Intrinsics();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ROS 2 bags: two that the package rosbags wrote (data/, make_bags.py), and made-up ones with
+// ROS 2 bags: two written by the package rosbags (data/, make_bags.py), and synthetic bags with
 // faults.
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ TEST(RosbagsBag, DamageAnywhereEndsInAnErrorOrLeavesValidFrames) {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Bags of three depth images and what else a test wants.
+/// Bags of three depth images and further messages of a test.
 class MadeBag : public ::testing::Test {
  protected:
   static constexpr testing::SevenNumbers kLevel = {0, 0, 0, 0, 0, 0, 1};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CDR and the messages in it: both byte orders, and every way of being cut short.
+// CDR and its messages: both byte orders, and truncation at every length.
 #include "crossnav/recordings/ros_messages.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the server answers, without a socket.
+// Replies of the server, without a socket.
 #include "crossnav/serve/pilot.h"
 
 #include <gtest/gtest.h>
@@ -176,7 +176,7 @@ TEST_F(PilotTest, LateObservationsAreRefusedAndCounted) {
 TEST_F(PilotTest, MissingNumbersAreCounted) {
   Start();
   ASSERT_TRUE(Look(10).has_answer());
-  EXPECT_EQ(counts().dropped, 0u);  // nobody said that it starts at 1
+  EXPECT_EQ(counts().dropped, 0u);  // no rule that it starts at 1
   ASSERT_TRUE(Look(11).has_answer());
   ASSERT_TRUE(Look(15).has_answer());
   EXPECT_EQ(counts().dropped, 3u);

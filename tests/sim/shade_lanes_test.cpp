@@ -57,7 +57,7 @@ struct Hits {
   std::array<float, kShadeLanes> s, t;
   std::array<std::array<float, kShadeLanes>, 3> normal, ray;
 
-  /// Of `kinds` triangles at most: one, a few and many are different ways.
+  /// Hits on at most `kinds` triangles: the kernel has separate branches for one, a few and many.
   Hits(Rng& rng, const Scene& scene, int kinds) {
     std::vector<std::int32_t> some;
     while (static_cast<int>(some.size()) < kinds)

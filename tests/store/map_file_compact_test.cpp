@@ -114,7 +114,7 @@ void RunSql(const TempFile& file, const std::string& sql) {
   sqlite3_close(db);
 }
 
-/// Makes the file one of format 1, by docs/formats/map_file.md.
+/// Converts the file to format 1, by docs/formats/map_file.md.
 void MakeFormat1(const TempFile& file, const MapHeader& h) {
   std::string bytes;
   const auto put = [&](std::int64_t v) {

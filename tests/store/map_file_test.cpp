@@ -102,7 +102,7 @@ TEST(MapFileTest, SeenStairsAreSavedWithTheMemory) {
   EXPECT_TRUE(rest->seen_stairs.empty());
 }
 
-// Files of before have no such table.
+// Older files have no such table.
 TEST(MapFileTest, FlightsWithoutTheirPlacesLoad) {
   const TempFile file("flights_of_before.map");
   SmallWorld world;

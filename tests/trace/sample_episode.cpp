@@ -102,7 +102,7 @@ Observation Look(const std::vector<Block>& house, const Pose& T_world_camera, in
   return obs;
 }
 
-/// What a made-up perception would say: masks of what is red or green, stairs on the flight.
+/// Synthetic perception: masks of red and green surfaces, stairs on the flight.
 Sight SightOf(const Observation& obs) {
   Sight sight;
   sight.width_px = obs.rgb.width;

@@ -55,7 +55,7 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
   EXPECT_NE(test::ReadText(a->folder / file), test::ReadText(c->folder / "House10.glb"));
 }
 
-/// What was drawn before there were editions: named benchmarks are made of it.
+/// Houses from before the editions: named benchmarks use them.
 TEST(HouseGenerator, EditionOneDrawsUnchangedHouses) {
   struct Known {
     std::uint64_t seed;
