@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "crossnav/core/setting.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/policy/live_poi.h"
 
@@ -28,13 +29,13 @@ struct VerifyConfig {
 
 template <class V>
 void Visit(V& visit, VerifyConfig& c) {
-  visit("memory", c.memory, {"on", "off"});
-  visit("refute_margin", c.refute_margin, 0.0, 2.0);
-  visit("strong_margin", c.strong_margin, -2.0, 2.0);
-  visit("strong_confidence", c.strong_confidence, 0.0, 1.0);
-  visit("view_angle_deg", c.view_angle_deg, 0.0, 180.0);
-  visit("view_baseline_m", c.view_baseline_m, 0.0, 10.0);
-  visit("new_evidence", c.new_evidence, 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, memory), {"on", "off"});
+  visit(CROSSNAV_SETTING(c, refute_margin), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, strong_margin), -2.0, 2.0);
+  visit(CROSSNAV_SETTING(c, strong_confidence), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, view_angle_deg), 0.0, 180.0);
+  visit(CROSSNAV_SETTING(c, view_baseline_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, new_evidence), 0.0, 1.0);
 }
 
 /// A name and its unit text vector.
