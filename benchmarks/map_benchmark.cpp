@@ -114,9 +114,9 @@ std::vector<Frame> WalkScene(const std::string& folder, const CameraIntrinsics& 
   AgentPose agent;
   agent.p_world = navmesh->RandomPoint(rng).value();
   while (static_cast<int>(frames.size()) < count) {
-    const auto way = navmesh->ShortestPath(agent.p_world, navmesh->RandomPoint(rng).value());
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      const Vector3d leg = way[i] - agent.p_world;
+    const auto path = navmesh->ShortestPath(agent.p_world, navmesh->RandomPoint(rng).value());
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Vector3d leg = path[i] - agent.p_world;
       const double heading_rad = std::atan2(leg.y(), leg.x());
       while (std::abs(WrapAngle(heading_rad - agent.yaw_rad)) > DegToRad(15)) {
         const double left_rad = WrapAngle(heading_rad - agent.yaw_rad);

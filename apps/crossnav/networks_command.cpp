@@ -304,7 +304,7 @@ void AddNetworks(CLI::App& app, Options& o) {
                             "crossnav networks check crossnav_small",
                             [&o](Console& c) { return NetworksCheck(o.networks, o.common, c); });
   check->add_option("CARD", o.networks.cards, "Names or paths of cards; default: all");
-  CLI::App* look = AddVerb(*networks, o, "look", "What the networks see in a picture",
+  CLI::App* look = AddVerb(*networks, o, "look", "Output of the networks for a picture",
                            "crossnav networks look room.png --text sofa --out panel.png",
                            [&o](Console& c) { return NetworksLook(o.networks, o.common, c); });
   look->add_option("IMAGE", o.networks.image, "Picture (PNG or JPEG)")->required();

@@ -75,9 +75,9 @@ Json Told(const homes::ImportReport& report) {
   for (const std::string& note : report.notes) log.push_back(report.scene_id + ": " + note);
   for (const homes::Storey& storey : report.storeys) {
     if (storey.is_reached) continue;
-    log.push_back(fmt::format(
-        "{}: warning: no way leads to '{}' at {:.2f} m; look at its staircase and doors",
-        report.scene_id, storey.name, storey.floor_m));
+    log.push_back(
+        fmt::format("{}: warning: no path leads to '{}' at {:.2f} m; check its staircase and doors",
+                    report.scene_id, storey.name, storey.floor_m));
   }
   return {{"log", std::move(log)}, {"text", ReportText(report)}, {"document", ReportJson(report)}};
 }

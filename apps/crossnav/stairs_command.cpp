@@ -48,7 +48,8 @@ std::string ShareText(int hits, int attempts) {
 std::string Text(const Tables& tables) {
   std::string text;
   if (!tables.stairs.empty()) {
-    text += "| stair | way | reached the other floor, % | found the goal | median actions |\n";
+    text +=
+        "| stair | direction | reached the other floor, % | found the goal | median actions |\n";
     text += "|---|---|--:|--:|--:|\n";
   }
   int attempts = 0, reached = 0;

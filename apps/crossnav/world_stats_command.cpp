@@ -66,7 +66,7 @@ std::string SpreadText(const std::vector<double>& values, int digits) {
 }
 
 std::string Table(const Totals& t) {
-  std::string floors, text = "| what | figure |\n|---|---|\n";
+  std::string floors, text = "| quantity | figure |\n|---|---|\n";
   for (const auto& [count, houses] : t.floors) {
     floors += fmt::format("{}{} of {}", floors.empty() ? "" : ", ", houses, count);
   }

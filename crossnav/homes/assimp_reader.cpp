@@ -107,7 +107,8 @@ Result<world::NamedObj> ParseWithAssimp(const std::string& bytes, const std::str
         AddMesh(mesh, materials[mesh.mMaterialIndex], out);
     }
     for (const Vector3f& v : out.model.mesh.vertices) {
-      if (!v.allFinite()) return Fail(ErrorCode::kMalformed, "has a vertex that is none", where);
+      if (!v.allFinite())
+        return Fail(ErrorCode::kMalformed, "has a vertex that is not finite", where);
     }
     if (out.model.mesh.triangles.empty()) {
       return Fail(ErrorCode::kMalformed, "holds no triangles", where);

@@ -66,7 +66,7 @@ class Parts {
   std::vector<std::size_t> above_;
 };
 
-bool StandsInTheWay(const world::NamedObj& door, const HomePiece& piece, const Part& part) {
+bool BlocksPassage(const world::NamedObj& door, const HomePiece& piece, const Part& part) {
   world::ObjectModel model;
   model.mesh.vertices = door.model.mesh.vertices;
   for (const std::size_t t : part.triangles) {
@@ -164,7 +164,7 @@ class LeafNamer {
 void NameLeaves(world::NamedObj& door, HomePiece& piece, const std::string& opens) {
   if (door.model.mesh.triangles.empty()) return;
   std::vector<Part> parts = Parts(door.model.mesh).parts;
-  for (Part& part : parts) part.is_leaf = StandsInTheWay(door, piece, part);
+  for (Part& part : parts) part.is_leaf = BlocksPassage(door, piece, part);
   AddAttached(parts, piece);
   LeafNamer(door, piece).Name(parts, opens);
 }

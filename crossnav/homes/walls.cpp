@@ -60,14 +60,14 @@ void Mitre(const HomeWall& wall, bool at_end, const HomeWall& other, Outline& o)
                           (theirs.centre.back() - o.centre[end]).norm();
   const std::size_t n = theirs.centre.size();
   const std::size_t near = from_start ? 0 : n - 1, far = from_start ? 1 : n - 2;
-  const Vector2d their_way = theirs.centre[far] - theirs.centre[near];
+  const Vector2d their_direction = theirs.centre[far] - theirs.centre[near];
   // Left stays left along the joined walls.
   const bool same_side = at_end == from_start;
   const auto& on_left = same_side ? theirs.left : theirs.right;
   const auto& on_right = same_side ? theirs.right : theirs.left;
   const double limit = 2 * std::max(wall.thickness_m, other.thickness_m);
   const auto move = [&](Vector2d& corner, const Vector2d& on_other) {
-    const auto p = Meet(corner, along, on_other, their_way);
+    const auto p = Meet(corner, along, on_other, their_direction);
     if (p && (*p - corner).norm() <= limit) corner = *p;
   };
   move(o.left[end], on_left[near]);

@@ -91,7 +91,7 @@ Result<void> AppendProvider(const std::string& provider, Ort::SessionOptions& op
   } catch (const std::exception& error) {
     return Fail(ErrorCode::kUnsupported,
                 "\"" + provider + "\" cannot be loaded (" + Reason(error) +
-                    "); install what it needs, or set networks.provider = cpu",
+                    "); install its requirements, or set networks.provider = cpu",
                 "networks.provider");
   }
 }
@@ -236,10 +236,10 @@ Result<std::unique_ptr<Session>> OpenWithOnnxRuntime(const std::string& onnx,
                                                      const SessionOptions& options,
                                                      const std::string& where) {
   if (!HasApi())
-    return Fail(
-        ErrorCode::kUnsupported,
-        "ONNX Runtime " + OnnxRuntimeVersion() + " is older than what crossnav was built with",
-        where);
+    return Fail(ErrorCode::kUnsupported,
+                "ONNX Runtime " + OnnxRuntimeVersion() +
+                    " is older than the version that crossnav was built with",
+                where);
   try {
     auto own = OptionsOf(options);
     if (auto ok = AppendProvider(options.provider, own); !ok) return tl::unexpected(ok.error());

@@ -101,13 +101,13 @@ struct ClaimTracker {
 /// to `revived`.
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimTracker* book,
+                                      const VerifyConfig& config, ClaimTracker* tracker,
                                       std::vector<int>* revived);
 
 /// Notes from where each POI was claimed in this frame with the confidence that STOP asks for.
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimTracker* book);
+               const VerifyConfig& config, ClaimTracker* tracker);
 
 enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 

@@ -103,7 +103,7 @@ Result<BagContents> ReadBagContents(const std::vector<std::filesystem::path>& fi
     if (contents->is_complete || skip_damaged) continue;
     return Fail(ErrorCode::kMalformed,
                 "the file is cut off behind byte " + std::to_string(contents->good_bytes) +
-                    "; --skip-damaged goes on with what is there",
+                    "; --skip-damaged reads the intact part",
                 file.string());
   }
   bag.transforms.Sort();

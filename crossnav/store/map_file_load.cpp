@@ -121,7 +121,7 @@ Error DamageError(const std::string& file, const std::vector<std::string>& damag
   for (std::size_t i = 0; i < std::min(damaged.size(), kNamedBlocks); ++i)
     what += (i > 0 ? "; " : "") + damaged[i];
   if (damaged.size() > kNamedBlocks) what += "; ...";
-  what += ". The rest can be loaded by asking for what is intact (skip damaged)";
+  what += ". The intact blocks can be loaded (skip damaged)";
   return {ErrorCode::kMalformed, what, file};
 }
 

@@ -191,7 +191,7 @@ class Scanner {
     if (crc != 0 && crc != crc_) return Bad("the checksum of the summary does not match");
     if (size_ - next < kMcapMagic.size()) return std::move(contents_);
     if (size_ - next != kMcapMagic.size() || !EndsWithMagic())
-      return Bad("the last bytes are not those of an MCAP file");
+      return Bad("the closing bytes of an MCAP file are missing");
     contents_.is_complete = true;
     contents_.good_bytes = size_;
     return std::move(contents_);

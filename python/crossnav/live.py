@@ -195,7 +195,7 @@ class Client:
         self.close()
 
     def close(self) -> None:
-        """The agent stays as it is, for the next client."""
+        """The agent is unchanged, for the next client."""
         self._socket.close()
 
     def set_goal(self, goal: str) -> State:
@@ -307,4 +307,4 @@ class Client:
 
     def _lost(self, error: Exception) -> Error:
         self.close()
-        return Error(f"{error}; connect again, the agent goes on", str(self.address), "io")
+        return Error(f"{error}; connect again, the agent continues", str(self.address), "io")

@@ -89,7 +89,7 @@ nb::dict Timing(const StepResult& self) {
 }
 
 void BindResult(nb::module_& m) {
-  nb::class_<StepResult>(m, "StepResult", "What one step decided, and why.")
+  nb::class_<StepResult>(m, "StepResult", "Decision of one step, and its reasons.")
       .def_ro("action", &StepResult::action)
       .def_ro("all_explored", &StepResult::all_explored,
               "No candidate is left; `action` means nothing then.")

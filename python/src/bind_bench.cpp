@@ -194,7 +194,7 @@ void BindBench(nb::module_& m) {
   m.def("metrics_of_files", &MetricsOfFiles, "paths"_a,
         nb::sig("def metrics_of_files(paths: collections.abc.Sequence[str | os.PathLike[str]]) -> "
                 "dict[str, typing.Any]"),
-        "What `crossnav metrics --json` says of result files.");
+        "The output of `crossnav metrics --json` for result files.");
   m.def("report_of_runs", &ReportOfRuns, "paths"_a, "partial"_a = false,
         nb::sig("def report_of_runs(paths: collections.abc.Sequence[str | os.PathLike[str]], "
                 "partial: bool = False) -> dict[str, typing.Any]"),

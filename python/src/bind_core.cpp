@@ -110,7 +110,7 @@ void BindCamera(nb::module_& m) {
 }
 
 void BindObservation(nb::module_& m) {
-  nb::class_<Observation>(m, "Observation", "What the agent gets each step.")
+  nb::class_<Observation>(m, "Observation", "Input of the agent in each step.")
       .def(
           "__init__",
           [](Observation* self, const DepthIn& depth_m, const CameraIntrinsics& camera,

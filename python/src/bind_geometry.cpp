@@ -150,7 +150,7 @@ void BindMap(nb::module_& m) {
           [](const MapHandle& self, const Point& a, const Point& b) {
             return self.map->HasLineOfSight(ToPoint(a, "a_world"), ToPoint(b, "b_world"));
           },
-          "a_world"_a, "b_world"_a, "No surface voxel lies strictly between the two points.")
+          "a_world"_a, "b_world"_a, "No surface voxel is strictly between the two points.")
       .def("nearest_free", &NearestFree, "p_world"_a, "radius_m"_a,
            "Centre of the nearest voxel that one can stand in, or None.")
       .def_prop_ro(
@@ -170,7 +170,7 @@ void BindMap(nb::module_& m) {
 
 void BindGeometry(nb::module_& m) {
   nb::enum_<VoxelState>(m, "VoxelState", nb::is_arithmetic(),
-                        "What a voxel is; UNKNOWN is the absence of a state.")
+                        "State of a voxel; UNKNOWN is the absence of a state.")
       .value("UNKNOWN", VoxelState::kUnknown)
       .value("OCCUPIED", VoxelState::kOccupied)
       .value("TRAVERSABLE", VoxelState::kTraversable)

@@ -248,7 +248,8 @@ void BindFinders(nb::module_& m) {
           },
           nb::sig("def segment(self, observation: Observation, box: tuple[int, int, int, int]) -> "
                   "tuple[numpy.typing.NDArray[typing.Any], float]"),
-          "Mask (H x W, 0 or not) of what the box (u0, v0, u1, v1) holds, and its quality [0, 1].");
+          "Mask (H x W, 0 or not) of the object in the box (u0, v0, u1, v1), and its quality [0, "
+          "1].");
   nb::class_<StairSegmenter, PythonStairs>(m, "StairSegmenter", "Finds stair surfaces.")
       .def(nb::init<>())
       .def(

@@ -89,7 +89,7 @@ TEST_F(EvalCli, AnEpisodeThatStartsOffTheNavmeshIsInvalidAndNoFigureCountsIt) {
   EXPECT_EQ(document["invalid"], 1);
   EXPECT_EQ(document["failed"], Json::object());
   EXPECT_NE(outcome.err.find("failed (invalid)"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("the start lies off the navmesh"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the start is off the navmesh"), std::string::npos) << outcome.err;
   const Outcome text = Run("metrics run/results.jsonl");
   EXPECT_NE(text.out.find("invalid: 1 episodes"), std::string::npos) << text.out;
   EXPECT_EQ(Run("report run --out report").exit_code, 0);

@@ -18,13 +18,13 @@ class Recorder : public RunObserver {
  public:
   Result<void> OnStep(const StepView& step) override {
     text_ += trace::ToJson(step.trace) + "\n";
-    if (!way_.empty()) length_m_ += (step.agent.p_world - way_.back()).norm();
-    way_.push_back(step.agent.p_world);
+    if (!path_.empty()) length_m_ += (step.agent.p_world - path_.back()).norm();
+    path_.push_back(step.agent.p_world);
     goals_.push_back(step.trace.goal);
     return {};
   }
   std::string text_;
-  std::vector<Vector3d> way_;
+  std::vector<Vector3d> path_;
   std::vector<std::string> goals_;
   double length_m_ = 0;
 };

@@ -155,7 +155,7 @@ Result<Comparison> CompareRuns(const ReportRun& a, const ReportRun& b,
     return Fail(ErrorCode::kMismatch,
                 "cannot be compared with " + a.name + ", they differ in " +
                     result.headers.unfair.front() +
-                    "; compare runs of the same task, or go on with --force",
+                    "; compare runs of the same task, or use --force",
                 b.name);
   }
   std::vector<EpisodeRecord> in_a, in_b;

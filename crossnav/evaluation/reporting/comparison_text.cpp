@@ -74,8 +74,8 @@ std::string Link(const Ending& ending, const std::filesystem::path& folder) {
 std::string ComparisonMarkdown(const Comparison& c, const std::filesystem::path& folder) {
   std::string text = fmt::format("\n## {} against {}, paired\n\n", c.name_b, c.name_a);
   if (!c.headers.unfair.empty()) {
-    text += "**Forced: the runs differ in what they should share.** " + Joined(c.headers.unfair) +
-            ".\n\n";
+    text += "**Forced: the runs differ in settings that they should share.** " +
+            Joined(c.headers.unfair) + ".\n\n";
   }
   if (!c.headers.compared.empty()) text += "Compared: " + Joined(c.headers.compared) + ".\n\n";
   text += fmt::format("{} episodes in both; points of per cent; 95 % bootstrap, {}.\n\n",

@@ -309,7 +309,7 @@ Result<void> CheckPlayable(const SceneContext& context, const Episode& episode) 
   }
   const auto start = context.navmesh().Snap(p);
   if (!start) {
-    return Fail(ErrorCode::kMismatch, "the start lies off the navmesh of " + context.scene().id,
+    return Fail(ErrorCode::kMismatch, "the start is off the navmesh of " + context.scene().id,
                 episode.where + ": start_position");
   }
   for (const std::string& goal : episode.goals) {

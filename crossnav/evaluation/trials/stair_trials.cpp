@@ -31,9 +31,9 @@ bool Sees(const SceneContext& context, const AgentPose& start, const Vector3d& p
   const double u = camera.fx * p_camera.x() / p_camera.z() + camera.cx;
   const double v = camera.fy * p_camera.y() / p_camera.z() + camera.cy;
   if (u < 0 || v < 0 || u > camera.width_px - 1 || v > camera.height_px - 1) return false;
-  const Vector3d way = p_world - T_world_camera.translation();
-  return !context.caster().Cast(T_world_camera.translation(), way.normalized(),
-                                way.norm() - kBefore_m);
+  const Vector3d ray = p_world - T_world_camera.translation();
+  return !context.caster().Cast(T_world_camera.translation(), ray.normalized(),
+                                ray.norm() - kBefore_m);
 }
 
 Result<AgentPose> DrawStart(const SceneContext& context, const View& view, std::uint64_t seed,
@@ -45,10 +45,10 @@ Result<AgentPose> DrawStart(const SceneContext& context, const View& view, std::
   for (int i = 0; i < kTries; ++i) {
     const auto p = context.navmesh().RandomPoint(rng);
     if (!p || std::abs(p->z() - view.floor_m) > 0.1) continue;
-    const Vector3d way = view.p_seen_world - *p;
-    const double distance_m = way.head<2>().norm();
+    const Vector3d to_seen = view.p_seen_world - *p;
+    const double distance_m = to_seen.head<2>().norm();
     if (distance_m < kNearest_m || distance_m > kFarthest_m) continue;
-    AgentPose start{*p, std::atan2(way.y(), way.x()), 0};
+    AgentPose start{*p, std::atan2(to_seen.y(), to_seen.x()), 0};
     start.yaw_rad = WrapAngle(start.yaw_rad + DegToRad(rng.Uniform(-kAside_deg, kAside_deg)));
     if (Sees(context, start, view.p_seen_world, config.agent.sensor)) return start;
   }

@@ -36,7 +36,7 @@ class Report:
                 "flips": self.flips}
 
     def figure(self, run: str, group: str, metric: str) -> dict[str, Any]:
-        """value, low, high, paper and episodes of a figure; NaN where there is none."""
+        """value, low, high, paper and episodes of a figure; NaN if there is none."""
         rows = self.figures
         found = rows[(rows.run == run) & (rows.group == group) & (rows.metric == metric)]
         empty = {"value": float("nan"), "low": float("nan"), "high": float("nan"),

@@ -76,7 +76,7 @@ filter.addEventListener("input", () => {
 COLUMNS = (("run", "run", ""), ("episode", "episode", ""), ("replay", "replay", ""),
            ("floor_change", "floor change", ""),
            ("goals", "goals", ""), ("outcome", "outcome", ""), ("completed", "goals found", "d"),
-           ("spl", "SPL [%]", "%"), ("actions", "actions", "d"), ("length_m", "way [m]", ".1f"),
+           ("spl", "SPL [%]", "%"), ("actions", "actions", "d"), ("length_m", "path [m]", ".1f"),
            ("floor_changes", "floors changed", "d"), ("cause", "cause", ""))
 
 

@@ -240,7 +240,7 @@ def distance(report: Report) -> Plot:
               for low, high in zip(DISTANCES_M, DISTANCES_M[1:], strict=False)]
     axes.set_xticks(range(len(labels)), [f"{label}\nn = {' / '.join(n)}"
                                          for label, n in zip(labels, counts, strict=True)])
-    axes.set_xlabel("shortest way to the goal when it was set [m]; n: goals searched")
+    axes.set_xlabel("shortest path to the goal when it was set [m]; n: goals searched")
     axes.set_ylabel("SPL of a goal [%]")
     axes.set_ylim(-3, 105)
     _legend(figure, axes)
