@@ -55,9 +55,9 @@ class Agent {
                        std::vector<geometry::StairFlight> flights = {},
                        const std::vector<geometry::SeenStair>& seen_stairs = {});
 
-  /// One step. Colour with a grid of its own is brought onto that of depth first; where the
-  /// observation says how the camera is mounted, that goes before sensor.camera_height_m. Errors: a
-  /// malformed observation (sizes, NaN pose) or a failing network.
+  /// One step. Colour with its own grid is first registered to the grid of depth; a mounting in the
+  /// observation takes precedence over sensor.camera_height_m. Errors: a malformed observation
+  /// (sizes, NaN pose) or a failing network.
   Result<StepResult> Step(const Observation& obs);
 
   const Config& config() const;

@@ -35,8 +35,8 @@ class Hooks {
   virtual std::vector<double> ScoreExploration(const Situation& now,
                                                std::span<const ExplorationOption> options);
 
-  /// kAgreed says STOP now, kWeak looks from elsewhere, kRefuted gives the object up. Asked for
-  /// each stable object in view.
+  /// Called for each stable object in view. kAgreed stops now, kWeak looks from elsewhere, kRefuted
+  /// gives the object up.
   virtual policy::ClaimVerdict JudgeClaim(const Situation& now, const Claim& claim);
 };
 

@@ -24,8 +24,8 @@ void NoteBump(StepState& now) {
   const AgentPose before = *std::exchange(now.world.full.before_forward, std::nullopt);
   const Vector3d moved = now.agent.p_world - before.p_world;
   if (moved.head<2>().norm() >= now.config.policy.motion.bump_m) return;
-  // The missing part of the step points at the obstacle: a body that slides along a wall has the
-  // wall beside itself, and free ground ahead.
+  // The missing part of the step points at the obstacle: for a body that slides along a wall, the
+  // wall is beside it, and the ground ahead is free.
   Vector3d missing =
       now.config.action.forward_m * Vector3d(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0);
   missing -= Vector3d(moved.x(), moved.y(), 0);

@@ -64,7 +64,7 @@ struct Node {
   int depth = 0;
 };
 
-/// Whether ground goes on within a tread's depth ahead of a place over which it was not seen.
+/// Whether ground continues within a tread's depth ahead of a place over unseen ground.
 bool GoesOn(const GroundMap& ground, const Eigen::Vector2d& p, int z, double yaw_rad) {
   for (int k = 1; k <= 3; ++k) {
     const Eigen::Vector2d q =
