@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds wheels that bring the distribution's libraries with them: manylinux wheels for this machine's
-# glibc and newer ones, in build/portable.
+# Builds wheels that include the distribution's libraries: manylinux wheels for this machine's glibc
+# and newer, in build/portable.
+#
 #   scripts/portable_wheels.sh BUILD_DIR [PYTHON...]     default: python3
-# One wheel for each interpreter older than 3.12; one wheel serves 3.12 and all later ones. BUILD_DIR must
+#
+# One wheel for each interpreter older than 3.12; one wheel serves 3.12 and later. BUILD_DIR must
 # have the targets `rooms` and `crossnav`.
 set -euo pipefail
 
@@ -13,7 +15,7 @@ shift
 out="$root/build/portable"
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
 
-# OpenVINO's TBB serves Embree too, so that a process with both has one version of it.
+# OpenVINO's TBB also serves Embree, so that a process with both has one version of it.
 openvino=$(sed -n 's/^OpenVinoWheel_LIBS:INTERNAL=//p' "$prebuilt/CMakeCache.txt")
 export LD_LIBRARY_PATH="$openvino${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 

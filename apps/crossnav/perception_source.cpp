@@ -14,7 +14,7 @@ fs::path NetworksDir(const evaluation::RunConfig& config) {
   if (!config.networks.dir.empty()) return config.networks.dir;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  // In a build tree (build/PRESET/apps/crossnav), installed (bin), or where one is.
+  // In a build tree (build/PRESET/apps/crossnav), in an installation (bin), or beside it.
   const std::array<fs::path, 3> places = {program / "../../../../networks",
                                           program / "../share/crossnav/networks", "networks"};
   for (const fs::path& place : places)

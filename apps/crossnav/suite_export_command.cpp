@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `crossnav suite export SUITE --to habitat DIR`: a suite as Habitat-Sim and Habitat-Lab load it.
+// `crossnav suite export SUITE --to habitat DIR`: a suite in the formats of Habitat-Sim and
+// Habitat-Lab.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One scene: its mesh as it is, its semantics with linear colours, and its navmesh.
+/// A scene: its unchanged mesh, its semantics with linear colours, and its navmesh.
 Result<void> ExportScene(const fs::path& from, const fs::path& to,
                          const sim::NavMeshSettings& settings) {
   const auto scene = sim::LoadScene(from);

@@ -21,7 +21,7 @@ constexpr int kMostSide = 4096;                                 // chosen: of an
 constexpr int kMostClasses = 100000;                            // chosen: LVIS has 1203
 constexpr int kStride = 4;  // of the maps of the family `crossnav`
 
-/// One table of the card: typed access that remembers the first problem and the keys it knows.
+/// A table of the card: typed access that keeps the first problem and the known keys.
 class Section {
  public:
   Section(const toml::table* table, std::string name, std::string where)
@@ -132,7 +132,7 @@ class Section {
       target.push_back(*value);
     }
   }
-  /// The table of this name; an empty one where there is none.
+  /// The table of this name; empty if absent.
   Section Inner(const char* key) {
     const toml::node* node = Find(key);
     if (node != nullptr && !node->is_table()) Complain(key, "must be a table");
@@ -205,12 +205,12 @@ Result<void> ReadOutput(Section section, ModelCard::Output& output, Ports& ports
   return section.Finish();
 }
 
-// chosen: of a chosen score, what counts as weak, and what is told at all.
+// chosen: weak and minimum scores, as shares of a chosen score.
 constexpr double kWeakShare = 0.75, kScoreShare = 0.5;
 
 Result<void> ReadThresholds(Section section, std::size_t labels, ModelCard::Thresholds& t) {
   section.Numbers("heat", t.accept, 0, 1, labels);
-  if (!t.accept.empty()) {  // of our networks: the scores that were chosen, and what follows
+  if (!t.accept.empty()) {  // of our networks: the chosen scores, and thresholds derived from them
     for (const double score : t.accept) t.weak.push_back(kWeakShare * score);
     t.score = kScoreShare * *std::min_element(t.accept.begin(), t.accept.end());
   }
@@ -273,7 +273,7 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
   top.Text("licence", card.licence);
   top.Text("source", card.source);
   top.Texts("labels", card.labels);
-  top.Texts("goals", card.labels);  // the same, in cards of our networks
+  top.Texts("goals", card.labels);  // as labels, in cards of our networks
   for (const char* for_people : {"name", "limits", "data", "figures"}) top.Skip(for_people);
   std::string decoder;
   top.Text("decoder", decoder);
@@ -351,7 +351,7 @@ Result<std::string> ReadNetworkFile(const ModelCard& card) {
 }
 
 double ConfidenceOf(const ModelCard::Thresholds& t, int label, double score) {
-  constexpr double kWeak = 0.60, kAccept = 0.70;  // the policy's, secondary and first
+  constexpr double kWeak = 0.60, kAccept = 0.70;  // the policy's secondary and first confidence
   const auto i = static_cast<std::size_t>(label);
   if (i >= t.accept.size()) return score;
   const double weak = t.weak[i], accept = t.accept[i];

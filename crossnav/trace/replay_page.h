@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes the self-contained page of a replay: one HTML file with everything in it, which opens from
-// the disk without a network. Nothing but the replay is read.
+// Self-contained page of a replay: one HTML file that opens from disk without a network. The replay
+// is the only input.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@ namespace crossnav::trace {
 /// The page's HTML. `other`: a second run of the same episode, to compare with.
 std::string ReplayPage(const Replay& replay, const Replay* other = nullptr);
 
-/// Reads the replay at `mcap_path` and writes the page to `html_path` (whole, or not at all).
+/// Reads the replay at `mcap_path` and writes the page to `html_path` (whole or not at all).
 Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
                               const std::filesystem::path& html_path);
 
-/// The same of two replays of one episode; replays of two episodes are an error.
+/// Page of two replays of one episode; replays of different episodes are an error.
 Result<void> ExportComparison(const std::filesystem::path& mcap_path,
                               const std::filesystem::path& other_path,
                               const std::filesystem::path& html_path);

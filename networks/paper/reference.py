@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Small random networks of the paper's architectures as files for crossnav's tests, and what PyTorch says of a made-up picture.
+"""Small random networks of the paper's architectures as files for crossnav's tests, and PyTorch's output for a synthetic picture.
 
     reference.py OUT [NETWORK ...]
 
@@ -22,9 +22,9 @@ import export
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 MERGES = pathlib.Path(__file__).resolve().parents[2] / "tests/inference/data/tokens/merges.txt"
-OTHER = "floor lamp"  # a goal that is no label
+OTHER = "floor lamp"  # a goal without a label
 TEXTS = ["chair", "a photo of a bed.", "tv monitor", "Küchentisch", "椅子"]
-BEST = 3  # boxes of a label
+BEST = 3  # boxes per label
 
 
 def picture(size):
@@ -176,7 +176,7 @@ def main():
 
     args.out.mkdir(parents=True, exist_ok=True)
     if args.full:
-        shutil.copy(MERGES, args.out)  # the card of yolo_world_open names it
+        shutil.copy(MERGES, args.out)  # named by the card of yolo_world_open
     lines = {}
     golden_file = args.out / "golden.tsv"
     if golden_file.exists():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the README shows: its Python lines, and the command that makes its moving picture."""
+"""Content of the README: its Python lines, and the command that makes its moving picture."""
 import os
 import pathlib
 import re

@@ -21,7 +21,7 @@ class NetworksCli : public Cli {
       " --set networks.stairs=small --set networks.encoder=small";
 };
 
-TEST_F(NetworksCli, ListAndCheckSayWhatIsThere) {
+TEST_F(NetworksCli, ListAndCheckReportTheNetworks) {
   const Outcome list = Run("networks list --json" + use_);
   ASSERT_EQ(list.exit_code, 0) << list.err;
   const Json json = Json::parse(list.out);

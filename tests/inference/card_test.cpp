@@ -80,7 +80,7 @@ minutes = 6.1
   EXPECT_DOUBLE_EQ(card->thresholds.score, 0.1);
 }
 
-TEST_F(Cards, WhatIsWrongIsNamedByKey) {
+TEST_F(Cards, ErrorsNameTheKey) {
   const std::string good = kCard;
   EXPECT_EQ(ErrorOf(good), "no error");
   EXPECT_EQ(ErrorOf("colour = 1\n" + good), "key \"colour\" is no key of a card");
@@ -129,7 +129,7 @@ TEST_F(Cards, ATruncatedCardIsAnErrorOrACard) {
   }
 }
 
-TEST_F(Cards, TheFileMustBeTheOneThatTheCardDescribes) {
+TEST_F(Cards, TheFileMustMatchTheCardsHash) {
   const std::string hash = Sha256("network");
   WriteText(path(), "sha256 = \"" + hash + "\"\n" + kCard);
   const auto card = ReadModelCard(path());

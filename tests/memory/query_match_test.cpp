@@ -24,7 +24,7 @@ std::vector<float> Unit(Rng& rng) {
   return v;
 }
 
-/// Words that share `common`, and what shows one of them.
+/// Words with a common part, and cells that show one of them.
 struct Words {
   SemanticMemory memory;
   Rng rng{3};
@@ -73,7 +73,7 @@ TEST(QueryMatch, ScaleIsTheSameHoweverMuchAllWordsHaveInCommon) {
   }
 }
 
-TEST(QueryMatch, WhatFillsMostOfTheMapIsPresentThoughNoPlaceStandsOut) {
+TEST(QueryMatch, SurfacesThatFillTheMapArePresentWithoutAnOutstandingPlace) {
   Words w(0.5);
   const auto wall = w.Word();
   w.Show(wall, {0, 0, 0}, 12);

@@ -20,7 +20,7 @@ T Take(const std::string& bytes, std::size_t& at) {
   return value;
 }
 
-TEST(HabitatNavMesh, IsReadAsHabitatReadsItAndLiesInItsFrame) {
+TEST(HabitatNavMesh, IsReadAsByHabitatAndInItsFrame) {
   Scene scene;
   // A floor of 12 m by 4 m, so that there are two tiles; x from 0 to 12, y from 0 to 4.
   scene.mesh.vertices = {{0, 0, 1}, {12, 0, 1}, {12, 4, 1}, {0, 4, 1}};

@@ -50,7 +50,7 @@ TEST(SceneWriter, SemanticColoursAsLightAreTheSameNamesToTheReader) {
   EXPECT_EQ(after->mesh_hash, before->mesh_hash);
 }
 
-TEST(SceneWriter, WhatIsWrittenIsWhatTheReaderGives) {
+TEST(SceneWriter, AWrittenSceneIsReadUnchanged) {
   const test::TempFolder dir;
   const sim::Scene scene = TwoBoxes();
   const auto folder = WriteScene(scene, dir.path());

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kMaxNodes = 65535;       // Detour's own limit
 constexpr double kStopShort_m = 0.01;  // chosen: stay off the border, where Detour's ray gets stuck
-constexpr double kMaxShort_m = 0.05;   // ... but not far short of it on a grazing way
+constexpr double kMaxShort_m = 0.05;   // ... but not far short of it along a grazing direction
 constexpr float kOffBorder_m = 0.01F;
 constexpr double kSnapXy_m = 0.5, kSnapZ_m = 0.5;
 
@@ -77,8 +77,8 @@ struct NavMesh::Impl {
     return found;
   }
 
-  /// Detour's ray is stuck where it starts on a border: such a walk begins a centimetre inside, on
-  /// the way to the middle of the (convex) polygon.
+  /// Detour's ray is stuck if it starts on a border: it then begins a centimetre inside, towards
+  /// the middle of the (convex) polygon.
   void StepOffBorder(OnMesh& start) const {
     float distance = 0;
     RecastPoint wall{}, normal{};
@@ -239,7 +239,7 @@ Vector3d NavMesh::WalkStraight(const Vector3d& start_world, const Vector3d& end_
   if (dtStatusFailed(status) || hit.pathCount == 0) return WorldFromRecast(start->p.data());
   double share = 1;
   if (hit.t < 1) {
-    // Short by the clearance to the wall, which is longer along an oblique way.
+    // Short by the clearance to the wall, which is longer along an oblique direction.
     const double towards_wall = std::abs(hit.hitNormal[0] * (end[0] - start->p[0]) +
                                          hit.hitNormal[2] * (end[2] - start->p[2])) /
                                 wanted;

@@ -27,7 +27,7 @@ struct NavMeshSettings {
   double max_slope_deg = 60;
   double cell_m = 0.03;
   double cell_height_m = 0.05;
-  double min_island_m2 = 0.5;  // chosen: drops table tops nobody can reach
+  double min_island_m2 = 0.5;  // chosen: drops unreachable table tops
 };
 
 template <class V>
@@ -68,7 +68,7 @@ struct WalkGoals {
   struct Place {
     std::uint64_t polygon = 0;
     Vector3d p_world;       ///< on the surface
-    std::size_t index = 0;  ///< of the goal; those off the navmesh have no place
+    std::size_t index = 0;  ///< of the goal; goals off the navmesh have no place
   };
   std::vector<Place> places;
 };

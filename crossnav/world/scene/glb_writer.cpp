@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
-constexpr std::size_t kMostShort = 65535;  // vertices; glTF keeps the last index for itself
+constexpr std::size_t kMostShort = 65535;  // vertices; glTF reserves the last index
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kUnsignedByte = 5121;
 
@@ -53,7 +53,7 @@ struct Buffers {
     return static_cast<int>(accessors.size()) - 1;
   }
 
-  /// Two bytes each where `vertices` allows it.
+  /// Two bytes each if `vertices` allows it.
   int AddIndices(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertices) {
     int a = 0;
     if (vertices <= kMostShort) {
@@ -209,7 +209,7 @@ void AddImages(const sim::Scene& scene, Json& root, Buffers& buffers) {
   }
 }
 
-/// Part of the semantic mesh, small enough for short indices.
+/// Part of the semantic mesh that fits short indices.
 struct SemanticPart {
   std::vector<Vector3f> points_file;
   std::vector<std::array<std::uint8_t, 4>> colours;
@@ -264,7 +264,7 @@ std::string EncodeSemanticGlb(const sim::Scene& scene, SemanticColours colours) 
   Buffers buffers;
   Json primitives = Json::array();
   SemanticPart part;
-  // A vertex is repeated where triangles of another instance or another primitive use it.
+  // Repeats a vertex used by triangles of another instance or another primitive.
   std::vector<std::uint32_t> new_index(mesh.vertices.size(), kNone);
   std::vector<std::int32_t> instance_of(mesh.vertices.size(), -1);
   const auto flush = [&] {

@@ -12,14 +12,14 @@
 
 namespace crossnav::world {
 
-/// One primitive per material, textures embedded as PNG, vertex colours where the scene has them.
+/// One primitive per material, textures embedded as PNG, vertex colours if the scene has them.
 std::string EncodeRenderGlb(const sim::Scene& scene);
 
-/// How vertex colours name instances: as bytes, which renderers take for linear light, or as 16-bit
-/// linear light, which every renderer turns into the bytes of the semantic text.
+/// Encoding of instances in vertex colours: as bytes, which renderers take for linear light, or as
+/// 16-bit linear light, which every renderer converts to the bytes of the semantic text.
 enum class SemanticColours { kBytes, kLinear };
 
-/// One unlit primitive whose vertex colours name the instance (SemanticColour of its id).
+/// One unlit primitive with instances as vertex colours (SemanticColour of the id).
 std::string EncodeSemanticGlb(const sim::Scene& scene,
                               SemanticColours colours = SemanticColours::kBytes);
 
