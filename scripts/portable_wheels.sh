@@ -29,7 +29,8 @@ build_one() {
   pip install -q --no-input -r "$root/scripts/wheel.txt" \
     $(grep -E '^(nanobind|scikit-build-core|packaging|pathspec)==' "$root/python/requirements.txt") numpy
   pip wheel -q "$root" --no-build-isolation --no-deps --wheel-dir "$raw" \
-    -C build-dir="$root/build/portable-$tag" -C cmake.define.CROSSNAV_PREBUILT="$prebuilt"
+    --config-settings=build-dir="$root/build/portable-$tag" \
+    --config-settings=cmake.define.CROSSNAV_PREBUILT="$prebuilt"
   PATH="$venv/bin:$PATH" "$venv/bin/auditwheel" repair --strip --exclude 'libopenvino.so.*' \
     --wheel-dir "$out" "$raw"/crossnav-*.whl
 }
