@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# `cpack` in the build folder (`make deb`): the program as a Debian package with the libraries that it
+# `cpack` in the build folder (`make packages`): the program as a Debian package with the libraries that it
 # needs, for this distribution and newer ones (docs/install.md).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME crossnav)

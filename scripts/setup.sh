@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs what the build and the tests need, from the distribution's own packages.
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
-#                                    slurm, hm3d, ifc
+#                                    slurm, hm3d, ifc, roots
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
 # it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
@@ -29,6 +29,7 @@ declare -A PACKAGES=(
   [slurm]="slurm-wlm munge"
   [hm3d]="g++ libzstd-dev"
   [ifc]="python3-venv"
+  [roots]="debootstrap"
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }
