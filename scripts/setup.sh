@@ -3,20 +3,17 @@
 # Installs the dependencies of the build and the tests, from the distribution's own packages.
 #
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
-#                                    slurm, hm3d, ifc
-#
-# The build group includes OpenVINO, the inference library, which no distribution packages: its
-# Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. If it
-# is unavailable, the build continues without networks. ONNX Runtime, an alternative, is installed
-# if the distribution has it (Debian 13).
-# The lint group includes clang-tidy, pinned in scripts/clang-tidy.txt, beside OpenVINO.
-# The hm3d group is Basis Universal, the format of HM3D's textures: compiled from the sources in a
-# crate that scripts/basis/Cargo.lock pins, beside OpenVINO.
-# The ifc group is IfcOpenShell, pinned in scripts/ifcopenshell.txt, in a Python environment in the
-# same folder, where the program looks for it.
-#
-# Tested on Debian 12 and 13; package names are valid on Ubuntu 24.04, too. Changes nothing if
-# everything is installed. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
+#                                    slurm, hm3d, ifc, roots
+# The build group comes with OpenVINO, the inference library, as no distribution packages it: its
+# Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
+# it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
+# installed where the distribution has it (Debian 13). The lint group comes with clang-tidy, pinned
+# in scripts/clang-tidy.txt, beside OpenVINO. The hm3d group is Basis Universal, whose textures HM3D
+# ships: compiled from the sources in a crate that scripts/basis/Cargo.lock pins, beside OpenVINO too.
+# The ifc group is IfcOpenShell, pinned in scripts/ifcopenshell.txt, in a Python environment there, where
+# the program looks for it.
+# Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
+# nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
 
 declare -A PACKAGES=(
@@ -33,6 +30,7 @@ declare -A PACKAGES=(
   [slurm]="slurm-wlm munge"
   [hm3d]="g++ libzstd-dev"
   [ifc]="python3-venv"
+  [roots]="debootstrap"
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }
