@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# `cpack` in the build folder (`make deb`): the program as a Debian package with its libraries, for
-# this distribution and newer distributions (docs/install.md).
+# `cpack` in the build folder (`make packages`): the program as a Debian package with the libraries that it
+# needs, for this distribution and newer ones (docs/install.md).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME crossnav)
 set(CPACK_PACKAGE_CONTACT "the crossnav authors")

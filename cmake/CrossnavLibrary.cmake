@@ -28,7 +28,7 @@ function(crossnav_library room)
 endfunction()
 
 # crossnav_test(<room> SOURCES ... [DEPS <rooms>] [LIBS <targets>] [TIMEOUT <s>]): one program
-# test_<room>.
+# test_<room>; TIMEOUT is that of a suite.
 function(crossnav_test room)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPS;LIBS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -48,6 +48,21 @@ function(crossnav_test room)
     CROSSNAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
     CROSSNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   crossnav_warnings(test_${room})
-  gtest_discover_tests(test_${room} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  crossnav_suites(test_${room} ${ARG_TIMEOUT})
+endfunction()
+
+# crossnav_suites(<target> <seconds>): the suites of a gtest program as tests of ctest.
+function(crossnav_suites target timeout)
+  set(script "${PROJECT_SOURCE_DIR}/cmake/CrossnavSuites.cmake")
+  set(suites "${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake")
+  set(include "${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake")
+  add_custom_command(TARGET ${target} POST_BUILD
+    COMMAND "${CMAKE_COMMAND}" "-DPROGRAM=$<TARGET_FILE:${target}>" -DTIMEOUT=${timeout} "-DOUT=${suites}"
+            -P "${script}"
+    BYPRODUCTS "${suites}"
+    VERBATIM)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${script}")
+  file(WRITE "${include}" "if(EXISTS [=[${suites}]=])\n  include([=[${suites}]=])\nelse()\n"
+    "  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${include}")
 endfunction()

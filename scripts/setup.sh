@@ -3,27 +3,25 @@
 # Installs the dependencies of the build and the tests, from the distribution's own packages.
 #
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
-#                                    slurm, hm3d, ifc
-#
-# The build group includes OpenVINO, the inference library, which no distribution packages: its
-# Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. If it
-# is unavailable, the build continues without networks. ONNX Runtime, an alternative, is installed
-# if the distribution has it (Debian 13).
-# The lint group includes clang-tidy, pinned in scripts/clang-tidy.txt, beside OpenVINO.
-# The hm3d group is Basis Universal, the format of HM3D's textures: compiled from the sources in a
-# crate that scripts/basis/Cargo.lock pins, beside OpenVINO.
-# The ifc group is IfcOpenShell, pinned in scripts/ifcopenshell.txt, in a Python environment in the
-# same folder, where the program looks for it.
-#
-# Tested on Debian 12 and 13; package names are valid on Ubuntu 24.04, too. Changes nothing if
-# everything is installed. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
+#                                    slurm, hm3d, ifc, viewer
+# The build group comes with OpenVINO, the inference library, as no distribution packages it: its
+# Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
+# it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
+# installed where the distribution has it (Debian 13). The lint group comes with clang-tidy, pinned
+# in scripts/clang-tidy.txt, beside OpenVINO. The hm3d group is Basis Universal, whose textures HM3D
+# ships: compiled from the sources in a crate that scripts/basis/Cargo.lock pins, beside OpenVINO too.
+# The ifc group is IfcOpenShell, pinned in scripts/ifcopenshell.txt, in a Python environment there, where
+# the program looks for it. The viewer group is Chromium and Node.js, with the packages that
+# viewer/package-lock.json pins: for the tests of the replay page, and for `make viewer`.
+# Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
+# nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
 
 declare -A PACKAGES=(
   [build]="g++ cmake ninja-build ccache python3-dev python3-venv \
     libeigen3-dev libexpected-dev libfmt-dev libembree-dev libtbb-dev libtinygltf-dev \
     librecast-dev nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
-    zlib1g-dev libzip-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
+    zlib1g-dev libzip-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev libevent-dev \
     protobuf-compiler libmeshoptimizer-dev libpugixml-dev libgtest-dev"
   [homes]="libassimp-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
@@ -33,6 +31,7 @@ declare -A PACKAGES=(
   [slurm]="slurm-wlm munge"
   [hm3d]="g++ libzstd-dev"
   [ifc]="python3-venv"
+  [viewer]="chromium"
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }
@@ -203,6 +202,19 @@ install_ifcopenshell() {
   cp "$pin" "$home/complete"
 }
 
+# three.js, the bundler and the driver of the browser, where the tests look.
+install_viewer() {
+  local viewer
+  viewer="$(cd "$(dirname "${BASH_SOURCE[0]}")/../viewer" && pwd)"
+  cmp -s "$viewer/package-lock.json" "$viewer/node_modules/installed" && return 0
+  say "fetching the viewer's packages into $viewer/node_modules"
+  (cd "$viewer" && npm ci --no-audit --no-fund </dev/null >&2) || {
+    say "the viewer's packages cannot be had; see above. Only tests of the page and make viewer need them"
+    exit 1
+  }
+  cp "$viewer/package-lock.json" "$viewer/node_modules/installed"
+}
+
 main() {
   [[ ${CROSSNAV_SKIP_SETUP:-} == 1 ]] && return 0
   local group
@@ -216,6 +228,7 @@ main() {
     wanted+=("${list[@]}")
   done
   if [[ " $* " == *" hm3d "* ]] && ! command -v cargo >/dev/null; then wanted+=(cargo); fi
+  if [[ " $* " == *" viewer "* ]] && ! command -v npm >/dev/null; then wanted+=(nodejs npm); fi
   check_system
   mapfile -t missing < <(missing_of "${wanted[@]}")
   [[ ${#missing[@]} -eq 0 ]] || install_packages
@@ -226,6 +239,7 @@ main() {
   [[ " $* " != *" lint "* ]] || install_clang_tidy
   [[ " $* " != *" hm3d "* ]] || install_basis
   [[ " $* " != *" ifc "* ]] || install_ifcopenshell
+  [[ " $* " != *" viewer "* ]] || install_viewer
   return 0
 }
 

@@ -137,6 +137,12 @@ struct ChooseOptions {
 Result<void> SceneChoose(const ChooseOptions& options, const CommonOptions& common,
                          Console& console);
 
+/// --watch and --watch-port; a port alone asks for it, too.
+struct WatchOptions {
+  bool is_on = false;
+  int port = -1;  ///< 0 = any that is free
+};
+
 struct RunOptions {
   std::string scenes, episodes, episode;
   std::string variant = "full";
@@ -145,6 +151,7 @@ struct RunOptions {
   std::string save_map;  ///< map file to save the memory to; empty = none
   std::string memory;    ///< map file to start from; empty = none
   std::string success, budget_scope, perception;
+  WatchOptions watch;
 };
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);
 
@@ -152,6 +159,7 @@ struct DemoOptions {
   int number = 1;  ///< 1 climbs, 2 descends
   std::string out = "out/demo";
   std::string perception;  ///< oracle or networks; empty = as configured
+  WatchOptions watch;
 };
 Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console);
 
@@ -259,12 +267,15 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
 struct NetworksOptions {
   std::vector<std::string> cards;  ///< to check; empty = all
   std::string image, depth, text, out;
-  std::string network;  ///< a card that runs alone; empty = the networks of the settings
+  std::string network;  ///< a card that answers alone; empty = those of the settings
+  std::string scenes;   ///< development houses
 };
 Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& common,
                           Console& console);
 Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& common,
                            Console& console);
+Result<void> NetworksCalibrate(const NetworksOptions& options, const CommonOptions& common,
+                               Console& console);
 Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& common,
                           Console& console);
 

@@ -175,11 +175,16 @@ Json FlightsJson(const std::vector<geometry::StairFlight>& flights) {
   return all;
 }
 
-/// First line of an answer.
-std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
-                        const std::string& encoder, bool is_nowhere) {
+/// From which match on a text is present in this map.
+std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
   const auto from = memory::PresentFrom(encoder);
-  switch (memory::Judge(match, encoder)) {
+  return from ? from : RetrievalOf(config).present_from;
+}
+
+/// The first line of an answer.
+std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
+                        const std::string& encoder, std::optional<double> from, bool is_nowhere) {
+  switch (memory::Judge(match, from)) {
     case memory::Verdict::kAbsent:
       return fmt::format(
           "\"{}\" is absent: nothing matches better than {:.2f}, present is {:.2f}\n", text,
@@ -209,7 +214,7 @@ Result<void> AddObjects(const MapOptions& options, const std::string& category,
   query.top_k = 1000;  // all outstanding places
   const auto found = memory::Query(loaded.memory, vectors->text, query, vectors->background);
   const auto match = memory::MatchOf(loaded.memory, vectors->text, found);
-  const auto from = memory::PresentFrom(loaded.header.encoder_name);
+  const auto from = PresentFrom(loaded.header.encoder_name, config);
   graph.asked.push_back(category);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (from && match.places[i] < *from) continue;
@@ -297,10 +302,11 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
   const auto found = memory::Query(loaded->memory, vectors->text, query, vectors->background);
   const auto match = memory::MatchOf(loaded->memory, vectors->text, found);
   const std::string& encoder = loaded->header.encoder_name;
-  const memory::Verdict verdict = memory::Judge(match, encoder);
+  const auto from = PresentFrom(encoder, config);
+  const memory::Verdict verdict = memory::Judge(match, from);
   Json places = Json::array();
   MapAnswer answer;
-  answer.text = VerdictText(options.text, match, encoder, found.empty());
+  answer.text = VerdictText(options.text, match, encoder, from, found.empty());
   for (std::size_t i = 0; verdict != memory::Verdict::kAbsent && i < found.size(); ++i) {
     const memory::MemoryCluster& cluster = found[i];
     const Vector3d& p = cluster.p_center_world;
@@ -315,7 +321,6 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
     places.push_back(ClusterJson(cluster, match.places[i], place, loaded->map.config().voxel_m,
                                  options.with_voxels));
   }
-  const auto from = memory::PresentFrom(encoder);
   answer.json = Json({{"text", options.text},
                       {"verdict", memory::NameOf(verdict)},
                       {"match", match.best},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `networks list | check | look`: lists the networks, checks them, shows their results.
+// `networks list | check | calibrate | look`: which networks there are, whether they work, what
+// they see.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -304,7 +305,16 @@ void AddNetworks(CLI::App& app, Options& o) {
                             "crossnav networks check crossnav_small",
                             [&o](Console& c) { return NetworksCheck(o.networks, o.common, c); });
   check->add_option("CARD", o.networks.cards, "Names or paths of cards; default: all");
-  CLI::App* look = AddVerb(*networks, o, "look", "Output of the networks for a picture",
+  CLI::App* calibrate =
+      AddVerb(*networks, o, "calibrate",
+              "Retrieval thresholds of an encoder, measured and put into its card",
+              "crossnav networks calibrate sed --scenes houses",
+              [&o](Console& c) { return NetworksCalibrate(o.networks, o.common, c); });
+  calibrate->add_option("CARD", o.networks.cards, "Name or path; default: networks.encoder")
+      ->expected(0, 1);
+  calibrate->add_option("--scenes", o.networks.scenes, "Folder of development houses")->required();
+  calibrate->add_option("--out", o.networks.out, "Card to write; default: the card itself");
+  CLI::App* look = AddVerb(*networks, o, "look", "What the networks see in a picture",
                            "crossnav networks look room.png --text sofa --out panel.png",
                            [&o](Console& c) { return NetworksLook(o.networks, o.common, c); });
   look->add_option("IMAGE", o.networks.image, "Picture (PNG or JPEG)")->required();

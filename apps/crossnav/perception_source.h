@@ -19,6 +19,13 @@ namespace crossnav::app {
 /// networks.dir, or the folder `networks` beside the program's source or installation.
 std::filesystem::path NetworksDir(const evaluation::RunConfig& config);
 
+/// Retrieval thresholds in the card of networks.encoder; nothing in them with ground truth, or
+/// where the card cannot be read (PerceptionSource::Read says why).
+inference::ModelCard::Retrieval RetrievalOf(const evaluation::RunConfig& config);
+
+/// Puts them in place of each query.* setting that has its default.
+void UseRetrieval(evaluation::RunConfig& config);
+
 class PerceptionSource {
  public:
   /// Reads cards and hashes files if networks are configured; opens none, so that processes can be

@@ -15,6 +15,7 @@
 #include "memory_files.h"
 #include "progress.h"
 #include "replay_log.h"
+#include "watch_log.h"
 
 namespace crossnav::app {
 namespace {
@@ -167,10 +168,13 @@ Result<evaluation::EpisodeRecord> PlayEpisode(
   const auto told = known.For(context);
   if (!told) return tl::unexpected(told.error());
   if (*told) observers.push_back(told->get());
+  WatchLog watch(ReplayInfoOf(context, episode, config, header), files.watch, console);
+  if (files.watch) observers.push_back(&watch);
   MapLog map(files.map, context.scene().id, perception.EncoderName());
   observers.push_back(&map);
   auto record = evaluation::RunEpisode(context, episode, config, observers, perception.Maker());
   console.EndProgress();
+  watch.Close();
   if (!record) return record;
   if (replay) {
     if (auto ok = replay->Close(); !ok) return tl::unexpected(ok.error());

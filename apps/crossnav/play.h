@@ -9,14 +9,19 @@
 #include "perception_source.h"
 #include "session.h"
 
+namespace crossnav::watch {
+class Watch;
+}
+
 namespace crossnav::app {
 
 struct PlayFiles {
-  std::filesystem::path folder;  ///< results.jsonl, trace.jsonl, floor_<id>.png
-  std::filesystem::path replay;  ///< .mcap; empty = none
-  std::filesystem::path page;    ///< .html; empty = none
-  std::filesystem::path map;     ///< memory to save; empty = none
-  std::filesystem::path memory;  ///< saved memory to start from; empty = none
+  std::filesystem::path folder;   ///< results.jsonl, trace.jsonl, floor_<id>.png
+  std::filesystem::path replay;   ///< .mcap; empty = none
+  std::filesystem::path page;     ///< .html; empty = none
+  std::filesystem::path map;      ///< memory to save; empty = none
+  std::filesystem::path memory;   ///< saved memory to start from; empty = none
+  watch::Watch* watch = nullptr;  ///< shows the episode; null = nobody asked
 };
 
 /// Fails unless all files can be written. Needs no scene, so that the message comes at once.

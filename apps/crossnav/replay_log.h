@@ -11,6 +11,15 @@
 
 namespace crossnav::app {
 
+/// Head of a replay; what is true of the goals is for display.
+trace::ReplayInfo ReplayInfoOf(const evaluation::SceneContext& context,
+                               const evaluation::Episode& episode,
+                               const evaluation::RunConfig& config,
+                               const evaluation::RunHeader& header);
+
+trace::StageResult StageResultOf(const evaluation::StageRecord& stage, int goal_index,
+                                 int last_step);
+
 class ReplayLog : public evaluation::RunObserver {
  public:
   /// Creates missing folders. The replay is `<path>.part` until Close() renames it.

@@ -56,6 +56,7 @@ void AddRuns(CLI::App& app, Options& o) {
   run->add_option("--save-map", o.run.save_map, "Map file to save the memory to");
   run->add_option("--memory", o.run.memory, "Map file to start from, as --save-map wrote it");
   run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
+  AddWatch(run, o.run.watch);
   AddProtocol(run, o.run);
 
   CLI::App* demo =
@@ -64,6 +65,7 @@ void AddRuns(CLI::App& app, Options& o) {
   demo->add_option("NUMBER", o.demo.number, "1 climbs to the upper floor, 2 descends")
       ->check(CLI::Range(1, 2));
   demo->add_option("--out", o.demo.out, "Folder to write to; default: out/demo");
+  AddWatch(demo, o.demo.watch);
   AddPerception(demo, o.demo.perception);
 
   CLI::App* eval =
@@ -289,29 +291,6 @@ void AddMap(CLI::App& app, Options& o) {
   points->add_option("--out", o.map.out, "PLY to write")->required();
   points->add_option("--query", o.map.text, "Colour by similarity to this text");
   points->add_flag("--surfaces", o.map.surfaces_only, "Leave out the air");
-}
-
-void AddServe(CLI::App& app, Options& o) {
-  CLI::App* serve = AddVerb(app, o, "serve", "The agent for a live robot, behind a local socket",
-                            "crossnav serve --socket /run/user/1000/crossnav.sock --set "
-                            "sensor.camera_height_m=0.6 --save-map home.map",
-                            [&o](Console& c) { return ServeLive(o.serve, o.common, c); });
-  CLI::Option* socket =
-      serve
-          ->add_option("--socket", o.serve.socket,
-                       "Unix domain socket; default: $XDG_RUNTIME_DIR/crossnav.sock, or "
-                       "/tmp/crossnav-UID.sock")
-          ->type_name("PATH");
-  serve->add_option("--port", o.serve.port, "TCP on 127.0.0.1 instead; 0 = any that is free")
-      ->check(CLI::Range(0, 65535))
-      ->excludes(socket);
-  serve
-      ->add_option("--perception", o.serve.perception,
-                   "networks, or none: maps and explores, and finds nothing")
-      ->check(CLI::IsMember({"networks", "none"}));
-  AddNetworksPreset(serve, o.serve.networks);
-  serve->add_option("--memory", o.serve.memory, "Map file to start from, as --save-map wrote it");
-  serve->add_option("--save-map", o.serve.save_map, "Map file to save the memory to at the end");
 }
 
 void AddTools(CLI::App& app, Options& o) {

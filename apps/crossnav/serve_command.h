@@ -15,6 +15,7 @@ struct ServeOptions {
   std::string networks;                 ///< preset, as in LoadWithNetworks
   std::string memory;                   ///< map file to start from; empty = none
   std::string save_map;                 ///< map file to save the memory to at the end; empty = none
+  WatchOptions watch;
 };
 Result<void> ServeLive(const ServeOptions& options, const CommonOptions& common, Console& console);
 

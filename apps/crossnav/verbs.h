@@ -56,6 +56,10 @@ void AddSceneVerbs(CLI::App& app, Options& options);
 /// Runs, their results, maps, networks and tools.
 void AddRunVerbs(CLI::App& app, Options& options);
 
+/// `serve`.
+void AddServe(CLI::App& app, Options& options);
+/// --watch and --watch-port.
+void AddWatch(CLI::App* verb, WatchOptions& watch);
 /// `networks`.
 void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.

@@ -51,7 +51,13 @@ class Section {
     const toml::node* node = Find(key);
     if (node != nullptr) Take(*node, key, target, lo, hi);
   }
-  /// A number for each of `count`, or a single number for all.
+  void Number(const char* key, std::optional<double>& target, double lo, double hi) {
+    if (double value = 0; Find(key) != nullptr) {
+      Number(key, value, lo, hi);
+      target = value;
+    }
+  }
+  /// A number for each of `count`, or one for all of them.
   void Numbers(const char* key, std::vector<double>& target, double lo, double hi,
                std::size_t count) {
     const toml::node* node = Find(key);
@@ -248,6 +254,14 @@ Result<void> ReadText(Section section, const std::filesystem::path& folder, Mode
   return section.Finish();
 }
 
+Result<void> ReadRetrieval(Section section, ModelCard::Retrieval& retrieval) {
+  section.Number("min_similarity", retrieval.min_similarity, -1, 1);
+  section.Number("min_z_score", retrieval.min_z_score, 0, 100);
+  section.Number("min_peak_share", retrieval.min_peak_share, 0, 1);
+  section.Number("present_from", retrieval.present_from, 0, 1);
+  return section.Finish();
+}
+
 Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path& path) {
   ModelCard card;
   card.path = path;
@@ -276,7 +290,8 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
       ReadInput(top.Inner("input"), card.input, card.ports),
       ReadOutput(top.Inner("output"), card.output, card.ports),
       ReadThresholds(top.Inner("thresholds"), card.labels.size(), card.thresholds),
-      ReadText(top.Inner("text"), folder, card.text)};
+      ReadText(top.Inner("text"), folder, card.text),
+      ReadRetrieval(top.Inner("retrieval"), card.retrieval)};
   if (auto ok = top.Finish(); !ok) return tl::unexpected(ok.error());
   for (const auto& part : parts)
     if (!part) return tl::unexpected(part.error());
@@ -299,6 +314,25 @@ Result<ModelCard> ReadModelCard(const std::filesystem::path& path) {
     return Fail(ErrorCode::kMalformed, std::string(error.description()),
                 path.string() + ": line " + std::to_string(error.source().begin.line));
   }
+}
+
+std::string WithRetrieval(std::string_view card, std::string_view section) {
+  constexpr std::string_view kHead = "[retrieval]";
+  std::string before, after;
+  bool is_own = false, is_behind = false;
+  for (std::size_t at = 0; at < card.size();) {
+    const std::size_t end = std::min(card.find('\n', at), card.size() - 1) + 1;
+    const std::string_view line = card.substr(at, end - at);
+    if (line.starts_with('[')) {
+      is_behind = is_behind || is_own;
+      is_own = line.starts_with(kHead);
+    }
+    if (!is_own) (is_behind ? after : before) += line;
+    at = end;
+  }
+  while (before.ends_with("\n\n")) before.pop_back();
+  if (!before.empty() && !before.ends_with('\n')) before += '\n';
+  return before + "\n" + std::string(section) + (after.empty() ? "" : "\n") + after;
 }
 
 Result<std::string> ReadNetworkFile(const ModelCard& card) {

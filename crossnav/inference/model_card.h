@@ -6,7 +6,9 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crossnav/core/result.h"
@@ -72,7 +74,13 @@ struct ModelCard {
     std::vector<std::string> templates{"{}"};  ///< "{}" stands for the text
   } text;
 
-  /// The second file of a network with two files.
+  /// Of an encoder, as `crossnav networks calibrate` measured it; nullopt = never measured.
+  struct Retrieval {
+    std::optional<double> min_similarity, min_z_score, min_peak_share;  ///< as in QueryConfig
+    std::optional<double> present_from;  ///< match from which a text is present
+  } retrieval;
+
+  /// The second file of a network that has two.
   struct Second {
     std::filesystem::path file;
     std::string sha256;
@@ -84,7 +92,11 @@ struct ModelCard {
 /// Errors name the card and the key: unknown, missing, of the wrong type or out of range.
 Result<ModelCard> ReadModelCard(const std::filesystem::path& path);
 
-/// Content of the card's file; an error if its hash differs from the card's.
+/// The text of a card with `section`, lines of TOML that begin with "[retrieval]", in place of its
+/// own section of that name, or behind everything else. All other bytes stay.
+std::string WithRetrieval(std::string_view card, std::string_view section);
+
+/// The content of the card's file; an error where it is not the one that the card was written for.
 Result<std::string> ReadNetworkFile(const ModelCard& card);
 
 /// Policy confidence of a detector's score for a label: piecewise linear through (0, 0), (weak,

@@ -66,10 +66,9 @@ std::optional<double> PresentFrom(std::string_view encoder) {
   return std::nullopt;
 }
 
-Verdict Judge(const QueryMatch& match, std::string_view encoder) {
-  const auto from = PresentFrom(encoder);
-  if (!from) return Verdict::kUnknown;
-  return match.best >= *from ? Verdict::kPresent : Verdict::kAbsent;
+Verdict Judge(const QueryMatch& match, std::optional<double> present_from) {
+  if (!present_from) return Verdict::kUnknown;
+  return match.best >= *present_from ? Verdict::kPresent : Verdict::kAbsent;
 }
 
 }  // namespace crossnav::memory

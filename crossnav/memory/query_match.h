@@ -26,11 +26,11 @@ QueryMatch MatchOf(const SemanticMemory& memory, std::span<const float> text,
 enum class Verdict { kPresent, kAbsent, kUnknown };
 std::string_view NameOf(Verdict verdict);
 
-/// Minimum match at which a text counts as present among features of `encoder` (its name in map
-/// files); nullopt if never measured for this encoder.
+/// From which match on a text counts as present among features of `encoder` (by the name in map
+/// files); nullopt where that was never measured. Of networks the card says it.
 std::optional<double> PresentFrom(std::string_view encoder);
 
-/// kUnknown where PresentFrom has no answer.
-Verdict Judge(const QueryMatch& match, std::string_view encoder);
+/// kUnknown where no threshold was measured.
+Verdict Judge(const QueryMatch& match, std::optional<double> present_from);
 
 }  // namespace crossnav::memory

@@ -147,6 +147,7 @@ Result<void> Pilot::Step(const Observation& obs, Answer* answer) {
   auto result = agent_->Step(obs);
   if (!result) return tl::unexpected(result.error());
   ++state_.steps;
+  if (options_.on_step) options_.on_step(obs, *result, *agent_);
   answer->mode = result->trace.mode;
   answer->reason = result->trace.reason;
   if (result->all_explored) {

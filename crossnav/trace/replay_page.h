@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "crossnav/core/result.h"
 #include "crossnav/trace/replay.h"
@@ -14,7 +15,11 @@ namespace crossnav::trace {
 /// The page's HTML. `other`: a second run of the same episode, to compare with.
 std::string ReplayPage(const Replay& replay, const Replay* other = nullptr);
 
-/// Reads the replay at `mcap_path` and writes the page to `html_path` (whole or not at all).
+/// The page without a replay: it follows the events (live_events.h) that `events`, an address
+/// relative to its own, sends.
+std::string LivePage(std::string_view events);
+
+/// Reads the replay at `mcap_path` and writes the page to `html_path` (whole, or not at all).
 Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
                               const std::filesystem::path& html_path);
 

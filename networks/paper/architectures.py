@@ -308,6 +308,8 @@ def yolov7(wish):
         labels = list(model.names)
     else:
         model, labels = yolov7_package.models.yolo.Model(yolov7_description(len(wish.labels), 16 if wish.small else 1)), wish.labels
+        for end in model.model[-1].m:  # as they begin, every score is nothing
+            end.bias.data.zero_()
     model.eval().model[-1].concat = True
     size = wish.size or (64 if wish.small else 640)
     card = f'family = "yolov7"\n{labels_line(labels)}\n[input]\nsize = {size}\nresize = "letterbox"\nantialias = false\n'

@@ -35,7 +35,19 @@ TEST_F(NetworksCli, ListAndCheckReportTheNetworks) {
   EXPECT_EQ(Run("networks check --quiet" + use_).exit_code, 1);
 }
 
-TEST_F(NetworksCli, LookDrawsTheNetworksOutput) {
+TEST_F(NetworksCli, CalibrateWritesRetrievalThresholdsThatLaterRunsUse) {
+  const Outcome run = Run("networks calibrate small --scenes scenes --json" + use_);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_GT(json["queries"].size(), 0U);
+  EXPECT_GE(json["best"]["f1"], json["defaults"]["f1"]);
+  EXPECT_NE(ReadText(At("nets/small.toml")).find("[retrieval]"), std::string::npos);
+  EXPECT_EQ(Run("networks check small" + use_).exit_code, 0);
+  ExpectFailure("networks calibrate none --scenes scenes" + use_, {"none.toml"});
+  ExpectFailure("networks calibrate small --scenes nowhere" + use_, {"nowhere"});
+}
+
+TEST_F(NetworksCli, LookDrawsWhatTheySee) {
   ASSERT_EQ(
       Run("scene render scenes/00001-CrossnavHouse --out view.png" + std::string(kSmall)).exit_code,
       0);

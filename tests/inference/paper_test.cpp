@@ -127,6 +127,28 @@ TEST_P(PaperNetworks, SegFormersStairsEqualPyTorchs) {
         wanted.numbers[2], kClose);
 }
 
+TEST_P(PaperNetworks, SedsFeaturesAndTextsAreThoseOfPyTorch) {
+  const auto model = OpenIt("sed");
+  ASSERT_NE(model, nullptr);
+  const auto encoder = model->MakeEncoder();
+  const auto grid = encoder->EncodeImage(Picture(size_));
+  ASSERT_TRUE(grid) << grid.error().Message();
+  const auto golden = GoldenOf("sed");
+  ASSERT_EQ(golden.size(), 6U);
+  for (const Golden& wanted : golden) {
+    const bool is_text = wanted.kind == "text";
+    const auto text = is_text ? *encoder->EncodeText(wanted.name) : std::vector<float>{};
+    const auto place =
+        is_text ? 0 : static_cast<std::size_t>(wanted.numbers[0] * grid->cols + wanted.numbers[1]);
+    const std::size_t dim = wanted.numbers.size() - (is_text ? 0 : 2);
+    ASSERT_EQ(dim, static_cast<std::size_t>(grid->dim));
+    for (std::size_t i = 0; i < dim; ++i)
+      EXPECT_NEAR(is_text ? text[i] : grid->data[place * dim + i],
+                  wanted.numbers[is_text ? i : i + 2], kClose)
+          << wanted.kind << " " << wanted.name << " " << i;
+  }
+}
+
 TEST_P(PaperNetworks, MobileSamsMaskIsThatOfPyTorchAndThePictureIsEncodedOnce) {
   if (!IsHere("mobile_sam")) GTEST_SKIP() << "networks/paper/reference.py makes it";
   const auto model = OpenIt("mobile_sam");

@@ -80,15 +80,15 @@ TEST(QueryMatch, SurfacesThatFillTheMapArePresentWithoutAnOutstandingPlace) {
   w.Show(w.Word(), {40, 0, 0}, 7);
   const QueryMatch match = w.Ask(wall);
   EXPECT_TRUE(match.places.empty());
-  EXPECT_EQ(Judge(match, "ground-truth"), Verdict::kPresent);
+  EXPECT_EQ(Judge(match, PresentFrom("ground-truth")), Verdict::kPresent);
 }
 
 TEST(QueryMatch, AnEmptyMemoryHoldsNothingAndAnUnmeasuredEncoderIsNotJudged) {
   const SemanticMemory nothing;
   const QueryMatch match = MatchOf(nothing, std::vector<float>(kDim, 1.0F), {});
   EXPECT_EQ(match.best, 0);
-  EXPECT_EQ(Judge(match, "ground-truth"), Verdict::kAbsent);
-  EXPECT_EQ(Judge(match, "somebody-elses"), Verdict::kUnknown);
+  EXPECT_EQ(Judge(match, PresentFrom("ground-truth")), Verdict::kAbsent);
+  EXPECT_EQ(Judge(match, PresentFrom("somebody-elses")), Verdict::kUnknown);
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ export function connectKeys(app) {
     "?": () => byId("help").showModal(),
     t: () => app.lookFromTop(),
     f: () => app.toggleFollow(),
+    l: () => app.seek(Infinity),
     0: () => app.showWhole(),
   };
   window.addEventListener("keydown", (event) => {
@@ -81,6 +82,7 @@ export function connectPointer(app) {
   canvas.addEventListener("pointermove", (e) => {
     const box = canvas.getBoundingClientRect();
     if (e.buttons) {
+      app.hasOwnView = true;
       if (e.shiftKey || e.buttons & 6) app.camera.pan(e.movementX, e.movementY, box.height);
       else app.camera.orbit(e.movementX, e.movementY);
       app.redraw();
@@ -98,6 +100,7 @@ export function connectPointer(app) {
   });
   canvas.addEventListener("wheel", (e) => {
     e.preventDefault();
+    app.hasOwnView = true;
     app.camera.zoom(Math.exp(0.0012 * e.deltaY));
     app.redraw();
   }, { passive: false });

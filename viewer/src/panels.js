@@ -7,6 +7,17 @@ export function byId(id) {
   return document.getElementById(id);
 }
 
+/// In the line below the head; added to what already stands there.
+export function showNotice(text) {
+  const notice = byId("notice");
+  notice.textContent = notice.hidden ? text : `${notice.textContent} ${text}`;
+  notice.hidden = false;
+}
+
+export function hideNotice() {
+  byId("notice").hidden = true;
+}
+
 /// Scrolls `box` (which must be positioned) so far that `row` can be seen.
 function keepInView(row, box) {
   const top = row.offsetTop;
@@ -100,9 +111,10 @@ export class CameraPanel {
 }
 
 export class StatusPanel {
-  constructor(replay, levels) {
+  /// `view.levels`: heights of the floors, as far as they are known.
+  constructor(replay, view) {
     this.replay = replay;
-    this.levels = levels;
+    this.view = view;
   }
 
   show(index) {
@@ -111,8 +123,8 @@ export class StatusPanel {
     mode.textContent = words(step.mode) || "no mode";
     mode.style.background = modeColour(step.mode);
     byId("reason").textContent = step.reason || "no reason given";
-    const z = step.agent.p_world[2];
-    const floor = this.levels.length > 1 ? `${floorOf(this.levels, z) + 1} of ${this.levels.length}` : "1";
+    const z = step.agent.p_world[2], { levels } = this.view;
+    const floor = levels.length > 1 ? `${floorOf(levels, z) + 1} of ${levels.length}` : "1";
     const degrees = (rad) => `${Math.round((rad * 180) / Math.PI)}°`;
     const facts = [
       ["Goal", words(step.goal)],
@@ -176,12 +188,18 @@ export class VerificationPanel {
   constructor(replay) {
     this.replay = replay;
     // For each step the last one at or before it, within the goal, that verified something.
-    let last = -1;
-    this.lastActive = replay.steps.map((step, i) => {
-      if (i > 0 && replay.steps[i - 1].goal_index !== step.goal_index) last = -1;
-      if (step.verification.is_active) last = i;
-      return last;
-    });
+    this.lastActive = [];
+    this.grow();
+  }
+
+  /// After steps were added.
+  grow() {
+    const { steps } = this.replay;
+    for (let i = this.lastActive.length; i < steps.length; ++i) {
+      const isSameGoal = i > 0 && steps[i - 1].goal_index === steps[i].goal_index;
+      const before = isSameGoal ? this.lastActive[i - 1] : -1;
+      this.lastActive.push(steps[i].verification.is_active ? i : before);
+    }
   }
 
   show(index) {
@@ -216,21 +234,35 @@ function failsOf(failed, key) {
 
 export class LogPanel {
   constructor(replay, onSeek) {
-    this.lines = logLines(replay);
+    this.replay = replay;
+    this.onSeek = onSeek;
+    this.rows = [];
+    this.index = 0;
     this.list = byId("log");
-    this.rows = this.lines.map((line) => {
-      const content = line.kind === "mode" ? [badge(words(line.mode), modeColour(line.mode)),
-        make("span", "", line.text)] : [make("span", line.kind, line.text)];
-      const row = make("li", "", [make("span", "when", String(replay.steps[line.index].step)),
-        make("span", "what", content)]);
-      row.addEventListener("click", () => onSeek(line.index));
-      return row;
-    });
-    this.list.replaceChildren(...this.rows);
+    this.list.replaceChildren();
+    this.grow();
+  }
+
+  /// After steps were added: their lines come behind those that are there.
+  grow() {
+    this.lines = logLines(this.replay);
+    const fresh = this.lines.slice(this.rows.length).map((line) => this.row(line));
+    this.rows.push(...fresh);
+    this.list.append(...fresh);
     byId("log-count").textContent = String(this.lines.length);
   }
 
+  row(line) {
+    const content = line.kind === "mode" ? [badge(words(line.mode), modeColour(line.mode)),
+      make("span", "", line.text)] : [make("span", line.kind, line.text)];
+    const row = make("li", line.index > this.index ? "future" : "", [make("span", "when", String(this.replay.steps[line.index].step)),
+      make("span", "what", content)]);
+    row.addEventListener("click", () => this.onSeek(line.index));
+    return row;
+  }
+
   show(index) {
+    this.index = index;
     let last = -1;
     this.lines.forEach((line, i) => {
       if (line.index <= index) last = i;

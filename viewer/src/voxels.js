@@ -17,34 +17,73 @@ function blockName(bx, by, bz) {
 
 export class VoxelHistory {
   /// `ends[i]`: where the runs of step i end in `bytes`.
-  constructor(bytes, ends) {
+  constructor(bytes = new Uint8Array(0), ends = []) {
     this.blocks = new Map();
     this.dirty = new Set();
-    this.ends = [];
+    this.ends = [];     // of each step that is decoded: how many changes there are after it
+    this.pending = [];  // of the steps behind: their runs
     this.step = -1;
     this.lastBlock = null;
-    let count = 0, begin = 0;
+    this.changes = 0;
+    this.lo = [32767, 32767, 32767];
+    this.hi = [-32768, -32768, -32768];
+    this.reserve(1024);
+    let begin = 0;
     for (const end of ends) {
-      forEachRunVoxel(bytes, begin, end, () => { ++count; });
+      this.append([bytes.subarray(begin, end)]);
       begin = end;
     }
-    this.keys = new Int16Array(3 * count);
-    this.after = new Uint8Array(count);
-    this.before = new Uint8Array(count);
-    let n = 0;
-    begin = 0;
-    for (const end of ends) {
-      forEachRunVoxel(bytes, begin, end, (x, y, z, value) => {
-        this.keys.set([x, y, z], 3 * n);
-        this.after[n] = value;
-        this.before[n] = this.get(x, y, z);
-        this.set(x, y, z, value);
-        ++n;
-      });
-      begin = end;
-      this.ends.push(n);
+    this.decodeTo(ends.length - 1);
+  }
+
+  get count() {
+    return this.ends.length + this.pending.length;
+  }
+
+  /// The next step's changes, one run after the other. They are decoded when that step is shown.
+  append(pieces) {
+    this.pending.push(pieces);
+  }
+
+  decodeTo(step) {
+    if (step < this.ends.length) return;
+    this.moveTo(this.ends.length - 1);
+    for (const pieces of this.pending.splice(0, step + 1 - this.ends.length)) {
+      for (const bytes of pieces) {
+        forEachRunVoxel(bytes, 0, bytes.length, (x, y, z, value) => this.note(x, y, z, value));
+      }
+      this.ends.push(this.changes);
     }
-    this.step = ends.length - 1;
+    this.step = this.ends.length - 1;
+  }
+
+  note(x, y, z, value) {
+    if (this.changes === this.after.length) this.reserve(2 * this.changes);
+    const n = this.changes++;
+    this.keys[3 * n] = x;
+    this.keys[3 * n + 1] = y;
+    this.keys[3 * n + 2] = z;
+    this.after[n] = value;
+    this.before[n] = this.get(x, y, z);
+    this.set(x, y, z, value);
+    this.reach(0, x);
+    this.reach(1, y);
+    this.reach(2, z);
+  }
+
+  reach(axis, v) {
+    if (v < this.lo[axis]) this.lo[axis] = v;
+    if (v >= this.hi[axis]) this.hi[axis] = v + 1;
+  }
+
+  reserve(count) {
+    const grown = (array, larger) => {
+      if (array) larger.set(array);
+      return larger;
+    };
+    this.keys = grown(this.keys, new Int16Array(3 * count));
+    this.after = grown(this.after, new Uint8Array(count));
+    this.before = grown(this.before, new Uint8Array(count));
   }
 
   blockAt(x, y, z, make) {
@@ -82,6 +121,11 @@ export class VoxelHistory {
 
   /// The map as it was after step `step` (-1: empty).
   seek(step) {
+    this.decodeTo(step);
+    this.moveTo(step);
+  }
+
+  moveTo(step) {
     const k = this.keys;
     const endOf = (s) => (s < 0 ? 0 : this.ends[s]);
     for (let i = endOf(this.step); i < endOf(step); ++i) {
@@ -95,13 +139,7 @@ export class VoxelHistory {
 
   /// Lowest and highest corner of what was ever seen [voxels], or null.
   bounds() {
-    if (this.after.length === 0) return null;
-    const lo = [32767, 32767, 32767], hi = [-32768, -32768, -32768];
-    for (let i = 0; i < this.keys.length; ++i) {
-      lo[i % 3] = Math.min(lo[i % 3], this.keys[i]);
-      hi[i % 3] = Math.max(hi[i % 3], this.keys[i] + 1);
-    }
-    return { lo, hi };
+    return this.changes ? { lo: this.lo, hi: this.hi } : null;
   }
 
   markAllDirty() {

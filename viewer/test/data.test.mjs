@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The page's data handling, without a browser.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import { OrbitCamera, projectPoint } from "../src/camera.js";
 import { partingOf, runNames } from "../src/compare.js";
 import { flightsAt, floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
@@ -139,41 +137,6 @@ test("the page opens where a goal failed, at the start where none did", () => {
     { index: 3, text: "Goal 2, bed: out of time. Opened at step 3, go to: no progress." });
   assert.match(open([step(1), step(1)], bed).text, /Opened at step 1, its last step/);
   assert.equal(open([...steps, step(1, [], "stop")], bed).index, 6);
-});
-
-test("the camera holds the box that it frames and puts its middle in the middle", () => {
-  const camera = new OrbitCamera();
-  for (const [aspect, shift, pitch] of [[1.6, 0, 0.9], [0.6, 0, 0.4], [1.6, 0.25, 1.5707]]) {
-    Object.assign(camera, { aspect, shift, pitch });
-    camera.frame([-4, 2, 0], [6, 9, 5]);
-    const matrix = camera.matrix();
-    const middle = projectPoint(matrix, [1, 5.5, 2.5], 200, 100);
-    assert.ok(Math.abs(middle[0] - 100 * (1 + shift)) < 0.01 && Math.abs(middle[1] - 50) < 0.01);
-    let widest = 0;
-    for (let i = 0; i < 8; ++i) {
-      const corner = [i & 1 ? 6 : -4, i & 2 ? 9 : 2, i & 4 ? 5 : 0];
-      const [x, y] = projectPoint(matrix, corner, 2, 2);
-      assert.ok(x > 2 * shift && x < 2 && y > 0 && y < 2, `${corner} at ${x}, ${y}`);
-      widest = Math.max(widest, Math.abs(y - 1), Math.abs(x - 1 - shift) / (1 - shift));
-    }
-    assert.ok(widest > 0.8);
-  }
-  assert.equal(projectPoint(camera.matrix(), camera.eye().map((v, i) => v + (i === 2 ? 9 : 0)), 2, 2),
-    null);
-});
-
-test("the scripts can be joined: no top-level name stands in two files", () => {
-  const list = readFileSync(new URL("../files.cmake", import.meta.url), "utf8");
-  const owner = new Map();
-  for (const [path] of list.matchAll(/src\/\w+\.js/g)) {
-    const text = readFileSync(new URL("../" + path, import.meta.url), "utf8");
-    const declared = text.matchAll(/^(?:export )?(?:async )?(?:function|class|const|let) (\w+)/gm);
-    for (const [, name] of declared) {
-      assert.equal(owner.get(name), undefined, `${name} in ${path} and ${owner.get(name)}`);
-      owner.set(name, path);
-    }
-  }
-  assert.ok(owner.size > 30);
 });
 
 /// A run of steps that go forward, changed from some index on.
