@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `networks list | check | calibrate | look`: which networks there are, whether they work, what
-// they see.
+// `networks list | check | calibrate | look`: lists, checks and calibrates networks, and shows
+// their output.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -26,7 +26,7 @@ struct PilotOptions {
   /// Creates an agent for a camera at this height above the ground, with or without the saved
   /// memory. The previous agent is destroyed first.
   std::function<Result<agent::Agent>(double camera_height_m, bool restore)> make_agent;
-  /// After each step of the agent; may be empty.
+  /// Called after each step of the agent; may be empty.
   std::function<void(const Observation&, const agent::StepResult&, const agent::Agent&)> on_step{};
 };
 

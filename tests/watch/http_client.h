@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Just enough of an HTTP client to ask the server what a browser would, and what it would not.
+// Minimal HTTP client for requests that a browser would send, and for forged requests.
 #pragma once
 
 #include <arpa/inet.h>
@@ -39,7 +39,7 @@ class Connection {
     Send("GET " + path + " HTTP/1.1\r\n" + more + "\r\n");
   }
 
-  /// Everything so far, once it holds `text`, or the server has hung up, or 5 s are over.
+  /// Received text, once it contains `text`, or after disconnection, or after 5 s.
   const std::string& Until(const std::string& text) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     std::size_t from = 0;
@@ -61,7 +61,7 @@ class Connection {
   std::string got_;
 };
 
-/// How often `part` stands in `text`.
+/// Number of occurrences of `part` in `text`.
 inline int CountOf(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
