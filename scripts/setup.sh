@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what the build and the tests need, from the distribution's own packages.
+# Installs the dependencies of the build and the tests, from the distribution's own packages.
+#
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
 #                                    slurm, hm3d, ifc, viewer
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
@@ -35,7 +36,7 @@ declare -A PACKAGES=(
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
-# Prints those of the given packages that dpkg does not have installed, one a line.
+# Prints the given packages that are not installed, one a line.
 missing_of() {
   local installed
   installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
@@ -43,7 +44,7 @@ missing_of() {
            <(sed -n 's/^installed //p' <<<"$installed" | sort -u)
 }
 
-# Says so and stops where the distribution is known to be too old, or is none with apt.
+# Stops with a message if the distribution is too old or has no apt.
 check_system() {
   local id=unknown version=""
   if [[ -r /etc/os-release ]]; then
@@ -77,8 +78,7 @@ as_root() {
   fi
 }
 
-# Installs those of the given packages that the distribution has, where that needs no password;
-# nothing depends on them.
+# Installs optional packages that the distribution has, if no password is needed.
 install_optional() {
   local package absent
   [[ $(id -u) -eq 0 ]] || sudo -n true 2>/dev/null || return 0
@@ -91,8 +91,8 @@ install_optional() {
   done
 }
 
-# The wheel's headers and the libraries that are used, in the folder where CMake looks. A failure
-# is a notice: networks are left out of the build then.
+# The wheel's headers and used libraries, in the folder where CMake looks. A failure is a notice:
+# the build then omits networks.
 install_openvino() {
   local pin data home work
   pin="$(dirname "${BASH_SOURCE[0]}")/openvino.txt"
@@ -111,7 +111,7 @@ install_openvino() {
   rm -rf "$work"
 }
 
-# fetch_openvino WORK PIN: downloads, checks the hash, unpacks and drops what is not used.
+# fetch_openvino WORK PIN: downloads, checks the hash, unpacks and drops unused files.
 fetch_openvino() {
   local tag=manylinux_2_28_x86_64
   [[ $(uname -m) == aarch64 ]] && tag=manylinux_2_35_aarch64
@@ -125,7 +125,7 @@ fetch_openvino() {
       ! -name 'libopenvino_onnx_frontend.so.*' ! -name 'libopenvino_*_cpu_plugin.so' -delete
 }
 
-# The linter in a Python environment of its own, where the Makefile looks.
+# The linter in a separate Python environment, where the Makefile looks.
 install_clang_tidy() {
   local pin data home
   pin="$(dirname "${BASH_SOURCE[0]}")/clang-tidy.txt"
@@ -144,7 +144,7 @@ install_clang_tidy() {
   touch "$home/complete"
 }
 
-# Transcoder and encoder (of tests) as static libraries, where CMake looks.
+# Transcoder and encoder (for tests) as static libraries, where CMake looks.
 install_basis() {
   local here data home work
   here="$(cd "$(dirname "${BASH_SOURCE[0]}")/basis" && pwd)"
@@ -184,7 +184,7 @@ build_basis() {
   (cd "$source" && cp --parents {transcoder,encoder,zstd}/*.h LICENSE "$1/home/include")
 }
 
-# IfcOpenShell in a Python environment of its own, where the program looks.
+# IfcOpenShell in a separate Python environment, where the program looks.
 install_ifcopenshell() {
   local pin home
   pin="$(dirname "${BASH_SOURCE[0]}")/ifcopenshell.txt"

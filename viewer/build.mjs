@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `make viewer`: writes dist/replay.html, which is kept in git for those who build without npm.
+// `make viewer`: writes dist/replay.html, which is kept in git for builds without npm.
 import { mkdirSync, writeFileSync } from "node:fs";
 
 import { BUNDLE, bundle } from "./bundle.mjs";

@@ -6,7 +6,7 @@ import { fileURLToPath } from "node:url";
 
 import { build } from "esbuild";
 
-/// Where the page lies that the C++ build embeds.
+/// Path of the page that the C++ build embeds.
 export const BUNDLE = new URL("dist/replay.html", import.meta.url);
 export const MAX_BYTES = 2e6;
 
@@ -23,7 +23,7 @@ async function joined(name, options) {
   return result.outputFiles[0].text.trim();
 }
 
-/// The page's HTML, with the marks where the data goes.
+/// The page's HTML, with marks for the data.
 export async function bundle() {
   const parts = {
     STYLE: await joined("style.css", {}),

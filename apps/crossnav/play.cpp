@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Keeps the step records, one JSON line each; voxel changes are in the replay.
+/// Collects the step records, one JSON line each; voxel changes are in the replay.
 class TraceLog : public evaluation::RunObserver {
  public:
   Result<void> OnStep(const evaluation::StepView& step) override {
@@ -39,7 +39,7 @@ struct MemorySummary {
   std::int64_t rows = 0, compacted_rows = 0, dropped_rows = 0, bytes = 0;
 };
 
-/// Looks at the memory when the episode is over, and saves it where that was asked for.
+/// Reads the memory at the end of the episode, and saves it on request.
 class MapLog : public evaluation::RunObserver {
  public:
   MapLog(std::filesystem::path path, std::string frame, std::string encoder)
@@ -62,7 +62,7 @@ class MapLog : public evaluation::RunObserver {
   MemorySummary summary_;
 };
 
-/// Everything that was written, by what it is.
+/// Written files, by purpose.
 using Written = std::vector<std::pair<std::string, std::string>>;
 
 Result<Written> WriteFiles(const evaluation::EpisodeRecord& record,
@@ -121,7 +121,7 @@ void Announce(const evaluation::EpisodeRecord& record, const MemorySummary& memo
                          {"files", std::move(paths)}}));
 }
 
-/// Before the first step: every file that the episode will leave.
+/// Checks, before the first step, every output of the episode.
 Result<void> CheckFiles(const evaluation::SceneContext& context, const PlayFiles& files) {
   for (const sim::Floor& floor : context.navmesh().Floors()) {
     const auto picture = files.folder / fmt::format("floor_{}.png", floor.id);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plays one episode with everything a user gets to see: progress, replay and page, pictures, step
-// trace and result record. Shared by `run` and `demo`.
+// Plays one episode with all user-visible output: progress, replay and page, pictures, step trace
+// and result record. Shared by `run` and `demo`.
 #pragma once
 
 #include <filesystem>
@@ -24,10 +24,10 @@ struct PlayFiles {
   watch::Watch* watch = nullptr;  ///< shows the episode; null = nobody asked
 };
 
-/// Fails unless all of them can be written. Needs no scene, so that nobody waits for the message.
+/// Fails unless all files can be written. Needs no scene, so that the message comes at once.
 Result<void> CheckOutputs(const PlayFiles& files);
 
-/// Runs the episode, writes the files, prints the summary and where everything is.
+/// Runs the episode, writes the files, prints the summary and the paths.
 Result<evaluation::EpisodeRecord> PlayEpisode(const evaluation::SceneContext& context,
                                               const evaluation::Episode& episode,
                                               const evaluation::RunConfig& config,

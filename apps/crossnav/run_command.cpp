@@ -11,7 +11,7 @@
 namespace crossnav::app {
 namespace {
 
-/// The built-in episodes: where they start and what they look for.
+/// Built-in episodes: starts and goals.
 struct BuiltIn {
   int start_floor;
   std::vector<std::string> goals;
@@ -93,7 +93,7 @@ Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Conso
   evaluation::AddGoalObjects(scene, file);
   const auto path = out / fmt::format("episode_{}.json.gz", options.number);
   if (auto ok = evaluation::WriteEpisodes(path, file); !ok) return ok;
-  const auto read = evaluation::ReadEpisodes(path);  // as any other run would see it
+  const auto read = evaluation::ReadEpisodes(path);  // as any other run reads it
   if (!read) return tl::unexpected(read.error());
 
   evaluation::RunHeader header = MakeHeader(*config, "full", *read);

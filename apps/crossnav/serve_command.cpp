@@ -25,8 +25,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Readable from the first SIGINT or SIGTERM on, which then end nothing by themselves. To be called
-/// before there are threads.
+/// Readable after the first SIGINT or SIGTERM, which no longer end the process. Call before any
+/// thread exists.
 Result<serve::Descriptor> EndSignals() {
   sigset_t ends;
   ::sigemptyset(&ends);
@@ -38,7 +38,7 @@ Result<serve::Descriptor> EndSignals() {
   return descriptor;
 }
 
-/// python/crossnav/live.py looks in the same place.
+/// python/crossnav/live.py uses the same path.
 std::string DefaultSocket() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
   if (runtime != nullptr && *runtime != '\0') return std::string(runtime) + "/crossnav.sock";
@@ -62,7 +62,7 @@ Result<evaluation::RunConfig> ConfigOf(const ServeOptions& options, const Common
   return config;
 }
 
-/// Makes agents as the settings say.
+/// Creates agents according to the settings.
 class AgentMaker {
  public:
   AgentMaker(evaluation::RunConfig& config, const PerceptionSource& source,
@@ -70,7 +70,7 @@ class AgentMaker {
       : config_(config), source_(source), options_(options), watch_(watch) {}
 
   Result<agent::Agent> Make(double camera_height_m, bool restore) {
-    config_.agent.sensor.camera_height_m = camera_height_m;  // of the networks, too
+    config_.agent.sensor.camera_height_m = camera_height_m;  // also for the networks
     Result<perception::PerceptionSuite> suite =
         IsBlind() ? serve::BlindPerception() : source_.MakeSuite().value();
     if (!suite) return tl::unexpected(suite.error());

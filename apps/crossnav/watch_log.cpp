@@ -7,7 +7,7 @@
 namespace crossnav::app {
 namespace {
 
-constexpr double kLastWait_s = 5;  // chosen: a viewer of this machine takes 1,000 steps in less
+constexpr double kLastWait_s = 5;  // chosen: a local viewer reads 1,000 steps in less
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `--watch`: shows an episode, or a robot's session, in the browser while it goes on.
+// `--watch`: shows an episode, or a robot's session, live in the browser.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace crossnav::app {
 
-/// Null where nobody asked for it. Says where the page is. Error: the port is taken.
+/// Null without `--watch`. Prints the page's address. Error: the port is taken.
 Result<std::unique_ptr<watch::Watch>> OpenWatch(const WatchOptions& options, Console& console);
 
-/// Hands steps on to viewers. A watch that fails (a full disk) is reported once and left alone;
-/// what is watched goes on.
+/// Forwards steps to viewers. A failing watch (a full disk) is reported once and then ignored; the
+/// run continues.
 class WatchFeed {
  public:
   /// `watch` may be null.
@@ -24,7 +24,7 @@ class WatchFeed {
   void Add(const Observation& obs, const trace::StepTrace& trace,
            const perception::Percept& percept, const agent::Agent& agent);
   void AddStage(const trace::StageResult& stage);
-  /// Gives viewers a few seconds to get the rest.
+  /// Gives viewers a few seconds to receive the remaining events.
   void Close();
 
  private:
@@ -34,7 +34,7 @@ class WatchFeed {
   Console& console_;
 };
 
-/// The same of an episode that runs.
+/// WatchFeed of a running episode.
 class WatchLog : public evaluation::RunObserver {
  public:
   WatchLog(trace::ReplayInfo info, watch::Watch* watch, Console& console)

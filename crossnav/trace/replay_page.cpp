@@ -64,7 +64,7 @@ std::string PageData(const Replay& replay) {
   return json.Take();
 }
 
-/// In JSON, '<' stands in texts only; written so, no text can end the page's script element.
+/// In JSON, '<' occurs in strings only; escaped, it cannot end the page's script element.
 std::string EscapeForScript(const std::string& json) {
   std::string out;
   out.reserve(json.size());

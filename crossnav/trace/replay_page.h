@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes the self-contained page of a replay: one HTML file with everything in it, which opens from
-// the disk without a network. Nothing but the replay is read.
+// Self-contained page of a replay: one HTML file that opens from disk without a network. The replay
+// is the only input.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ std::string LivePage(std::string_view events);
 Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,
                               const std::filesystem::path& html_path);
 
-/// The same of two replays of one episode; replays of two episodes are an error.
+/// Page of two replays of one episode; replays of different episodes are an error.
 Result<void> ExportComparison(const std::filesystem::path& mcap_path,
                               const std::filesystem::path& other_path,
                               const std::filesystem::path& html_path);

@@ -14,7 +14,7 @@
 namespace crossnav::watch {
 namespace {
 
-/// Open, readable and writable, and already without a name; -1 = refused.
+/// Descriptor of an unlinked file, readable and writable; -1 on failure.
 int NamelessFile(const std::filesystem::path& folder) {
   std::string path = (folder / "crossnav-watch-XXXXXX").string();
   const int file = ::mkostemp(path.data(), O_CLOEXEC);

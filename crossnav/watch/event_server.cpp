@@ -24,9 +24,10 @@
 namespace crossnav::watch {
 namespace {
 
-constexpr std::size_t kPiece_bytes = 1 << 18;  // chosen: what a viewer may have under way
+constexpr std::size_t kPiece_bytes = 1 << 18;  // chosen: bytes in flight to a viewer
 constexpr int kBacklog = 16;
-constexpr timeval kSendLimit{60, 0};  // chosen: a viewer that takes nothing for so long is gone
+// chosen: a viewer that accepts nothing for this long is disconnected
+constexpr timeval kSendLimit{60, 0};
 
 Result<int> ListenOnLoopback(int port, int* taken) {
   const std::string where = "127.0.0.1:" + std::to_string(port);
@@ -59,8 +60,8 @@ const char* HeaderOf(evhttp_request* request, const char* name) {
   return evhttp_find_header(evhttp_request_get_input_headers(request), name);
 }
 
-/// Headers that keep the page to itself: no other site may frame it or read it, and it loads from
-/// nobody.
+/// Security headers: no other site may frame or read the page, and the page loads nothing from
+/// elsewhere.
 void AddHeaders(evhttp_request* request, const char* type) {
   constexpr std::pair<const char*, const char*> kHeaders[] = {
       {"Cache-Control", "no-store"},
@@ -88,9 +89,9 @@ struct EventServer::Impl {
     Impl* server;
     evhttp_request* request;
     std::shared_ptr<const EventLog> log;
-    std::size_t next;         // index of the event that comes next
+    std::size_t next;         // index of the next event
     bool is_sending = false;  // a piece is under way
-    bool is_over = false;     // the reply has its end
+    bool is_over = false;     // the reply is complete
   };
 
   ~Impl() {
@@ -121,7 +122,7 @@ struct EventServer::Impl {
     if (is_closing && viewers.empty()) event_base_loopbreak(base);
   }
 
-  // Of the server's thread, once it runs.
+  // Used by the server's thread only, once it runs.
   std::string page;
   event_base* base = nullptr;
   evhttp* http = nullptr;
@@ -131,7 +132,7 @@ struct EventServer::Impl {
   std::shared_ptr<const EventLog> shown;
   bool is_closing = false;
 
-  // What the owner asks for.
+  // Requests of the owner.
   std::mutex mutex;
   std::shared_ptr<const EventLog> wanted;
   bool must_close = false;
@@ -186,7 +187,7 @@ void EventServer::Impl::StartViewer(evhttp_request* request) {
   Pump(viewer);
 }
 
-/// Sends the next piece, unless one is under way.
+/// Sends the next piece, unless a piece is in flight.
 void EventServer::Impl::Pump(Viewer& viewer) {
   if (viewer.is_sending || viewer.is_over) return;
   if (viewer.log != shown) {
@@ -236,7 +237,7 @@ void EventServer::Impl::OnWake() {
         static_cast<suseconds_t>((wait - static_cast<double>(static_cast<time_t>(wait))) * 1e6)};
     event_base_loopexit(base, &limit);
   }
-  // A viewer may go while it is sent to.
+  // Sending may remove a viewer.
   for (auto at = viewers.begin(); at != viewers.end();) Pump(*at++);
   EndIfEmpty();
 }
@@ -264,7 +265,8 @@ Result<std::unique_ptr<EventServer>> EventServer::Open(int port, std::string pag
       impl->base, impl->wake_file, EV_READ | EV_PERSIST,
       [](evutil_socket_t, short, void* arg) { static_cast<Impl*>(arg)->OnWake(); }, impl.get());
   event_add(impl->wake, nullptr);
-  // Signals are the program's; a viewer that hangs up must not end it.
+  // Blocks signals in this thread: they belong to the program, and a disconnected viewer must not
+  // end it.
   sigset_t all, before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);

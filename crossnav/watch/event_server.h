@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// HTTP on loopback for browsers of this machine: the page at "/", an EventLog as server-sent events
-// at "/events". One thread of its own does all of it; the owner's thread is never held up. Requests
-// that name another host than loopback are refused, as a page of elsewhere may have sent them.
+// HTTP server on loopback for browsers of this machine: the page at "/", an EventLog as server-sent
+// events at "/events". It runs in a separate thread and never blocks the owner's. Requests that
+// name another host than loopback are refused, because a foreign page may have sent them.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@
 
 namespace crossnav::watch {
 
-inline constexpr int kMaxViewers = 8;  // chosen: a few people and their forgotten tabs
+inline constexpr int kMaxViewers = 8;  // chosen: a few users and their forgotten tabs
 
 class EventServer {
  public:
-  /// On 127.0.0.1; port 0 = any that is free. Error: the port is taken.
+  /// On 127.0.0.1; port 0 = any free port. Error: the port is taken.
   static Result<std::unique_ptr<EventServer>> Open(int port, std::string page);
   /// Closes at once.
   ~EventServer();
@@ -25,12 +25,12 @@ class EventServer {
 
   int port() const;
 
-  /// Viewers begin with this log's first event; those that are here go on with it.
+  /// Viewers start with this log's first event; connected viewers continue with it.
   void Show(std::shared_ptr<const EventLog> log);
-  /// After the log grew.
+  /// Call after appending to the log.
   void Notify();
 
-  /// Sends viewers what is left, `wait_s` at most, and ends.
+  /// Sends the remaining events, for at most `wait_s`, and closes.
   void Close(double wait_s);
 
  private:

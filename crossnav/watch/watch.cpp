@@ -14,7 +14,7 @@
 namespace crossnav::watch {
 namespace {
 
-/// Another one for every log of every process, so that a page never goes on in a wrong log.
+/// Unique for every log of every process, so that a page never continues in another log.
 std::string LogName(int number) {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return std::to_string(::getpid()) + "-" + std::to_string(now) + "-" + std::to_string(number);
@@ -44,7 +44,7 @@ Result<void> Watch::Start(const trace::ReplayInfo& info, const geometry::VoxelMa
   return BeginLog();
 }
 
-/// With the map as it is now.
+/// Begins a log with the current map.
 Result<void> Watch::BeginLog() {
   auto log = EventLog::Open(LogName(logs_++));
   if (!log) return tl::unexpected(log.error());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shows an agent at work in the browser: the replay page on 127.0.0.1, which is told each step as
-// it happens. The agent waits for no viewer: events go into a log (event_log.h), from which a
-// thread of the server sends each viewer as much as it takes. Not thread-safe.
+// Shows an agent at work in the browser: the replay page on 127.0.0.1, which receives each step at
+// once. The agent waits for no viewer: events go into a log (event_log.h), from which a server
+// thread feeds each viewer at its own pace. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@
 namespace crossnav::watch {
 
 struct WatchOptions {
-  int port = 0;  ///< 0 = any that is free
-  /// The log begins anew behind this size, with the map as it is then.
+  int port = 0;  ///< 0 = any free port
+  /// Above this size the log restarts with the current map.
   std::uint64_t max_log_bytes = std::uint64_t{1} << 29;  // chosen: some 40,000 steps
 };
 
@@ -30,12 +30,12 @@ class Watch {
   /// http://127.0.0.1:PORT/
   std::string address() const;
 
-  /// Before the first step of an episode. `known`: the map that the agent starts with, or null.
+  /// Call before the first step of an episode. `known`: the agent's initial map, or null.
   Result<void> Start(const trace::ReplayInfo& info, const geometry::VoxelMap* known = nullptr);
   Result<void> Add(const trace::ReplayFrame& frame);
   Result<void> AddStage(const trace::StageResult& stage);
 
-  /// Tells viewers that nothing more comes, and waits at most `wait_s` for those that are behind.
+  /// Announces the end to viewers, and waits at most `wait_s` for slow viewers.
   void Close(double wait_s);
 
  private:
@@ -48,7 +48,7 @@ class Watch {
   std::shared_ptr<EventLog> log_;
   int logs_ = 0;
   trace::ReplayInfo info_;
-  /// As viewers have it.
+  /// State of the map as sent to viewers.
   std::unordered_map<geometry::VoxelKey, geometry::Voxel, geometry::VoxelKeyHash> map_;
 };
 

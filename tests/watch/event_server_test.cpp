@@ -78,7 +78,7 @@ TEST(EventServer, AViewerGetsWhatWasAndWhatComesAndTheEnd) {
   const auto server = NewServer();
   Connection viewer(server->port());
   viewer.Get("/events");
-  viewer.Until("\r\n\r\n");  // before there is anything
+  viewer.Until("\r\n\r\n");  // before the first event
   const auto log = EventLog::Open("l").value();
   ASSERT_TRUE(log->Append("step", "1"));
   server->Show(log);
@@ -168,7 +168,7 @@ TEST(EventServer, ViewersThatHangUpMakePlaceForOthers) {
     EXPECT_NE(one_more.Until("close one.\n").find(" 503 "), std::string::npos);
     viewers.clear();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    ASSERT_TRUE(log->Append("step", "next"));  // which finds out who is gone
+    ASSERT_TRUE(log->Append("step", "next"));  // detects disconnected viewers
     server->Notify();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

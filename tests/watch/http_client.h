@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Just enough of an HTTP client to ask the server what a browser would, and what it would not.
+// Minimal HTTP client for requests that a browser would send, and for forged requests.
 #pragma once
 
 #include <arpa/inet.h>

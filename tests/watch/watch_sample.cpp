@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// watch_sample [PORT]: the sample episode as a run that is watched, at the pace of its input.
-// Prints the page's address; then each line of input is a number of steps to go on, "again"
-// (another episode begins) or "end". Answers each with a line. For viewer/test/live.test.mjs.
+// watch_sample [PORT]: the sample episode as a live run, at the pace of its input. Prints the
+// page's address; then each line of input is a number of steps, "again" (another episode begins) or
+// "end". Answers each with a line. For viewer/test/live.test.mjs.
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One replay, or two, on the page: panels, time line, 3D view; draws on demand.
+// The page of one replay, or of two: panels, time line, 3D view; draws on demand.
 import { OrbitCamera } from "./camera.js";
 import { CompareBar } from "./compare.js";
 import { fillFloors } from "./controls.js";
@@ -33,7 +33,7 @@ export class ReplayApp {
     this.startRenderer();
   }
 
-  /// Panels, time line and scene of one of the runs.
+  /// Sets panels, time line and scene to one of the runs.
   useRun(run) {
     const replay = this.replay = this.runs[run];
     this.run = run;
@@ -52,7 +52,7 @@ export class ReplayApp {
     fillFloors(this);
   }
 
-  /// The other run, at the step and from the place that are shown now.
+  /// Switches to the other run, at the current step and view.
   async switchTo(run) {
     if (run === this.run) return;
     this.play(false);
@@ -62,7 +62,7 @@ export class ReplayApp {
     this.seek(this.index);
   }
 
-  /// A run that is watched begins anew; it has its first step.
+  /// Begins a new live run at its first step.
   beginLive(replay) {
     this.play(false);
     this.runs = [replay];
@@ -72,7 +72,7 @@ export class ReplayApp {
     this.seek(0);
   }
 
-  /// After steps were added to a run that is watched. `pieces`: for each step its voxel runs.
+  /// Called after steps were added to a live run. `pieces`: for each step its voxel runs.
   grow(pieces) {
     const wasAtEnd = this.index >= this.voxels.count - 1;
     for (const runs of pieces) this.voxels.append(runs);
@@ -119,7 +119,7 @@ export class ReplayApp {
     }
   }
 
-  /// The box that shows everything, floors apart as they are: [lo, hi], metres.
+  /// The box of everything, with floors at their current distance: [lo, hi], metres.
   wholeBox() {
     const bounds = this.voxels.bounds(), voxel = this.replay.info.voxel_m;
     const lo = [Infinity, Infinity, Infinity], hi = [-Infinity, -Infinity, -Infinity];
@@ -136,7 +136,7 @@ export class ReplayApp {
     return [lo, hi];
   }
 
-  /// Shows everything, unless it can be seen.
+  /// Shows everything, if a part is outside the view.
   keepInView() {
     const box = this.wholeBox();
     this.fitCamera(byId("view").getBoundingClientRect());
@@ -252,7 +252,7 @@ export class ReplayApp {
     this.showWhole();
   }
 
-  /// "auto" (the robot's floor and what is below it), "all", or the number of one floor.
+  /// "auto" (the robot's floor and the floors below it), "all", or the number of a floor.
   showFloors(which) {
     this.view.floors = this.view.floors === which ? "auto" : which;
     for (const button of byId("floors").children) {

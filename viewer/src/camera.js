@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An orbit camera above a z-up world: where it looks, its matrix, and where a point lands on screen.
+// An orbit camera above a z-up world: target, matrix, and projection of points to the screen.
 import { MathUtils, Matrix4, PerspectiveCamera, Vector3 } from "three";
 
 const FIELD_OF_VIEW = 0.75;  // rad, vertical
@@ -15,7 +15,7 @@ export class OrbitCamera {
     this.shift = 0;  // of the picture to the right, in half widths
   }
 
-  /// Shows a box whole, as large as fits beside what covers the view at its left.
+  /// Shows a whole box, as large as fits beside the panel at the left.
   frame(lo, hi) {
     this.target = lo.map((v, i) => (v + hi[i]) / 2);
     let near = 1, far = 400;
@@ -50,7 +50,7 @@ export class OrbitCamera {
     return this.target.map((v, i) => v + this.distance * back.getComponent(i));
   }
 
-  /// Brings the camera of three.js to where this one looks.
+  /// Copies the pose to three.js' camera.
   update() {
     const { back, right, up } = this.axes(), camera = this.three;
     camera.position.set(...this.eye());

@@ -4,7 +4,7 @@ import { figure } from "./data.js";
 import { byId, make } from "./panels.js";
 import { kindOf } from "./scene.js";
 
-/// A button for each floor of the run that is shown.
+/// Makes a button for each floor of the current run.
 export function fillFloors(app) {
   const floors = [["Auto", "auto", "the robot's floor and what is below it"], ["All", "all", ""],
     ...app.levels.map((level, i) => [String(i + 1), i, `the floor at ${level.toFixed(2)} m alone`])];

@@ -14,7 +14,7 @@ export class FacePool {
     this.clear();
   }
 
-  /// Forgets every block.
+  /// Removes every block.
   clear() {
     this.slots = new Map();
     this.free = new Map();  // capacity -> starts of slots
@@ -22,7 +22,7 @@ export class FacePool {
     this.geometry.setDrawRange(0, 0);
   }
 
-  /// `bytes`: as blockFaces() gives them.
+  /// `bytes`: output of blockFaces().
   set(block, bytes) {
     const faces = new BigUint64Array(bytes.buffer);
     const slot = this.slotFor(block, faces.length);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The legend: which voxels and which layers are shown.
+// The legend: visible voxels and layers.
 import { words } from "./data.js";
 import { byId, make } from "./panels.js";
 import { FLIGHT_COLOUR, KINDS, OTHER_RUN_COLOUR, PATH_COLOUR } from "./scene.js";
@@ -14,7 +14,7 @@ const LAYERS = [
   ["other", "where the other run went", OTHER_RUN_COLOUR],
 ];
 
-/// A box to tick with a colour and a name.
+/// A checkbox with a colour and a name.
 function legendRow(colour, name, isOn, onChange) {
   const box = make("input");
   box.type = "checkbox";

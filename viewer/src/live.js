@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Follows a run while it goes on: the server's events (docs/formats/replay.md, "Live") make a replay
+// Follows a run in progress: the server's events (docs/formats/replay.md, "Live") make a replay
 // that grows. The page shows the latest step until the user goes back.
 import { bytesOfBase64 } from "./data.js";
 import { byId, hideNotice, showNotice } from "./panels.js";
 
-/// What a page's file would hold before the first step. `pieces`: voxel runs that came with the head.
+/// Content of a page's file before the first step. `pieces`: voxel runs of the head.
 export function replayOf(head) {
   const { info, depth_max_m, states, runs } = head;
   return {
@@ -13,7 +13,7 @@ export function replayOf(head) {
   };
 }
 
-/// Adds a step; returns its voxel runs, those of the head before the first one's.
+/// Adds a step; returns its voxel runs, after the head's runs for the first step.
 export function addStep(replay, event) {
   const { step, image, depth, sight, maps, runs } = event;
   replay.steps.push(step);
@@ -21,13 +21,13 @@ export function addStep(replay, event) {
   replay.depths.push(depth);
   replay.sights.push(sight);
   replay.maps.push(maps);
-  // A robot's goals are not known beforehand.
+  // A robot's goals are unknown in advance.
   while (replay.info.goals.length <= step.goal_index) replay.info.goals.push(step.goal);
   replay.info.goals[step.goal_index] = step.goal;
   return [...replay.pieces.splice(0), bytesOfBase64(runs)];
 }
 
-/// The button that says how the page stands to the run, and brings it back to the latest step.
+/// The button with the state of the connection; it returns to the latest step.
 class LiveButton {
   constructor() {
     this.button = byId("live");
@@ -50,7 +50,7 @@ class LiveButton {
   }
 }
 
-/// `makeApp(replay)` shows a replay that has its first step; what it returns has beginLive(replay),
+/// `makeApp(replay)` shows a replay with its first step; its result has beginLive(replay),
 /// isAtEnd(), grow(pieces), seek(index) and onSeek.
 export function watchLive(url, makeApp) {
   const source = new EventSource(url), button = new LiveButton();
@@ -95,7 +95,7 @@ export function watchLive(url, makeApp) {
   });
   source.onopen = () => button.is("live");
   source.onerror = () => {
-    button.is("lost");  // the browser tries again by itself, unless it was refused
+    button.is("lost");  // the browser reconnects by itself, unless it was refused
     if (source.readyState === EventSource.CLOSED) showNotice("The server refuses; load the page again.");
   };
 }

@@ -8,7 +8,7 @@ import { watchLive } from "./live.js";
 import { byId, showNotice } from "./panels.js";
 import { VoxelHistory } from "./voxels.js";
 
-/// "#step=120&floors=2&top": a view that can be linked to.
+/// "#step=120&floors=2&top": a linkable view.
 function applyHash(app) {
   const wanted = new URLSearchParams(location.hash.slice(1));
   if (wanted.has("theme")) document.documentElement.dataset.theme = wanted.get("theme");
@@ -24,7 +24,7 @@ function applyHash(app) {
   if (step === null && opening.text) showNotice(opening.text);
 }
 
-/// The replay in an element of the page, or null: none is there, or it cannot be read.
+/// The replay in an element of the page, or null if it is missing or unreadable.
 function embedded(id) {
   try {
     return JSON.parse(byId(id).textContent);

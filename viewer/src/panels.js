@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panels beside the 3D view: what the camera saw, what the agent decided and why.
+// Panels beside the 3D view: camera images, decisions of the agent and their reasons.
 import { figure, floorOf, logLines, words } from "./data.js";
 import { GOAL_COLOURS, MODE_COLOURS, kindOf } from "./scene.js";
 
@@ -7,7 +7,7 @@ export function byId(id) {
   return document.getElementById(id);
 }
 
-/// In the line below the head; added to what already stands there.
+/// Adds to the line below the head.
 export function showNotice(text) {
   const notice = byId("notice");
   notice.textContent = notice.hidden ? text : `${notice.textContent} ${text}`;
@@ -18,7 +18,7 @@ export function hideNotice() {
   byId("notice").hidden = true;
 }
 
-/// Scrolls `box` (which must be positioned) so far that `row` can be seen.
+/// Scrolls `box` (which must be positioned) until `row` is visible.
 function keepInView(row, box) {
   const top = row.offsetTop;
   if (top < box.scrollTop || top + row.offsetHeight > box.scrollTop + box.clientHeight) {
@@ -45,7 +45,7 @@ export function modeColour(mode) {
   return MODE_COLOURS[mode] || "#868e96";
 }
 
-// Near is bright, far is dark; 0 (invalid) is drawn apart.
+// Near is bright, far is dark; 0 (invalid) has a separate colour.
 const DEPTH_STOPS = [[253, 231, 155], [246, 151, 99], [201, 79, 121], [114, 47, 130], [33, 20, 70]];
 
 function depthColour(share) {
@@ -111,7 +111,7 @@ export class CameraPanel {
 }
 
 export class StatusPanel {
-  /// `view.levels`: heights of the floors, as far as they are known.
+  /// `view.levels`: heights of the known floors.
   constructor(replay, view) {
     this.replay = replay;
     this.view = view;
@@ -187,12 +187,12 @@ const CHECKS = [
 export class VerificationPanel {
   constructor(replay) {
     this.replay = replay;
-    // For each step the last one at or before it, within the goal, that verified something.
+    // For each step the last step up to it, within the goal, with a verification.
     this.lastActive = [];
     this.grow();
   }
 
-  /// After steps were added.
+  /// Called after steps were added.
   grow() {
     const { steps } = this.replay;
     for (let i = this.lastActive.length; i < steps.length; ++i) {
@@ -224,7 +224,7 @@ export class VerificationPanel {
   }
 }
 
-/// Whether the named check is the one that this figure belongs to.
+/// Whether the named check belongs to this figure.
 function failsOf(failed, key) {
   const stem = key.replace(/_(deg|m)$/, "");
   return Boolean(failed) && (failed.includes(stem) || stem.includes(failed) ||
@@ -243,7 +243,7 @@ export class LogPanel {
     this.grow();
   }
 
-  /// After steps were added: their lines come behind those that are there.
+  /// Called after steps were added: appends their lines.
   grow() {
     this.lines = logLines(this.replay);
     const fresh = this.lines.slice(this.rows.length).map((line) => this.row(line));
@@ -274,7 +274,7 @@ export class LogPanel {
   }
 }
 
-/// The goals in the head line, with their results once they are known.
+/// Goals in the head line, with their known results.
 export class GoalsHead {
   constructor(replay, onSeek) {
     this.replay = replay;

@@ -10,12 +10,12 @@ import { FacePool } from "./face_pool.js";
 import { Robot } from "./robot.js";
 import { FACE_FRAGMENT, FACE_VERTEX, LINE_FRAGMENT, LINE_VERTEX } from "./shaders.js";
 
-/// Of a line: from, to (three each), red, green, blue, alpha, width [px].
+/// Floats of a line: from, to (three each), red, green, blue, alpha, width [px].
 export const LINE_FLOATS = 11;
 const LINE_PARTS = [["a_from", 3], ["a_to", 3], ["a_colour", 4], ["a_width", 1]];
 const MAX_LEVELS = 8;  // as in FACE_VERTEX
 
-// Colours are those of the page's style, and are drawn as they stand.
+// Colours come from the page's style and are drawn unchanged.
 ColorManagement.enabled = false;
 
 export class Renderer {
@@ -36,7 +36,7 @@ export class Renderer {
       fragmentShader: FACE_FRAGMENT,
     })), 0);
     this.size = new Vector2(1, 1);
-    // Lines behind voxels show through faintly.
+    // Lines behind voxels show faintly.
     this.lines = [this.lineMesh(0.28, { depthFunc: GreaterDepth }), this.lineMesh(1, {})];
     this.lines.forEach((mesh, i) => this.add(mesh, 1 + i));
     this.robot = new Robot();
@@ -66,7 +66,7 @@ export class Renderer {
     this.faces.set(block, bytes);
   }
 
-  /// Forgets the map, as another run's is shown next.
+  /// Removes the map, before another run is shown.
   clearBlocks() {
     this.faces.clear();
   }
@@ -78,7 +78,7 @@ export class Renderer {
   }
 
   /// view: {background, voxel_m, colours, walkable, inflated, levels, cut, spread, lowFloor,
-  /// highFloor}; lines as one array of LINE_FLOATS each; robot as SceneBuilder gives it.
+  /// highFloor}; lines as one array of LINE_FLOATS each; robot from SceneBuilder.
   draw(camera, view, { lines, robot }) {
     const u = this.faceUniforms, levels = view.levels.slice(0, MAX_LEVELS);
     u.u_voxel.value = view.voxel_m;

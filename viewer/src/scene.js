@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the 3D view shows at a step: lines in world metres, and where the robot stands. Floors moved
-// apart are moved here too, by the same rule as in the renderer's shader.
+// The 3D view's content at a step: lines in world metres, and the robot's pose. Applies the spread
+// of floors by the same rule as the renderer's shader.
 import { flightsAt, floorOf } from "./data.js";
 
 export const GOAL_COLOURS = ["#1c7ed6", "#e8590c", "#9c36b5", "#2b8a3e", "#c2255c", "#0b7285"];
@@ -36,8 +36,8 @@ export function rgbOf(hex) {
 }
 
 export class SceneBuilder {
-  /// view: {levels, spread, lowFloor, highFloor, layers}; read anew at each build.
-  /// `other`: a second replay of the episode, or undefined.
+  /// view: {levels, spread, lowFloor, highFloor, layers}; read at each build. `other`: a second
+  /// replay of the episode, or undefined.
   constructor(replay, view, other) {
     this.replay = replay;
     this.view = view;
@@ -80,7 +80,7 @@ export class SceneBuilder {
       (step) => GOAL_COLOURS[step.goal_index % GOAL_COLOURS.length]);
   }
 
-  /// Below this run's own, so that they are one line as long as the runs are the same.
+  /// Below this run's own path, so that equal parts appear as one line.
   addOther(out, index) {
     this.addWalk(out, this.other.steps, index, 0.1, 5, () => OTHER_RUN_COLOUR);
   }
@@ -101,7 +101,7 @@ export class SceneBuilder {
     }
   }
 
-  /// Walked ones strong; those that were only seen thin.
+  /// Walked flights thick; flights that were only seen thin.
   addFlights(out, index) {
     for (const flight of flightsAt(this.replay.steps, index)) {
       const isWalked = flight.walked_up + flight.walked_down > 0, p = flight.steps_world;

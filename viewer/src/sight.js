@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What perception said of the frame, over the camera image.
+// Perception of the frame, over the camera image.
 import { figure } from "./data.js";
 import { byId, make } from "./panels.js";
 
@@ -11,7 +11,7 @@ const SIGHTS = [
   ["similarity", "similarity", "#ae3ec9"],
 ];
 
-/// Boxes, masks, stairs and similarity, drawn over the camera image as far as they are ticked.
+/// Boxes, masks, stairs and similarity, drawn over the camera image if selected.
 export class SightLayer {
   constructor(replay) {
     byId("sights").hidden = !replay.maps?.some((png) => png);

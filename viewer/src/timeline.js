@@ -21,7 +21,7 @@ export class Timeline {
     };
   }
 
-  /// After steps were added.
+  /// Called after steps were added.
   grow() {
     const { steps } = this.replay;
     this.goals = segments(steps, (s) => s.goal_index);

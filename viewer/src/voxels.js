@@ -16,12 +16,12 @@ function blockName(bx, by, bz) {
 }
 
 export class VoxelHistory {
-  /// `ends[i]`: where the runs of step i end in `bytes`.
+  /// `ends[i]`: end of step i's runs in `bytes`.
   constructor(bytes = new Uint8Array(0), ends = []) {
     this.blocks = new Map();
     this.dirty = new Set();
-    this.ends = [];     // of each step that is decoded: how many changes there are after it
-    this.pending = [];  // of the steps behind: their runs
+    this.ends = [];  // of each decoded step: number of changes after it
+    this.pending = [];  // runs of the steps that are not decoded yet
     this.step = -1;
     this.lastBlock = null;
     this.changes = 0;
@@ -40,7 +40,7 @@ export class VoxelHistory {
     return this.ends.length + this.pending.length;
   }
 
-  /// The next step's changes, one run after the other. They are decoded when that step is shown.
+  /// The next step's changes, in runs. They are decoded when that step is shown.
   append(pieces) {
     this.pending.push(pieces);
   }
@@ -109,7 +109,7 @@ export class VoxelHistory {
     const block = this.blockAt(x, y, z, true);
     block.values[((x & 15) << 8) | ((y & 15) << 4) | (z & 15)] = value;
     this.dirty.add(block);
-    // A voxel at a block's border decides about its neighbour's faces too.
+    // A voxel at a block's border also determines its neighbour's faces.
     for (const [dx, dy, dz] of [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1]]) {
       const stays = (x >> 4) === ((x + dx) >> 4) && (y >> 4) === ((y + dy) >> 4) &&
         (z >> 4) === ((z + dz) >> 4);
@@ -119,7 +119,7 @@ export class VoxelHistory {
     }
   }
 
-  /// The map as it was after step `step` (-1: empty).
+  /// The map after step `step` (-1: empty).
   seek(step) {
     this.decodeTo(step);
     this.moveTo(step);
@@ -137,7 +137,7 @@ export class VoxelHistory {
     this.step = step;
   }
 
-  /// Lowest and highest corner of what was ever seen [voxels], or null.
+  /// Lowest and highest corner of all observed voxels, or null.
   bounds() {
     return this.changes ? { lo: this.lo, hi: this.hi } : null;
   }
@@ -147,8 +147,8 @@ export class VoxelHistory {
   }
 }
 
-/// Faces of `block` between a shown voxel and one that is not. Eight bytes each: three int16 (the
-/// voxel), direction, value: the voxel's state, and for upper faces 16 x the value of the air above.
+/// Faces of `block` between a shown and a hidden voxel. Eight bytes each: three int16 (the voxel),
+/// direction, value: the voxel's state, and for upper faces 16 x the value of the air above.
 export function blockFaces(history, block, isShown) {
   const out = [];
   const x0 = block.bx * BLOCK, y0 = block.by * BLOCK, z0 = block.bz * BLOCK;
