@@ -168,7 +168,10 @@ TreadFlight FlightAlong(const Evidence& seen, const Vector3d& direction) {
   const bool has_ground = !first.has_face && chain[1].tread.area_m2 > 0 &&
                           first.tread.area_m2 > kGroundShare * chain[1].tread.area_m2;
   const bool is_on_ground = !has_ground && HasGroundBelow(seen, first.tread, riser_m);
-  if (chain.size() + (is_on_ground ? 1 : 0) < kLeastLevels) return flight;
+  const bool has_patches = std::all_of(chain.begin(), chain.end(),
+                                       [](const Level& level) { return level.tread.area_m2 > 0; });
+  const bool is_stood_on = is_on_ground && has_patches;  // a box's face on a desk is no flight
+  if (chain.size() + (is_stood_on ? 1 : 0) < kLeastLevels) return flight;
   if (has_ground) chain.erase(chain.begin());
   flight.direction_world = direction;
   flight.riser_m = riser_m;
