@@ -8,7 +8,8 @@ namespace {
 
 constexpr int kReach_vox = 2;  // chosen: a voxel on each side of a wall that is three thick
 constexpr int kLeast = 5;      // chosen: three are a plane by themselves
-constexpr double kFlat = 0.3;  // chosen: thickness to breadth, squared
+constexpr double kFlat =
+    0.4;  // chosen: thickness to breadth, squared; of three layers it is a third
 
 }  // namespace
 
