@@ -55,10 +55,11 @@ def export(name, wish, out, prepare=None):
         path = out / f"{name}{part.suffix}.onnx"
         write(part, path)
         hashes.append(hashlib.sha256(path.read_bytes()).hexdigest())
-    card, texts = made.card, out / "clip_text.onnx"
-    if 'encoder = "clip_text.onnx"' in card and texts.exists():  # its last lines are of [text]
-        card += f'sha256 = "{hashlib.sha256(texts.read_bytes()).hexdigest()}"\n'
-    keys = ["sha256", "decoder_sha256"] if name != "clip_text" else []
+    card = made.card
+    for texts in (out / "clip_text.onnx", out / "sed_text.onnx"):
+        if f'encoder = "{texts.name}"' in card and texts.exists():  # its last lines are of [text]
+            card += f'sha256 = "{hashlib.sha256(texts.read_bytes()).hexdigest()}"\n'
+    keys = {"clip_text": [], "sed": ["sha256"]}.get(name, ["sha256", "decoder_sha256"])
     head = "".join(f'{key} = "{value}"\n' for key, value in zip(keys, hashes))
     source = wish.weights or "random weights"
     suffix = "toml" if name != "clip_text" else "text"

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "cli_fixture.h"
-#include "networks/small_network.h"
+#include "inference/small_network.h"
 
 namespace crossnav::test {
 namespace {

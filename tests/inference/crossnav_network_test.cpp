@@ -2,7 +2,7 @@
 // The adapter of our network, on a small one that sees goals as colours (make_models.py).
 #include "crossnav/core/camera.h"
 #include "crossnav/inference/suite.h"
-#include "networks/small_network.h"
+#include "inference/small_network.h"
 
 namespace crossnav::inference::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "crossnav/inference/parts.h"
 #include "crossnav/sim/scene/image_codec.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {

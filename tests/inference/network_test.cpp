@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "crossnav/core/camera.h"
 #include "crossnav/inference/parts.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {

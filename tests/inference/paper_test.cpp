@@ -8,7 +8,7 @@
 
 #include "crossnav/inference/parts.h"
 #include "crossnav/inference/text_encoder.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {

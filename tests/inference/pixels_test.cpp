@@ -6,7 +6,7 @@
 
 #include "crossnav/inference/suite.h"
 #include "crossnav/sim/sensing/simulator.h"
-#include "networks/small_network.h"
+#include "inference/small_network.h"
 #include "sim/micro_scene.h"
 
 namespace crossnav::inference::test {

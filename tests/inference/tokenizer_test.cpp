@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "crossnav/inference/unicode.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "crossnav/inference/parts.h"
-#include "networks/model_files.h"
-#include "networks/small_network.h"
+#include "inference/model_files.h"
+#include "inference/small_network.h"
 
 namespace crossnav::inference::test {
 namespace {
