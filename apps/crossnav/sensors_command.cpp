@@ -15,6 +15,7 @@
 #include "crossnav/policy/stair_geometry.h"
 #include "crossnav/recordings/frames.h"
 #include "crossnav/scenegraph/storeys.h"
+#include "depth_noise_text.h"
 #include "goal_sightings.h"
 #include "network_choice.h"
 #include "perception_source.h"
@@ -93,6 +94,7 @@ class RoomTrial {
     for (const PlantPixels& plant : known_)
       if (plant.frame == frames_)
         if (const auto point = PointOf(plant, obs)) known_plants_.emplace_back(plant.file, *point);
+    evaluation::AddFrame(obs, &noise_);
     const bool is_held_out = frames_++ % kHeldOut == kHeldOut - 1;
     const auto flight = geometry::FindTreads(obs.depth_m, obs.camera, obs.T_world_camera);
     flights_ += !flight.treads.empty();
@@ -121,6 +123,7 @@ class RoomTrial {
                  {"violated_share", static_cast<double>(result.violations) / rays},
                  {"floor", FloorJson(map_)},
                  {"frames_with_stairs_by_geometry", flights_},
+                 {"noise", NoiseJson(noise_)},
                  {"plants", nullptr}};
     if (plants_) json["plants"] = Json::parse(plants_->PlacesJson());
     if (plants_) json["known_plants"] = KnownPlants();
@@ -151,6 +154,7 @@ class RoomTrial {
   std::optional<GoalSightings> plants_;
   std::vector<std::pair<std::string, Vector3d>> known_plants_;
   std::vector<Observation> held_out_;
+  evaluation::DepthStatistics noise_;
   int frames_ = 0, flights_ = 0;
 };
 
@@ -179,6 +183,7 @@ std::string RoomText(const char* name, const Json& room) {
                         floor["tilt_deg"].get<double>(), floor["residual_m"].get<double>());
   text += fmt::format("\n  frames in which geometry claims stairs: {}\n",
                       room["frames_with_stairs_by_geometry"].get<int>());
+  text += NoiseText(room["noise"]);
   if (room["plants"].is_null()) return text + "  plants: not looked for (--perception networks)\n";
   for (const Json& plant : room["plants"])
     text += fmt::format("  plant at ({:.2f}, {:.2f}, {:.2f}), {} frames, best {:.2f}\n",

@@ -8,10 +8,12 @@
 
 #include "crossnav/core/colour_grid.h"
 #include "crossnav/core/read_file.h"
+#include "crossnav/evaluation/episodes/depth_statistics.h"
 #include "crossnav/evaluation/running/timing.h"
 #include "crossnav/geometry/treads.h"
 #include "crossnav/recordings/depth_image.h"
 #include "crossnav/recordings/frames.h"
+#include "depth_noise_text.h"
 
 namespace crossnav::app {
 namespace {
@@ -137,6 +139,9 @@ Result<Json> TryStairs(const fs::path& folder, perception::PerceptionSuite* suit
     };
     Json frame = find({});
     frame["frame"] = name;
+    evaluation::DepthStatistics noise;
+    evaluation::AddFrame(WithColourOnDepthGrid(*obs), &noise);
+    frame["noise"] = NoiseJson(noise);
     frame["on_carpet"] = find(CarpetOf(*obs));
     frame["with_mask"] = nullptr;
     if (suite != nullptr) {
@@ -157,6 +162,7 @@ std::string StairsText(const Json& frames) {
   for (const Json& frame : frames) {
     text += fmt::format("stairs {}: {}\n", frame["frame"].get<std::string>(), FlightText(frame));
     text += fmt::format("  on the carpet, by its colour: {}\n", FlightText(frame["on_carpet"]));
+    text += NoiseText(frame["noise"]);
     const Json& masked = frame["with_mask"];
     if (!masked.is_null())
       text += fmt::format("  in the network's stair mask ({:.0f} % of the picture): {}\n",
