@@ -59,20 +59,10 @@ void PrintTable(const std::vector<RetrievalQuery>& queries) {
   for (double from = 0.1; from < 0.95; from += 0.1)
     std::printf("%.1f to %.1f  %6ld  %9ld\n", from, from + 0.1, count(true, from, from + 0.1),
                 count(false, from, from + 0.1));
-  double best = 0, best_share = 0;
-  const auto share = [&](bool is_there, double from) {
-    return static_cast<double>(count(is_there, from, 9)) /
-           std::max(1.0, static_cast<double>(count(is_there, -9, 9)));
-  };
-  for (double from = 0.40; from < 1.0; from += 0.02) {
+  for (double from = 0.40; from < 0.61; from += 0.02)
     std::printf("present from %.2f: %ld of %ld there, %ld of %ld not there\n", from,
                 count(true, from, 9), count(true, -9, 9), count(false, from, 9),
                 count(false, -9, 9));
-    const double right = (share(true, from) + 1 - share(false, from)) / 2;
-    if (right > best_share) best = from, best_share = right;
-  }
-  std::printf("most are right from %.2f: %.0f %% (mean of the shares of both)\n", best,
-              100 * best_share);
 }
 
 }  // namespace
