@@ -12,6 +12,7 @@
 #include "crossnav/core/categories.h"
 #include "crossnav/core/version.h"
 #include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/settings/config_file.h"
 #include "crossnav/serve/blind.h"
 #include "crossnav/serve/server.h"
 #include "memory_files.h"

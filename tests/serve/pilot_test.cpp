@@ -360,5 +360,22 @@ TEST(Command, ActionsAreSpreadOverThePeriod) {
   EXPECT_EQ(CommandOf(Action::kStop, sizes, 1), Command{});
 }
 
+TEST_F(PilotTest, EachStepOfTheAgentIsToldOnceToWhoWatches) {
+  std::vector<int> steps;
+  auto options = CouchPilot();
+  options.on_step = [&steps](const Observation& obs, const agent::StepResult& result,
+                             const agent::Agent& agent) {
+    EXPECT_FALSE(obs.depth_m.empty());
+    EXPECT_GT(agent.map().Stats().known, 0);
+    steps.push_back(result.trace.step);
+  };
+  pilot_.emplace(std::move(options));
+  Start();
+  Look(1);
+  Look(1);  // again: the same answer, no step
+  Look(3);
+  EXPECT_EQ(steps, (std::vector<int>{0, 1}));
+}
+
 }  // namespace
 }  // namespace crossnav::serve

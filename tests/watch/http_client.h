@@ -39,9 +39,9 @@ class Connection {
     Send("GET " + path + " HTTP/1.1\r\n" + more + "\r\n");
   }
 
-  /// Received text, once it contains `text`, or after disconnection, or after 5 s.
-  const std::string& Until(const std::string& text) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  /// Everything so far, once it holds `text`, or the server has hung up, or the time is over.
+  const std::string& Until(const std::string& text, int limit_s = 5) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(limit_s);
     std::size_t from = 0;
     while (got_.find(text, from) == std::string::npos && std::chrono::steady_clock::now() < end) {
       from = got_.size() < text.size() ? 0 : got_.size() - text.size();
@@ -61,7 +61,36 @@ class Connection {
   std::string got_;
 };
 
-/// Number of occurrences of `part` in `text`.
+/// A port on loopback, held as long as this lives.
+class HeldPort {
+ public:
+  HeldPort() {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    auto* name = reinterpret_cast<sockaddr*>(&address);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(::bind(socket_, name, size), 0);
+    EXPECT_EQ(::listen(socket_, 1), 0);
+    EXPECT_EQ(::getsockname(socket_, name, &size), 0);
+    port_ = ntohs(address.sin_port);
+  }
+  ~HeldPort() { ::close(socket_); }
+  HeldPort(const HeldPort&) = delete;
+  HeldPort& operator=(const HeldPort&) = delete;
+  int port() const { return port_; }
+
+ private:
+  int socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
+  int port_ = 0;
+};
+
+/// One that is free.
+inline int FreePort() {
+  return HeldPort().port();
+}
+
+/// How often `part` stands in `text`.
 inline int CountOf(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))

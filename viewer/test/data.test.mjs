@@ -5,6 +5,7 @@ import { test } from "node:test";
 
 import { partingOf, runNames } from "../src/compare.js";
 import { flightsAt, floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
+import { addStep, replayOf } from "../src/live.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
 
 // The same bytes as in tests/trace/voxel_codec_test.cpp.
@@ -50,7 +51,8 @@ function makeHistory(steps) {
     ends.push(bytes.length);
     maps.push(new Map(map));
   }
-  return { history: new VoxelHistory(new Uint8Array(bytes), ends), maps };
+  const packed = new Uint8Array(bytes);
+  return { history: new VoxelHistory(packed, ends), maps, bytes: packed, byteEnds: ends };
 }
 
 test("any seek gives the map as it was after that step", () => {
@@ -76,6 +78,34 @@ test("seeking marks exactly enough blocks: faces equal those of a map built anew
       assert.deepEqual(cache.get(block), blockFaces(history, block, isShown));
     }
   }
+});
+
+test("steps that come one by one give the map that they give at once", () => {
+  const { history, maps, bytes, byteEnds } = makeHistory(25);
+  const later = new VoxelHistory();
+  byteEnds.forEach((end, i) => {
+    later.append([bytes.subarray(i ? byteEnds[i - 1] : 0, end)]);
+    later.seek([i, 0, -1, Math.floor(i / 2)][i % 4]);  // the user looks elsewhere meanwhile
+  });
+  assert.equal(later.count, 25);
+  for (const step of [24, 3, 12, 24]) {
+    later.seek(step);
+    for (const key of maps[24].keys()) {
+      assert.equal(later.get(...key.split(",").map(Number)), maps[step].get(key) || 0);
+    }
+  }
+  assert.deepEqual(later.bounds(), history.bounds());
+});
+
+test("a run that is watched makes the replay that its file would hold", () => {
+  const base64 = (bytes) => Buffer.from(bytes).toString("base64");
+  const replay = replayOf({ info: { goals: [] }, depth_max_m: 10, states: [], runs: base64(RUNS) });
+  const event = (step) => ({ step, image: "i", depth: "", sight: null, maps: "", runs: base64([1]) });
+  const first = addStep(replay, event({ step: 0, goal_index: 0, goal: "bed" }));
+  assert.deepEqual(first.map((bytes) => [...bytes]), [RUNS, [1]]);  // the map before, then the step's
+  assert.equal(addStep(replay, event({ step: 1, goal_index: 1, goal: "sofa" })).length, 1);
+  assert.deepEqual(replay.info.goals, ["bed", "sofa"]);
+  assert.deepEqual([replay.steps.length, replay.images, replay.sights], [2, ["i", "i"], [null, null]]);
 });
 
 test("a lone voxel has five faces, two neighbours share none", () => {

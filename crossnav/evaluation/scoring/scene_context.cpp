@@ -53,7 +53,7 @@ Result<std::unique_ptr<SceneContext>> SceneContext::Load(const std::filesystem::
   auto scene = sim::LoadScene(*folder);
   if (!scene) return tl::unexpected(scene.error());
   auto owned = std::make_unique<sim::Scene>(std::move(*scene));
-  auto navmesh = sim::NavMesh::BuildCached(*owned, config.navmesh);
+  auto navmesh = sim::NavMesh::Open(*owned, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
   return Assemble(std::move(owned), std::move(*navmesh), config);
 }

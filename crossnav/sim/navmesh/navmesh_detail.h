@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <recastnavigation/DetourNavMesh.h>
@@ -76,6 +78,10 @@ void DropIslands(dtNavMesh& mesh, const Scene& scene, const NavMeshSettings& set
 std::vector<std::uint8_t> SaveTiles(const dtNavMesh& mesh, std::uint64_t key);
 /// Null unless the bytes are exactly the output of SaveTiles for `key`.
 DetourMesh LoadTiles(const std::vector<std::uint8_t>& bytes, std::uint64_t key);
+
+/// Tiles of a file of habitat-sim in our Recast frame (navmesh_habitat_read.cpp). Each is checked:
+/// the file may come from anywhere. Error kMalformed: `where` and what is wrong.
+Result<DetourMesh> ReadHabitatTiles(std::string_view file, const std::string& where);
 
 /// Floors derived from the finished mesh (navmesh_floors.cpp).
 struct FloorPlan {

@@ -135,9 +135,14 @@ Json Root(Json primitives, Json materials) {
   return root;
 }
 
-Json MaterialJson(const sim::Scene& scene, const sim::Material& m) {
+double FactorOf(std::uint8_t byte, RenderColours colours) {
+  return colours == RenderColours::kLinear ? LinearOfSrgb(byte) : byte / 255.0;
+}
+
+Json MaterialJson(const sim::Scene& scene, const sim::Material& m, RenderColours colours) {
   Json pbr = {{"baseColorFactor",
-               {LinearOfSrgb(m.colour.r), LinearOfSrgb(m.colour.g), LinearOfSrgb(m.colour.b), 1.0}},
+               {FactorOf(m.colour.r, colours), FactorOf(m.colour.g, colours),
+                FactorOf(m.colour.b, colours), 1.0}},
               {"metallicFactor", 0.0},
               {"roughnessFactor", 1.0}};
   Json material;
@@ -153,7 +158,7 @@ Json MaterialJson(const sim::Scene& scene, const sim::Material& m) {
 }
 
 Json RenderPrimitive(const sim::Scene& scene, const std::vector<std::uint32_t>& group, int material,
-                     Buffers& buffers) {
+                     RenderColours encoding, Buffers& buffers) {
   const auto& mesh = scene.mesh;
   std::vector<std::uint32_t> new_index(mesh.vertices.size(), kNone);
   std::vector<std::uint32_t> used;
@@ -184,7 +189,11 @@ Json RenderPrimitive(const sim::Scene& scene, const std::vector<std::uint32_t>& 
     std::vector<std::array<std::uint16_t, 4>> colours;  // linear: 8 bits would lose the dark tones
     for (auto v : used) {
       const Rgb8 c = mesh.vertex_colours[v];
-      colours.push_back({Linear16(c.r), Linear16(c.g), Linear16(c.b), 65535});
+      const auto number = [encoding](std::uint8_t byte) {
+        return encoding == RenderColours::kLinear ? Linear16(byte)
+                                                  : static_cast<std::uint16_t>(byte * 257);
+      };
+      colours.push_back({number(c.r), number(c.g), number(c.b), 65535});
     }
     attributes["COLOR_0"] = buffers.AddAccessor(colours, kUnsignedShort, "VEC4", kArrayBuffer);
     buffers.accessors.back()["normalized"] = true;
@@ -245,14 +254,14 @@ Rgb8 SemanticColour(int instance_id) {
           static_cast<std::uint8_t>(c)};
 }
 
-std::string EncodeRenderGlb(const sim::Scene& scene) {
+std::string EncodeRenderGlb(const sim::Scene& scene, RenderColours colours) {
   Buffers buffers;
   Json primitives = Json::array(), materials = Json::array();
   const auto groups = TrianglesByMaterial(scene);
   for (std::size_t m = 0; m < groups.size(); ++m) {
-    materials.push_back(MaterialJson(scene, scene.materials[m]));
+    materials.push_back(MaterialJson(scene, scene.materials[m], colours));
     if (groups[m].empty()) continue;
-    primitives.push_back(RenderPrimitive(scene, groups[m], static_cast<int>(m), buffers));
+    primitives.push_back(RenderPrimitive(scene, groups[m], static_cast<int>(m), colours, buffers));
   }
   Json root = Root(std::move(primitives), std::move(materials));
   AddImages(scene, root, buffers);

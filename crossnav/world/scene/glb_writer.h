@@ -12,8 +12,14 @@
 
 namespace crossnav::world {
 
+/// Numbers of colour factors and vertex colours: linear light, as glTF defines them, or the
+/// picture's own (sRGB / 255) for renderers that multiply them with a texture's bytes as they are,
+/// as habitat-sim does.
+enum class RenderColours { kLinear, kAsShown };
+
 /// One primitive per material, textures embedded as PNG, vertex colours if the scene has them.
-std::string EncodeRenderGlb(const sim::Scene& scene);
+std::string EncodeRenderGlb(const sim::Scene& scene,
+                            RenderColours colours = RenderColours::kLinear);
 
 /// Encoding of instances in vertex colours: as bytes, which renderers take for linear light, or as
 /// 16-bit linear light, which every renderer converts to the bytes of the semantic text.
