@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace crossnav::app {
 
 using Json = nlohmann::ordered_json;
 
-Json NoiseJson(const evaluation::DepthStatistics& statistics) {
+namespace {
+
+Json Document(const evaluation::DepthStatistics& statistics) {
   Json sigmas = Json::array(), lost = Json::array();
   for (int d = 0; d < 4; ++d) {
     Json row = {{"from_m", evaluation::kDistances_m[d]}, {"sigma_m", Json::array()}};
@@ -26,7 +29,14 @@ Json NoiseJson(const evaluation::DepthStatistics& statistics) {
                                std::max(1.0, static_cast<double>(statistics.edges))}};
 }
 
-std::string NoiseText(const Json& noise) {
+}  // namespace
+
+std::string NoiseJson(const evaluation::DepthStatistics& statistics) {
+  return Document(statistics).dump();
+}
+
+std::string NoiseText(const evaluation::DepthStatistics& statistics) {
+  const Json noise = Document(statistics);
   std::string text = "  noise about planes [mm], angles of 0, 30, 60, 75 degrees and more:";
   for (const Json& row : noise["sigmas"]) {
     text += fmt::format(" | from {} m:", row["from_m"].get<double>());

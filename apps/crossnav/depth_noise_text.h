@@ -3,14 +3,15 @@
 // cameras").
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "crossnav/evaluation/episodes/depth_statistics.h"
 
 namespace crossnav::app {
 
-nlohmann::ordered_json NoiseJson(const evaluation::DepthStatistics& statistics);
-std::string NoiseText(const nlohmann::ordered_json& noise);
+/// A JSON object.
+std::string NoiseJson(const evaluation::DepthStatistics& statistics);
+/// Two lines.
+std::string NoiseText(const evaluation::DepthStatistics& statistics);
 
 }  // namespace crossnav::app

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "crossnav/evaluation/episodes/held_out.h"
@@ -26,6 +27,7 @@ namespace crossnav::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 constexpr int kHeldOut = 4;  // every fourth frame, from the fourth
 constexpr double kFloorBand_m = 0.25;
@@ -110,6 +112,8 @@ class RoomTrial {
     return {};
   }
 
+  std::string Noise() const { return NoiseText(noise_); }
+
   Json Document() const {
     evaluation::HeldOutResult result;
     for (const Observation& obs : held_out_) evaluation::AddHeldOut(map_, obs, &result);
@@ -124,7 +128,7 @@ class RoomTrial {
                  {"violated_share", static_cast<double>(result.violations) / rays},
                  {"floor", FloorJson(map_)},
                  {"frames_with_stairs_by_geometry", flights_},
-                 {"noise", NoiseJson(noise_)},
+                 {"noise", Json::parse(NoiseJson(noise_))},
                  {"plants", nullptr}};
     if (plants_) json["plants"] = Json::parse(plants_->PlacesJson());
     if (plants_) json["known_plants"] = KnownPlants();
@@ -159,14 +163,16 @@ class RoomTrial {
   int frames_ = 0, flights_ = 0;
 };
 
-Result<Json> TryRoom(const fs::path& folder, const recordings::RecordingOptions& options,
-                     const evaluation::RunConfig& config, perception::PerceptionSuite* suite) {
+Result<std::pair<Json, std::string>> TryRoom(const fs::path& folder,
+                                             const recordings::RecordingOptions& options,
+                                             const evaluation::RunConfig& config,
+                                             perception::PerceptionSuite* suite) {
   const bool has_known = folder.filename() == "hololens";
   RoomTrial trial(config, suite, has_known ? kPlants : std::span<const PlantPixels>());
   const auto read = recordings::ReadRecording(
       folder, options, [&](const auto&, const auto& frame) { return trial.Add(frame.obs); });
   if (!read) return tl::unexpected(read.error());
-  return trial.Document();
+  return std::pair(trial.Document(), trial.Noise());
 }
 
 std::string RoomText(const char* name, const Json& room) {
@@ -184,7 +190,6 @@ std::string RoomText(const char* name, const Json& room) {
                         floor["tilt_deg"].get<double>(), floor["residual_m"].get<double>());
   text += fmt::format("\n  frames in which geometry claims stairs: {}\n",
                       room["frames_with_stairs_by_geometry"].get<int>());
-  text += NoiseText(room["noise"]);
   if (room["plants"].is_null()) return text + "  plants: not looked for (--perception networks)\n";
   for (const Json& plant : room["plants"])
     text += fmt::format("  plant at ({:.2f}, {:.2f}, {:.2f}), {} frames, best {:.2f}\n",
@@ -238,14 +243,14 @@ Result<void> BenchSensors(const SensorTrialOptions& options, const CommonOptions
     if (!fs::exists(data / name, error)) continue;
     auto room = TryRoom(data / name, recording, *config, suite ? &*suite : nullptr);
     if (!room) return tl::unexpected(room.error());
-    text += RoomText(name, *room);
-    document[name] = std::move(*room);
+    text += RoomText(name, room->first) + room->second;
+    document[name] = std::move(room->first);
   }
   if (fs::exists(data / "stairs", error)) {
     auto stairs = TryStairs(data / "stairs", suite ? &*suite : nullptr);
     if (!stairs) return tl::unexpected(stairs.error());
-    text += StairsText(*stairs);
-    document["stairs"] = std::move(*stairs);
+    text += stairs->text;
+    document["stairs"] = Json::parse(stairs->json);
   }
   if (document.empty())
     return Fail(ErrorCode::kNotFound, "holds none of the folders hololens, rgbd and stairs",

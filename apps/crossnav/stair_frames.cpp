@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "crossnav/core/colour_grid.h"
 #include "crossnav/core/read_file.h"
@@ -19,6 +20,7 @@ namespace crossnav::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 // Of the stairs' clouds, by least squares: of the points on depth times pixel, and of the points'
 // colours on those of the colour picture.
@@ -127,48 +129,56 @@ std::string FlightText(const Json& flight) {
                      flight["riser_m"].get<double>(), flight["tread_m"].get<double>());
 }
 
-}  // namespace
+struct Frame {
+  Json json;
+  std::string text;
+};
 
-Result<Json> TryStairs(const fs::path& folder, perception::PerceptionSuite* suite) {
-  Json frames = Json::array();
-  for (const char* name : {"0000", "0001"}) {
-    const auto obs = ReadFrame(folder, name);
-    if (!obs) return tl::unexpected(obs.error());
-    const auto find = [&](const MaskImage& mask) {
-      return FlightJson(geometry::FindTreads(obs->depth_m, obs->camera, obs->T_world_camera, mask));
-    };
-    Json frame = find({});
-    frame["frame"] = name;
-    evaluation::DepthStatistics noise;
-    evaluation::AddFrame(WithColourOnDepthGrid(*obs), &noise);
-    frame["noise"] = NoiseJson(noise);
-    frame["on_carpet"] = find(CarpetOf(*obs));
-    frame["with_mask"] = nullptr;
-    if (suite != nullptr) {
-      const auto mask = MaskOf(*obs, *suite->stairs);
-      if (!mask) return tl::unexpected(mask.error());
-      frame["with_mask"] = find(*mask);
-      double share = 0;
-      for (const auto is_stair : mask->data) share += is_stair;
-      frame["with_mask"]["mask_share"] = share / static_cast<double>(mask->data.size());
-    }
-    frames.push_back(std::move(frame));
+/// By geometry alone, on the carpet, and in the mask of a network where there is one.
+Result<Frame> TryFrame(const fs::path& folder, const std::string& name,
+                       perception::PerceptionSuite* suite) {
+  const auto obs = ReadFrame(folder, name);
+  if (!obs) return tl::unexpected(obs.error());
+  const auto find = [&](const MaskImage& mask) {
+    return FlightJson(geometry::FindTreads(obs->depth_m, obs->camera, obs->T_world_camera, mask));
+  };
+  Frame frame{find({}), {}};
+  evaluation::DepthStatistics noise;
+  evaluation::AddFrame(WithColourOnDepthGrid(*obs), &noise);
+  frame.json["frame"] = name;
+  frame.json["on_carpet"] = find(CarpetOf(*obs));
+  frame.json["with_mask"] = nullptr;
+  frame.json["noise"] = Json::parse(NoiseJson(noise));
+  frame.text = fmt::format("stairs {}: {}\n  on the carpet, by its colour: {}\n", name,
+                           FlightText(frame.json), FlightText(frame.json["on_carpet"]));
+  if (suite != nullptr) {
+    const auto mask = MaskOf(*obs, *suite->stairs);
+    if (!mask) return tl::unexpected(mask.error());
+    Json masked = find(*mask);
+    double share = 0;
+    for (const auto is_stair : mask->data) share += is_stair;
+    masked["mask_share"] = share / static_cast<double>(mask->data.size());
+    frame.text += fmt::format("  in the network's stair mask ({:.0f} % of the picture): {}\n",
+                              100 * masked["mask_share"].get<double>(), FlightText(masked));
+    frame.json["with_mask"] = std::move(masked);
   }
-  return frames;
+  frame.text += NoiseText(noise);
+  return frame;
 }
 
-std::string StairsText(const Json& frames) {
-  std::string text;
-  for (const Json& frame : frames) {
-    text += fmt::format("stairs {}: {}\n", frame["frame"].get<std::string>(), FlightText(frame));
-    text += fmt::format("  on the carpet, by its colour: {}\n", FlightText(frame["on_carpet"]));
-    text += NoiseText(frame["noise"]);
-    const Json& masked = frame["with_mask"];
-    if (!masked.is_null())
-      text += fmt::format("  in the network's stair mask ({:.0f} % of the picture): {}\n",
-                          100 * masked["mask_share"].get<double>(), FlightText(masked));
+}  // namespace
+
+Result<StairFrames> TryStairs(const fs::path& folder, perception::PerceptionSuite* suite) {
+  Json all = Json::array();
+  StairFrames frames;
+  for (const char* name : {"0000", "0001"}) {
+    auto frame = TryFrame(folder, name, suite);
+    if (!frame) return tl::unexpected(frame.error());
+    all.push_back(std::move(frame->json));
+    frames.text += frame->text;
   }
-  return text;
+  frames.json = all.dump();
+  return frames;
 }
 
 }  // namespace crossnav::app

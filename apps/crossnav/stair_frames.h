@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "crossnav/core/result.h"
@@ -12,12 +11,14 @@
 
 namespace crossnav::app {
 
-using Json = nlohmann::ordered_json;
+/// What was found, as a JSON array of an object a frame, and in words.
+struct StairFrames {
+  std::string json, text;
+};
 
 /// `folder` holds 0000_depth.png, 0000_color.png, 0000_imu.txt and the same of 0001. Without
-/// `suite` by geometry alone. One object a frame.
-Result<Json> TryStairs(const std::filesystem::path& folder, perception::PerceptionSuite* suite);
-
-std::string StairsText(const Json& frames);
+/// `suite` by geometry alone.
+Result<StairFrames> TryStairs(const std::filesystem::path& folder,
+                              perception::PerceptionSuite* suite);
 
 }  // namespace crossnav::app
