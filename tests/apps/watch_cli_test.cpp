@@ -27,7 +27,7 @@ TEST_F(WatchCli, APortThatIsTakenIsOneLineWithARemedyBeforeAnyWork) {
   ExpectFailure(RunOf(" --watch-port " + port), {"127.0.0.1:" + port, "--watch-port, or 0"});
   ExpectFailure("serve --perception none --socket s.sock --watch-port " + port,
                 {"127.0.0.1:" + port});
-  EXPECT_FALSE(fs::exists(At("out")));
+  EXPECT_FALSE(crossnav::test::fs::exists(At("out")));
   EXPECT_EQ(Run(RunOf(" --watch-port 70000")).exit_code, 2);
 }
 

@@ -12,9 +12,13 @@
 #include "crossnav/core/rng.h"
 #include "sim/micro_scene.h"
 #include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::sim::test {
 namespace {
+
+using crossnav::test::TempFolder;
+using crossnav::test::WriteText;
 
 template <class T>
 T Take(const std::string& bytes, std::size_t& at) {
