@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/objects/object_record.h"
