@@ -4,7 +4,6 @@
 // multiplies them, a good view of the place without the object divides them. World frame, metres.
 #pragma once
 
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
