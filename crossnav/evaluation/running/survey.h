@@ -6,6 +6,7 @@
 // metres. Deterministic.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "crossnav/core/result.h"
@@ -14,6 +15,7 @@
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/sim/sensing/simulator.h"
 
 namespace crossnav::evaluation {
 
@@ -33,6 +35,9 @@ struct SceneSurvey {
 
 /// Costs some 6 ms a view of 640 x 640, eight views a square metre or so. Errors: objects that are
 /// to be known to an encoder of another kind than ground truth's (eval.perception = networks).
-Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known);
+/// `on_view` sees every view besides.
+using OnView = std::function<void(const Observation&, const sim::Simulator&)>;
+Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
+                                const OnView& on_view = {});
 
 }  // namespace crossnav::evaluation
