@@ -142,9 +142,9 @@ struct FailedViews {
 /// Odds of the rooms for a goal that is at no place that the memory believes.
 struct RoomSearch {
   std::map<int, double> odds;  ///< by room of the graph
-  double best = 0;             ///< of the rooms with ground that was not inspected
+  double mean = 0;             ///< over the rooms with ground that was not inspected
   double unseen = 1;           ///< mass of the ground that was not inspected
-  int step = 0;                ///< of the last refresh of `best` and `unseen`
+  int step = 0;                ///< of the last refresh of `mean` and `unseen`
 };
 
 /// Goal state of policy.profile = full.
