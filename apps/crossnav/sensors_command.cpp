@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `bench sensors`: frames of real sensors, mapped and judged by frames that were held out, by what
-// is level, and by what people can see in them (docs/recordings.md, "Held to real sensors").
+// `bench sensors`: maps frames of real sensors and scores them by held-out frames, by level
+// surfaces, and by hand-labelled objects (docs/recordings.md, "Held to real sensors").
 #include <fmt/format.h>
 
 #include <array>
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 constexpr int kHeldOut = 4;  // every fourth frame, from the fourth
 constexpr double kFloorBand_m = 0.25;
 
-// Of the stairs' clouds, by least squares of the points on depth times pixel [px].
+// Intrinsics of the stairs' clouds, by a least-squares fit of the points to depth times pixel [px].
 constexpr CameraIntrinsics kStairCamera = {512, 424, 365.4, 365.4, 254.3, 209.1};
 
 Json FlightJson(const geometry::TreadFlight& flight) {
@@ -40,7 +40,7 @@ Json FlightJson(const geometry::TreadFlight& flight) {
       {"treads", flight.treads.size()}, {"riser_m", flight.riser_m}, {"tread_m", flight.tread_m}};
 }
 
-/// Storeys of the map, and the plane through what lies near the lowest one's height.
+/// Storeys of the map, and the plane through the surface near the lowest storey's height.
 Json FloorJson(const geometry::VoxelMap& map) {
   const auto storeys = scenegraph::FindStoreys(map);
   if (storeys.empty()) return {{"storeys", 0}};
@@ -58,8 +58,8 @@ Json FloorJson(const geometry::VoxelMap& map) {
           {"residual_m", fit.residual_m}};
 }
 
-/// Pixels of the big plant before a window in hololens, stated by hand: the inner part of its
-/// foliage, as it appears in the colour image. Frames are counted from 0.
+/// Pixels of the big plant before a window in hololens, labelled by hand: the inner part of its
+/// foliage in the colour image. Frames are counted from 0.
 struct PlantPixels {
   const char* file;
   int frame;
@@ -67,7 +67,8 @@ struct PlantPixels {
 };
 constexpr std::array<PlantPixels, 2> kPlants = {
     {{"00111.png", 27, {190, 130, 300, 300}}, {"00321.png", 79, {225, 100, 335, 280}}}};
-constexpr double kCrown_m = 0.4;  // chosen: half the width of a tall plant; farther is background
+// chosen: half the width of a tall plant; farther points are background
+constexpr double kCrown_m = 0.4;
 
 /// Mean of the points in the box within kCrown_m of its median depth.
 std::optional<Vector3d> PointOf(const PlantPixels& plant, const Observation& obs) {
@@ -139,7 +140,7 @@ class RoomTrial {
   }
 
  private:
-  /// Each plant of kPlants and the nearest place that the detector found.
+  /// Each plant of kPlants and the nearest place found by the detector.
   Json KnownPlants() const {
     Json all = Json::array();
     for (const auto& [file, p] : known_plants_) {
@@ -175,7 +176,7 @@ Result<Json> TryRoom(const fs::path& folder, const recordings::RecordingOptions&
   return trial.Document();
 }
 
-/// Third line of the stairs' IMU files: pitch down and roll in degrees come first.
+/// Third line of the stairs' IMU files: begins with pitch down and roll in degrees.
 Result<Pose> PoseOfImu(const fs::path& file) {
   const auto text = ReadFile(file, 1 << 16);
   if (!text) return tl::unexpected(text.error());

@@ -14,7 +14,7 @@ constexpr double kStep_m = 0.15;        // chosen: neighbours farther apart lie 
 constexpr double kSmooth_m = 0.01;      // chosen: between neighbours of one tread
 constexpr double kLeastArea_m2 = 0.02;  // chosen: a foot is 0.02 m2
 constexpr double kSameHeight_m = 0.03;  // chosen: parts of one tread
-constexpr double kLowRiser_m = 0.07, kHighRiser_m = 0.25;    // chosen: what people build
+constexpr double kLowRiser_m = 0.07, kHighRiser_m = 0.25;    // chosen: range of built stairs
 constexpr double kShortTread_m = 0.15, kLongTread_m = 0.50;  // chosen: likewise
 constexpr double kRiserSpread_m = 0.04;                      // chosen: risers of one flight
 constexpr double kTreadSpread_m = 0.15;  // chosen: centres move where parts are hidden

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "crossnav/core/setting.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/policy/live_poi.h"
 
@@ -28,13 +29,13 @@ struct VerifyConfig {
 
 template <class V>
 void Visit(V& visit, VerifyConfig& c) {
-  visit("memory", c.memory, {"on", "off"});
-  visit("refute_margin", c.refute_margin, 0.0, 2.0);
-  visit("strong_margin", c.strong_margin, -2.0, 2.0);
-  visit("strong_confidence", c.strong_confidence, 0.0, 1.0);
-  visit("view_angle_deg", c.view_angle_deg, 0.0, 180.0);
-  visit("view_baseline_m", c.view_baseline_m, 0.0, 10.0);
-  visit("new_evidence", c.new_evidence, 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, memory), {"on", "off"});
+  visit(CROSSNAV_SETTING(c, refute_margin), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, strong_margin), -2.0, 2.0);
+  visit(CROSSNAV_SETTING(c, strong_confidence), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, view_angle_deg), 0.0, 180.0);
+  visit(CROSSNAV_SETTING(c, view_baseline_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, new_evidence), 0.0, 1.0);
 }
 
 /// A name and its unit text vector.
@@ -51,19 +52,19 @@ std::span<const char* const> RivalNames();
 struct MemoryOpinion {
   double goal = 0;         ///< cosine of the fused feature with the goal's text
   double best_other = -1;  ///< and with the best of the other names; -1 without any
-  std::string other;       ///< that name
+  std::string other;       ///< name with that cosine
   int rows = 0;            ///< feature-bearing voxels
   double Margin() const { return goal - best_other; }
 };
 
-/// Mean over the object's voxels of all that was fused there, by its confidence, against the goal
-/// and against `others`. nullopt where the memory holds nothing of it.
+/// Mean over the object's voxels of the fused features, weighted by confidence, compared with the
+/// goal and with `others`. nullopt if the memory has no features there.
 std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
                                        const std::vector<VoxelKey>& voxels,
                                        std::span<const float> goal,
                                        const std::vector<NamedText>& others);
 
-/// From which sides an object was claimed: camera places that are pairwise other views.
+/// Views from which an object was claimed: camera places with pairwise different views.
 struct ClaimViews {
   int poi_id = 0;
   std::vector<Vector3d> p_cameras_world;
@@ -100,13 +101,13 @@ struct ClaimTracker {
 /// to `revived`.
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimTracker* book,
+                                      const VerifyConfig& config, ClaimTracker* tracker,
                                       std::vector<int>* revived);
 
-/// Notes from where each POI was claimed in this frame with the confidence that STOP asks for.
+/// Notes the camera place of each POI that this frame claims with the confidence for STOP.
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimTracker* book);
+               const VerifyConfig& config, ClaimTracker* tracker);
 
 enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 

@@ -20,7 +20,7 @@ TEST_F(SensorsCli, AMapOfRealFramesHoldsInFramesThatWereLeftOut) {
   const Json room = Json::parse(outcome.out)["hololens"];
   EXPECT_EQ(room["frames"], 94);
   EXPECT_EQ(room["held_out"], 23);
-  EXPECT_LT(room["median_error_m"].get<double>(), 0.1);  // a voxel; half of one is asked
+  EXPECT_LT(room["median_error_m"].get<double>(), 0.1);  // a voxel; half a voxel is required
   EXPECT_LT(room["violated_share"].get<double>(), 0.02);
   EXPECT_EQ(room["floor"]["storeys"], 1);
   EXPECT_LT(room["floor"]["tilt_deg"].get<double>(), 1.0);
