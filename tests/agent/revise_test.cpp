@@ -125,6 +125,21 @@ TEST(Revise, AnObjectThatIsGoneIsKnownToBeGoneTheNextDay) {
     EXPECT_EQ(step.find("\"visit\""), std::string::npos);
 }
 
+TEST(Revise, WhatIsNowhereIsSaidToBeGoneInLessThanHalfTheSteps) {
+  const Night night = FirstDay();
+  std::vector<std::size_t> steps;
+  for (const char* mode : {"keep", "revise"}) {
+    BoxWalker walker = Rearranged(nullptr);
+    Agent agent(ConfigOf(mode), FakeSuite(SightOf(BoxOf(90, 90, 0, 91, 91, 1))));
+    Wake(night, 1, &agent);
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    const Walk walk = RunAgent(agent, walker, 600);
+    EXPECT_TRUE(walk.all_explored) << mode;
+    steps.push_back(walk.traces.size());
+  }
+  EXPECT_LT(2 * steps[1], steps[0]) << steps[1] << " and " << steps[0];
+}
+
 TEST(Revise, AMovedObjectIsFoundAndBelievedWhereItIsNow) {
   const Night night = FirstDay();
   for (const char* mode : {"keep", "revise"}) {
