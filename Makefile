@@ -22,7 +22,7 @@ TIDY := $(or $(XDG_DATA_HOME),$(HOME)/.local/share)/crossnav/clang-tidy-$(shell 
 SOURCES := $(shell find crossnav apps tests benchmarks python examples -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-.PHONY: help setup demo test test-long golden bench networks results wheel packages try-packages format lint asan tsan fuzz docs clean \
+.PHONY: help setup demo test test-long golden bench networks results viewer wheel packages format lint asan tsan fuzz docs clean \
   program everything
 
 help:  ## this list
@@ -67,6 +67,10 @@ results: program  ## a suite in every variant, into docs/results.md (the full on
 
 networks: program  ## render frames, train, export and evaluate the networks (hours on a CPU)
 	@networks/make.sh
+
+viewer:  ## the replay page of viewer/src as one file, viewer/dist/replay.html
+	@scripts/setup.sh viewer
+	@cd viewer && node build.mjs
 
 wheel: setup $(BUILD)/build.ninja  ## the Python package as a wheel under build/wheel
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms crossnav

@@ -2,7 +2,7 @@
 # crossnav_library(<room> SOURCES ... [DEPS <rooms>] [PUBLIC <targets>] [PRIVATE <targets>])
 # A room is a static library crossnav::<room>. DEPS are the only other rooms it may include.
 function(crossnav_warnings target)
-  # GCC 12 warns of overlap inside std::string (its bug 105329).
+  # GCC 12 warns falsely of overlap inside std::string (its bug 105329).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
@@ -35,7 +35,7 @@ function(crossnav_test room)
     set(ARG_TIMEOUT 300)
   endif()
   if(CROSSNAV_SANITIZE)
-    math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")  # which make programs many times slower
+    math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")  # which slow programs down many times
   endif()
   add_executable(test_${room} ${ARG_SOURCES})
   foreach(dep IN LISTS ARG_DEPS)
@@ -43,7 +43,7 @@ function(crossnav_test room)
   endforeach()
   target_link_libraries(test_${room} PRIVATE ${ARG_LIBS} GTest::gtest_main)
   target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
-  # Data handed to the project from outside; tests that need it are skipped where it is absent.
+  # Data supplied from outside the project; tests that need it are skipped if it is absent.
   target_compile_definitions(test_${room} PRIVATE
     CROSSNAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
     CROSSNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -13,7 +13,7 @@ shift
 out="$root/build/portable"
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
 
-# OpenVINO's TBB serves Embree too, so that a process with both has one version of it.
+# OpenVINO's TBB also serves Embree, so that a process with both has one version of it.
 openvino=$(sed -n 's/^OpenVinoWheel_LIBS:INTERNAL=//p' "$prebuilt/CMakeCache.txt")
 export LD_LIBRARY_PATH="$openvino${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 

@@ -182,14 +182,19 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(
                              std::min(object.secondary_confidence, hint.detector_confidence));
   sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
   goal.full.hints.Update(sightings, hint, config.map.voxel_m, world.step);
+  const std::vector<policy::Sighting> all = sightings;
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;
   });
   // Paper, "Final Target-Object Approach": during the approach the detection is updated.
   const int approached = config.policy.profile == "paper" ? goal.active_live : -1;
   goal.live.Update(sightings, object, config.map.voxel_m, world.step, approached);
-  if (DoubtsClaims(config))
-    NoteViews(goal.live.all(), sightings, p_camera_world, object, config.verify, &goal.full.claims);
+  if (DoubtsClaims(config)) {
+    const policy::VerifyConfig& verify = config.verify;
+    NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);
+    if (verify.evidence == "views")
+      NoteScores(goal.live.all(), all, p_camera_world, object, verify, &goal.full.claims);
+  }
   return sightings;
 }
 
