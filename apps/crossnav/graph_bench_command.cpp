@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `bench graph`: rooms and floors of generated houses' maps against the plans they were built from.
+// `bench graph`: rooms and floors of generated houses' maps against the plans of the houses.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -70,7 +70,7 @@ Result<evaluation::RunConfig> ConfigOf(const MapBuildOptions& options,
   return LoadConfig(all);
 }
 
-/// The file that is written when all is done: one that can be, and none but a map is replaced.
+/// Checks, before the work, that the output can be written; only maps are replaced.
 Result<void> CheckOut(const std::string& out) {
   if (auto ok = evaluation::CheckOutputFile(out, "--out"); !ok) return ok;
   std::error_code error;
@@ -80,7 +80,7 @@ Result<void> CheckOut(const std::string& out) {
   return {};
 }
 
-/// Map and memory while they grow.
+/// Map and memory under construction.
 class Builder {
  public:
   Builder(const evaluation::RunConfig& config, perception::PerceptionSuite* suite,
@@ -138,7 +138,7 @@ class Builder {
   double start_ms_;
 };
 
-/// The detector's answer to the goal.
+/// Text of the detector's places for the goal.
 std::string GoalText(const GoalSightings& sightings, const std::string& goal,
                      const std::string& detector) {
   if (!sightings.is_known())
@@ -220,7 +220,7 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
   if (!recording) return tl::unexpected(recording.error());
   console.EndProgress();
   const std::filesystem::path from =
-      std::filesystem::path(options.from) / "";  // a name with or without a slash behind it
+      std::filesystem::path(options.from) / "";  // accepts a trailing slash
   const auto saved = builder.Save(options.out, encoder,
                                   recording->format + " " + from.parent_path().filename().string());
   if (!saved) return tl::unexpected(saved.error());

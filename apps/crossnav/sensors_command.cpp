@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `bench sensors`: frames of real sensors, mapped and judged by frames that were held out, by what
-// is level, and by what people can see in them (docs/recordings.md, "Held to real sensors").
+// `bench sensors`: maps frames of real sensors and scores them by held-out frames, by level
+// surfaces, and by hand-labelled objects (docs/recordings.md, "Held to real sensors").
 #include <fmt/format.h>
 
 #include <array>
@@ -50,8 +50,8 @@ Json FloorJson(const geometry::VoxelMap& map) {
           {"residual_m", fit.residual_m}};
 }
 
-/// Pixels of the big plant before a window in hololens, stated by hand: the inner part of its
-/// foliage, as it appears in the colour image. Frames are counted from 0.
+/// Pixels of the big plant before a window in hololens, labelled by hand: the inner part of its
+/// foliage in the colour image. Frames are counted from 0.
 struct PlantPixels {
   const char* file;
   int frame;
@@ -59,7 +59,8 @@ struct PlantPixels {
 };
 constexpr std::array<PlantPixels, 2> kPlants = {
     {{"00111.png", 27, {190, 130, 300, 300}}, {"00321.png", 79, {225, 100, 335, 280}}}};
-constexpr double kCrown_m = 0.4;  // chosen: half the width of a tall plant; farther is background
+// chosen: half the width of a tall plant; farther points are background
+constexpr double kCrown_m = 0.4;
 
 /// Mean of the points in the box within kCrown_m of its median depth.
 std::optional<Vector3d> PointOf(const PlantPixels& plant, const Observation& obs) {
@@ -135,7 +136,7 @@ class RoomTrial {
   }
 
  private:
-  /// Each plant of kPlants and the nearest place that the detector found.
+  /// Each plant of kPlants and the nearest place found by the detector.
   Json KnownPlants() const {
     Json all = Json::array();
     for (const auto& [file, p] : known_plants_) {

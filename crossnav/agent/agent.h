@@ -38,14 +38,14 @@ class Agent {
   struct Impl;
 
  public:
-  /// `hooks` decide what the user wants to decide (agent/hooks.h, policy.profile = full); they must
+  /// `hooks` replace decisions of the policy (agent/hooks.h, policy.profile = full); they must
   /// outlive the agent.
   Agent(const Config& config, perception::PerceptionSuite perception, Hooks* hooks = nullptr);
   ~Agent();
   Agent(Agent&&) noexcept;
 
-  /// Activates a goal: text vector, similarity field, POIs, path and verification start anew;
-  /// map, stairs and features stay as they are.
+  /// Activates a goal: text vector, similarity field, POIs, path and verification restart; map,
+  /// stairs and features stay.
   Result<void> SetGoal(const std::string& goal);
 
   /// Starts from a saved memory, the lifelong case: the map's states, stairs and features are known
@@ -55,9 +55,9 @@ class Agent {
                        std::vector<geometry::StairFlight> flights = {},
                        const std::vector<geometry::SeenStair>& seen_stairs = {});
 
-  /// One step. Colour with a grid of its own is brought onto that of depth first; where the
-  /// observation says how the camera is mounted, that goes before sensor.camera_height_m. Errors: a
-  /// malformed observation (sizes, NaN pose) or a failing network.
+  /// One step. Colour with its own grid is first registered to the grid of depth; a mounting in the
+  /// observation takes precedence over sensor.camera_height_m. Errors: a malformed observation
+  /// (sizes, NaN pose) or a failing network.
   Result<StepResult> Step(const Observation& obs);
 
   const Config& config() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Price of an exploration candidate [m]: its path, the turns before the first step, and the terms
 // of its class, of the floor prior, of turning back on a flight, and of the commitment
-// (docs/navigation.md, "What to do").
+// (docs/navigation.md, "Activities").
 #pragma once
 
 #include <vector>

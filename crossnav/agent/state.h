@@ -105,8 +105,8 @@ struct HistoryPoi {
   int looked = 0;                       ///< frames spent looking at it on arrival
 };
 
-/// Views of a hint or live POI with too low confidence: the next one is nearer while the confidence
-/// rises, then from another side.
+/// Views of a hint or live POI with too low confidence: the next view is nearer while the
+/// confidence rises, then from another side.
 struct CloseLooks {
   int poi_id = -1;
   std::vector<Vector3d> p_from_world;  ///< foot positions of the views so far

@@ -121,9 +121,9 @@ const ClaimViews* ClaimTracker::ViewsOf(int poi_id) const {
 
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimTracker* book,
+                                      const VerifyConfig& config, ClaimTracker* tracker,
                                       std::vector<int>* revived) {
-  auto& rejected = book->rejected;
+  auto& rejected = tracker->rejected;
   std::erase_if(sightings, [&](const Sighting& sighting) {
     const auto it = std::find_if(rejected.begin(), rejected.end(), [&](const RejectedObject& r) {
       return IsOfRejected(sighting, r, object);
@@ -145,7 +145,7 @@ std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
 
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimTracker* book) {
+               const VerifyConfig& config, ClaimTracker* tracker) {
   for (const LivePoi& poi : pois) {
     const bool is_claimed =
         std::any_of(sightings.begin(), sightings.end(), [&](const Sighting& sighting) {
@@ -153,7 +153,7 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
                  IsOf(sighting, poi.voxels, poi.p_center_world, object);
         });
     if (!is_claimed) continue;
-    auto it = std::find_if(book->views.begin(), book->views.end(),
+    auto it = std::find_if(tracker->views.begin(), tracker->views.end(),
                            [&](const ClaimViews& v) { return v.poi_id == poi.id; });
     if (it == book->views.end()) it = book->views.insert(it, ClaimViews{poi.id, {}, {}});
     if (IsNewView(poi.p_center_world, p_camera_world, it->p_cameras_world, config))

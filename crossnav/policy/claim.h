@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "crossnav/core/setting.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/policy/view_evidence.h"
@@ -60,19 +61,19 @@ std::span<const char* const> RivalNames();
 struct MemoryOpinion {
   double goal = 0;         ///< cosine of the fused feature with the goal's text
   double best_other = -1;  ///< and with the best of the other names; -1 without any
-  std::string other;       ///< that name
+  std::string other;       ///< name with that cosine
   int rows = 0;            ///< feature-bearing voxels
   double Margin() const { return goal - best_other; }
 };
 
-/// Mean over the object's voxels of all that was fused there, by its confidence, against the goal
-/// and against `others`. nullopt where the memory holds nothing of it.
+/// Mean over the object's voxels of the fused features, weighted by confidence, compared with the
+/// goal and with `others`. nullopt if the memory has no features there.
 std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
                                        const std::vector<VoxelKey>& voxels,
                                        std::span<const float> goal,
                                        const std::vector<NamedText>& others);
 
-/// From which sides an object was claimed: camera places that are pairwise other views.
+/// Views from which an object was claimed: camera places with pairwise different views.
 struct ClaimViews {
   int poi_id = 0;
   std::vector<Vector3d> p_cameras_world;
@@ -110,13 +111,13 @@ struct ClaimTracker {
 /// to `revived`.
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimTracker* book,
+                                      const VerifyConfig& config, ClaimTracker* tracker,
                                       std::vector<int>* revived);
 
-/// Notes from where each POI was claimed in this frame with the confidence that STOP asks for.
+/// Notes the camera place of each POI that this frame claims with the confidence for STOP.
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimTracker* book);
+               const VerifyConfig& config, ClaimTracker* tracker);
 
 /// Notes the score of each POI in this frame, weak ones too, at the view it belongs to.
 void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,

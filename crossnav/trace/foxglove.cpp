@@ -24,7 +24,7 @@ ProtoMessage Xyz(const Vector3d& v) {
 }
 
 ProtoMessage Rotation(Quaterniond q) {
-  if (q.w() < 0) q.coeffs() = -q.coeffs();  // one of the two signs
+  if (q.w() < 0) q.coeffs() = -q.coeffs();  // canonical sign: q and -q are the same rotation
   return ProtoMessage().Double(1, q.x()).Double(2, q.y()).Double(3, q.z()).Double(4, q.w());
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The paper's networks from their public Python packages, wrapped so that crossnav's adapters can use what they export.
+"""The paper's networks from their public Python packages, wrapped so that crossnav's adapters can use their exports.
 
 Each function takes a `Wish` and gives a `Made`: modules with their inputs, and the lines of the card. With `small` the same classes are built with few
 channels, for tests; without weights they are random, by the seed.
@@ -138,11 +138,11 @@ def decode_box(sam, embeddings, box):
 
 
 def small_sam(modeling, TinyViT):
-    side, dim = 1024, 16  # the class works at this size alone
+    side, dim = 1024, 16  # the class works at this size only
     encoder = TinyViT(img_size=side, in_chans=3, num_classes=10, embed_dims=[8, 16, 16, 16], depths=[1, 1, 1, 1], num_heads=[1, 2, 2, 2],
                       window_sizes=[4, 4, 4, 4], mlp_ratio=2.0, drop_rate=0.0, drop_path_rate=0.0, use_checkpoint=False,
                       mbconv_expand_ratio=2.0, local_conv_size=3, layer_lr_decay=0.8)
-    encoder.layers[2].downsample.conv2.c.stride = (1, 1)  # as the class does for the width of the real one
+    encoder.layers[2].downsample.conv2.c.stride = (1, 1)  # as for the real width
     encoder.neck[0] = nn.Conv2d(16, dim, 1, bias=False)
     for i, size in ((1, dim), (3, dim)):
         encoder.neck[i] = type(encoder.neck[i])(size)
@@ -229,11 +229,11 @@ def yolo_world_open(wish):
             row[3] += [dim] if row[2] == "C2fAttn" else []
         description["head"][-1][3] = [count, dim, True]
         short = type("Short", (tasks.WorldModel,), {"txt_feats": property(lambda _: torch.zeros(1, count, dim), lambda *_: None)})
-        model = prepared(short(description, nc=count, verbose=False))  # the class begins with words of 512 numbers
+        model = prepared(short(description, nc=count, verbose=False))  # initial words have 512 numbers
     else:
         model = prepared(ultralytics_model(wish, "yolov8-worldv2.yaml", "WorldModel"))
     model.model[-1].nc = count
-    if not wish.weights:  # as they begin, every score is nothing and every box is the picture
+    if not wish.weights:  # initially all scores are zero and all boxes cover the picture
         for words_head, box_head in zip(model.model[-1].cv4, model.model[-1].cv2):
             words_head.bias.data.fill_(-1.0)
             words_head.logit_scale.data.fill_(1.5)
@@ -275,7 +275,7 @@ def rtdetr(wish):
             d_model=16, num_queries=20, decoder_in_channels=[16, 16, 16], decoder_ffn_dim=16, decoder_layers=1, decoder_attention_heads=2,
             hidden_expansion=0.5, num_labels=len(wish.labels), disable_custom_kernels=True))
     else:
-        model = RTDetrForObjectDetection(RTDetrConfig(num_labels=len(wish.labels), initializer_range=0.15))  # with its own all scores are equal
+        model = RTDetrForObjectDetection(RTDetrConfig(num_labels=len(wish.labels), initializer_range=0.15))  # else all scores are equal
     size = wish.size or (64 if wish.small else 640)
     labels = list(model.config.id2label.values()) if wish.weights else wish.labels
     inputs = {"images": image(size), "orig_target_sizes": torch.tensor([[size, size]])}
@@ -308,6 +308,8 @@ def yolov7(wish):
         labels = list(model.names)
     else:
         model, labels = yolov7_package.models.yolo.Model(yolov7_description(len(wish.labels), 16 if wish.small else 1)), wish.labels
+        for end in model.model[-1].m:  # as they begin, every score is nothing
+            end.bias.data.zero_()
     model.eval().model[-1].concat = True
     size = wish.size or (64 if wish.small else 640)
     card = f'family = "yolov7"\n{labels_line(labels)}\n[input]\nsize = {size}\nresize = "letterbox"\nantialias = false\n'

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Messages of ROS 2 to observations and commands to messages (docs/live.md). Needs no ROS.
 
-Messages are read by their fields, so that rclpy's classes and those of the package rosbags both do.
+Messages are read by their fields, so that the classes of rclpy and of the package rosbags are both accepted.
 """
 
 from typing import Any

@@ -205,7 +205,7 @@ class StubTime(int):
 
 
 class StubNode:
-    """What the example uses of rclpy's Node."""
+    """The subset of rclpy's Node that the example uses."""
 
     def __init__(self, name: str) -> None:
         self.sent: list[Any] = []
@@ -239,7 +239,7 @@ class StubTransformError(Exception):
 
 
 class StubBuffer:
-    """What tf2 knows: TRANSFORMS."""
+    """The transforms of tf2: TRANSFORMS."""
 
     def lookup_transform(self, target: str, source: str, time: Any) -> Any:
         if (target, source) not in TRANSFORMS:

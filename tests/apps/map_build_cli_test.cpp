@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `map build` as a user types it: what it prints and writes, and that errors leave nothing behind.
+// `map build` from the command line: its output, and that errors leave no files behind.
 #include <gtest/gtest.h>
 
 #include "apps/cli_fixture.h"
@@ -18,7 +18,7 @@ class MapBuildCli : public test::Cli {
   static void TearDownTestSuite() {}
   void SetUp() override {}
 
-  /// Exit 1, a message with all parts, and no file besides those in `kept`.
+  /// Exit 1, a message with all parts, and no file except those in `kept`.
   void ExpectRefusal(const std::string& arguments, const std::vector<std::string>& parts,
                      int kept = 0) {
     const Outcome outcome = Run("map build --quiet " + arguments);

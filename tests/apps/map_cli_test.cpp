@@ -54,7 +54,7 @@ TEST_F(MapCli, QueryTellsBestViewAndAReachablePlaceToStand) {
     EXPECT_GE(place["observation"]["path_m"], 0);
   }
   EXPECT_GT(reachable, 0);
-  // The same place from elsewhere: as good a view, another way.
+  // The same place from elsewhere: an equally good view, another path.
   const auto at = places[0]["observation"]["position"].get<std::vector<double>>();
   const Json here = Query("m.map sofa --from " + std::to_string(at[0]) + "," +
                           std::to_string(at[1]) + "," + std::to_string(at[2]))["places"];
@@ -77,7 +77,7 @@ TEST_F(MapCli, ContrastiveRelevancyIsOffUnlessAskedFor) {
   EXPECT_NE(test::ReadText(At("a.ply")), test::ReadText(At("b.ply")));
 }
 
-TEST_F(MapCli, WhatIsNotInTheMapIsAbsentAndWhatIsInItHasAMatchOnTheScale) {
+TEST_F(MapCli, UnknownObjectsAreAbsentAndKnownObjectsHaveAMatch) {
   ASSERT_EQ(Run(RunCommand() + " --save-map m.map --set eval.action_budget=120").exit_code, 0);
   const Json sofa = Query("m.map sofa");
   EXPECT_EQ(sofa["verdict"], "present");

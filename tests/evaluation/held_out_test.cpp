@@ -77,7 +77,7 @@ TEST(HeldOut, ARayThatEndsInTheMiddleOfFreeSpaceViolatesIt) {
   EXPECT_NEAR(result.errors_m.front(), 1.54, 0.1);
 }
 
-TEST(HeldOut, WhatTheMapDoesNotKnowIsNoViolation) {
+TEST(HeldOut, UnknownSpaceIsNoViolation) {
   HeldOutResult result;
   AddHeldOut(MapOfWall(3.04), LookAtWall(4.0), &result);
   EXPECT_EQ(result.violations, 0);

@@ -10,7 +10,7 @@ namespace {
 class MapBlocksTest : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Clearing, MapBlocksTest, ::testing::Values("never", "evidence"));
 
-TEST_P(MapBlocksTest, ARestoredMapIsTheSameAndGoesOnTheSame) {
+TEST_P(MapBlocksTest, ARestoredMapIsEqualAndStaysEqual) {
   MapConfig config;
   config.clearing = GetParam();
   VoxelMap map(config);

@@ -45,7 +45,7 @@ TEST_F(DetrFamily, GivesTheGoalsBoxesInTheFrameOncePerObject) {
   EXPECT_EQ((*model)->MakeEncoder(), nullptr);
 }
 
-/// What the Python reference (Pillow, ONNX Runtime) finds of a goal in docs/images/home.png.
+/// Result of the Python reference (Pillow, ONNX Runtime) for a goal in docs/images/home.png.
 struct Golden {
   const char *network, *goal;
   double score, left, top, right, bottom;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Perception from pixels is from pixels: what the simulator knows of instances changes nothing.
+// Perception from pixels uses pixels only: the simulator's instances do not influence it.
 #include <sched.h>
 
 #include <algorithm>

@@ -48,7 +48,7 @@ TEST(Opinion, IsNoneWhereNothingIsRemembered) {
   EXPECT_FALSE(OpinionOf(memory, Column(0), std::vector<float>{1, 0}, {}).has_value());
 }
 
-TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedOnesNoMore) {
+TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedClaimsEnd) {
   const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.7, 0.7, "sofa", 9},
       denies{0.5, 0.9, "sofa", 9};
   EXPECT_EQ(Judge(agrees, 0.9, 1, kConfig), ClaimVerdict::kAgreed);

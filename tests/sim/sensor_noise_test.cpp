@@ -165,7 +165,7 @@ TEST(SensorNoise, DriftGrowsWithTheRootOfTheSteps) {
   EXPECT_NEAR(StatisticsOf(x_m).mean, 0, 0.004);
 }
 
-TEST(SensorNoise, YawDriftBendsTheBelievedWay) {
+TEST(SensorNoise, YawDriftBendsTheBelievedPath) {
   const NoiseConfig noise = With([](NoiseConfig& c) { c.drift_yaw_deg = 0.2; });
   std::vector<double> yaw_deg, y_m;
   for (std::uint64_t episode = 0; episode < 2000; ++episode) {

@@ -16,9 +16,9 @@ using geometry::VoxelKey;
 using geometry::VoxelMap;
 using geometry::VoxelState;
 
-constexpr int kStep_px = 4;  // chosen: neighbouring rays tell the same
+constexpr int kStep_px = 4;  // chosen: neighbouring rays carry the same information
 
-/// Shares of the segment at which it enters and leaves the voxel.
+/// Fractions of the segment at entry into and exit from the voxel.
 std::pair<double, double> ThroughVoxel(const Vector3d& from, const Vector3d& to,
                                        const VoxelKey& key) {
   double enter = 0, leave = 1;
@@ -57,7 +57,8 @@ std::optional<double> PredictedDepth(const VoxelMap& map, const Observation& obs
   const Vector3d to = obs.T_world_camera * BackProjectPixel(obs.camera, u, v, far_m) / voxel_m;
   VoxelMap::Cursor cursor(map);
   std::optional<double> depth_m;
-  bool has_begun = false;  // the sensor is blind near the camera: what lies there need not be known
+  bool has_begun = false;  // the sensor is blind near the camera: unknown voxels before the first
+                           // known voxel are allowed
   geometry::WalkRay(from, to, [&](const VoxelKey& key) {
     const VoxelState state = cursor.At(key).state;
     if (state == VoxelState::kUnknown) return !has_begun;

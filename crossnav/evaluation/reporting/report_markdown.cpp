@@ -105,7 +105,7 @@ std::string StageTable(const std::vector<ReportRun>& runs, const std::vector<Rep
   return text;
 }
 
-/// Each track of each run; a run that has several is pooled in no row. Empty where none is known.
+/// Each track of each run; no row pools tracks. Empty without tracks.
 std::string TrackTable(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures) {
   std::string rows;
@@ -154,7 +154,7 @@ std::string OutcomeTableText(const ReportRun& run) {
   return text;
 }
 
-/// Why stages failed; one line per cause, the most frequent first.
+/// Causes of failed stages; a line per cause, the most frequent first.
 std::string CauseTableText(const ReportRun& run) {
   std::vector<std::string> head = {"cause", "stages"};
   for (std::size_t i = 1; i < kOutcomeNames.size(); ++i) head.emplace_back(kOutcomeNames[i]);
@@ -200,7 +200,7 @@ std::string CategoryTableText(const ReportRun& run) {
   return text;
 }
 
-/// The episodes of a run that have no result; nothing where all have one.
+/// Episodes of a run without a result; empty if there are none.
 std::string FailedEpisodes(const ReportRun& run) {
   if (CountFailures(run.episodes).empty()) return {};
   std::string text = "\n### Failed episodes\n\nThey count as not successful.\n\n" +

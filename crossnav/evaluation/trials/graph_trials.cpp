@@ -45,7 +45,7 @@ void AddRect(const world::Rect& rect, double cell_m, Cells& cells) {
       if (rect.Contains({(x + 0.5) * cell_m, (y + 0.5) * cell_m})) cells.emplace(x, y);
 }
 
-/// True rooms of one level: those of one open group together.
+/// True rooms of one level; rooms of an open group count as one.
 std::vector<Cells> RoomsOf(const world::HousePlan& plan, int level, double cell_m) {
   std::map<int, Cells> by_group;
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
@@ -76,7 +76,7 @@ double IouOf(const Cells& a, const Cells& b) {
   return all > 0 ? static_cast<double>(shared) / all : 0;
 }
 
-/// The floor at the height of one of the storey's levels, or -1.
+/// The graph's floor at the height of one of the storey's levels, or -1.
 int FloorOf(const scenegraph::SceneGraph& graph, const world::HousePlan& plan,
             const TrueStorey& storey) {
   for (const auto& floor : graph.floors)

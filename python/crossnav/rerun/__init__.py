@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 PathLike = Union[str, "os.PathLike[str]"]
 MAP_EVERY = 10
-"""Steps from one drawing of the whole map to the next."""
+"""Steps between two drawings of the whole map."""
 
 
 def _needed() -> None:
@@ -66,7 +66,7 @@ def log(result: "StepResult", observation: "Observation | None" = None,
         draw.statics(stream)
     draw.step_record(stream, record)
     if observation is not None:
-        if observation.rgb_camera is not None:  # boxes lie on the grid of depth
+        if observation.rgb_camera is not None:  # boxes are on the grid of depth
             observation = observation.registered()
         k = observation.camera
         camera = Camera(k.width_px, k.height_px,
@@ -81,7 +81,7 @@ def log(result: "StepResult", observation: "Observation | None" = None,
 
 
 class _Drawing:
-    """What has to be known from one frame of a replay to the next."""
+    """State carried from frame to frame of a replay."""
 
     def __init__(self, replay: "Replay", stream: "rr.RecordingStream", map_every: int) -> None:
         self.stream, self.map_every = stream, max(1, map_every)
