@@ -9,6 +9,7 @@
 namespace crossnav {
 namespace {
 
+namespace fs = std::filesystem;
 using test::kSmall;
 using test::Outcome;
 using test::ReadText;
