@@ -23,6 +23,7 @@ ROOMS = {
     "memory": {"core", "geometry"},
     "planner": {"core", "geometry"},
     "policy": _LEFT,
+    "localization": {"core", "geometry", "memory", "planner", "policy"},
     "trace": {"core", "geometry", "policy"},
     "agent": _AGENT - {"agent"},
     "serve": {"core", "perception", "agent"},
@@ -32,7 +33,7 @@ ROOMS = {
     "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory"},
     "scenegraph": {"core", "geometry", "memory"},
-    "evaluation": _AGENT | {"scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
+    "evaluation": _AGENT | {"localization", "scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
 }
 
 # Rooms whose files lie in folders: what each folder may include of its own room besides itself.

@@ -288,6 +288,14 @@ struct GraphBenchOptions {
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console);
 
+struct LocalizeBenchOptions {
+  std::string scenes;
+  int count = 100;
+  std::uint64_t seed = 1;
+};
+Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOptions& common,
+                           Console& console);
+
 struct SensorTrialOptions {
   std::string data;        ///< folder
   std::string perception;  ///< none | networks; empty = networks where those of `real` are there

@@ -351,6 +351,7 @@ void AddTools(CLI::App& app, Options& o) {
   graph->add_option("--edition", o.graph_bench.edition, "Of the generator")
       ->check(CLI::Range(1, 2));
   graph->add_option("--pictures", o.graph_bench.pictures, "Folder for a picture of each floor");
+  AddLocalizeBench(*bench, o);
   CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",
                             "crossnav bench noise --scenes scenes --episodes e.json --count 12",
                             [&o](Console& c) { return BenchNoise(o.noise, o.common, c); });

@@ -42,6 +42,7 @@ struct Options {
   StairsOptions stairs;
   NoiseSweepOptions noise;
   GraphBenchOptions graph_bench;
+  LocalizeBenchOptions localize_bench;
   SensorTrialOptions sensor_trials;
   ServeOptions serve;
   Command command;
@@ -60,6 +61,8 @@ void AddRunVerbs(CLI::App& app, Options& options);
 void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.
 void AddReplay(CLI::App& app, Options& options);
+/// `bench localize`.
+void AddLocalizeBench(CLI::App& bench, Options& options);
 /// `bench sensors`.
 void AddSensorTrials(CLI::App& bench, Options& options);
 
