@@ -44,7 +44,7 @@ Json TrialJson(const LostTrial& trial) {
           {"off_deg", trial.off_deg},
           {"agreement", trial.answer.agreement},
           {"lead", trial.answer.lead},
-          {"hypotheses", trial.answer.hypotheses},
+          {"rivals", trial.answer.rivals},
           {"actions", trial.actions},
           {"cpu_s", trial.cpu_s}};
 }
@@ -53,10 +53,10 @@ std::string FailureLine(const LostTrial& trial) {
   const Vector3d& p = trial.start.p_world;
   return fmt::format(
       "{:<8} {} floor {} at {:.2f} {:.2f} {:.2f} yaw {:.0f}: agreement {:.3f}, lead {:.3f}, {} "
-      "hypotheses, off {:.2f} m {:.1f} deg, {} actions\n",
+      "rivals, off {:.2f} m {:.1f} deg, {} actions\n",
       WordOf(trial), trial.house, trial.floor, p.x(), p.y(), p.z(), RadToDeg(trial.start.yaw_rad),
-      trial.answer.agreement, trial.answer.lead, trial.answer.hypotheses, trial.off_m,
-      trial.off_deg, trial.actions);
+      trial.answer.agreement, trial.answer.lead, trial.answer.rivals, trial.off_m, trial.off_deg,
+      trial.actions);
 }
 
 struct Summary {
@@ -82,8 +82,8 @@ void Report(const Summary& s, const LocalizeBenchOptions& options, Console& cons
   const double cpu_s = evaluation::PercentileOf(s.cpu_s, 0.5);
   const double p95_actions = evaluation::PercentileOf(s.actions, 0.95);
   const double p95_cpu_s = evaluation::PercentileOf(s.cpu_s, 0.95);
-  console.Print(s.failures + Share("right", s.right, s.trials) +
-                Share("wrong", s.wrong, s.trials) + Share("unknown", unknown, s.trials) +
+  console.Print(s.failures + Share("right", s.right, s.trials) + Share("wrong", s.wrong, s.trials) +
+                Share("unknown", unknown, s.trials) +
                 fmt::format("actions  median {:.0f}, p95 {:.0f}\n", actions, p95_actions) +
                 fmt::format("CPU      median {:.2f} s, p95 {:.2f} s\n", cpu_s, p95_cpu_s));
   console.Document(Json({{"seed", options.seed},
@@ -99,15 +99,13 @@ void Report(const Summary& s, const LocalizeBenchOptions& options, Console& cons
 }
 
 /// `count` trials in one house; numbers go on over houses, so that no two are alike.
-Result<void> TryHouse(const evaluation::SceneContext& context,
-                      const evaluation::RunConfig& config, const LocalizeBenchOptions& options,
-                      int count, Summary& summary) {
+Result<void> TryHouse(const evaluation::SceneContext& context, const evaluation::RunConfig& config,
+                      const LocalizeBenchOptions& options, int count, Summary& summary) {
   const auto map = evaluation::SurveyedMap(context, config);
   if (!map) return tl::unexpected(map.error());
   for (int i = 0; i < count; ++i) {
-    const auto trial =
-        evaluation::TryLost(context, *map, config,
-                            options.seed + static_cast<std::uint64_t>(summary.trials), i);
+    const auto trial = evaluation::TryLost(
+        context, *map, config, options.seed + static_cast<std::uint64_t>(summary.trials), i);
     if (!trial) return tl::unexpected(trial.error());
     summary.Add(*trial);
   }
@@ -126,8 +124,8 @@ Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOpti
   const int houses = static_cast<int>(ids->size());
   for (int i = 0; i < houses; ++i) {
     console.Progress(fmt::format("house {} of {}", i + 1, houses));
-    const auto context =
-        evaluation::SceneContext::Load(options.scenes, (*ids)[static_cast<std::size_t>(i)], *config);
+    const auto context = evaluation::SceneContext::Load(
+        options.scenes, (*ids)[static_cast<std::size_t>(i)], *config);
     if (!context) return tl::unexpected(context.error());
     const int count = options.count * (i + 1) / houses - options.count * i / houses;
     if (auto ok = TryHouse(**context, *config, options, count, summary); !ok) return ok;

@@ -10,9 +10,7 @@ constexpr std::uint8_t kAtSurface = 60;  // chosen: within a voxel and a half of
 constexpr double kMargin_m = 0.3;        // chosen: before the end, where the surface itself begins
 constexpr double kMarginShare = 0.1;     // chosen: of the beam, which may graze its surface
 
-constexpr double kUnknownShare = 0.5;    // chosen: of a beam about which the map says nothing
-
-enum class Verdict { kNothing, kAgrees, kContradicts };
+constexpr double kUnknownShare = 0.5;  // chosen: of a beam about which the map says nothing
 
 /// Walks in steps of half a voxel: the first surface before the beam's end is in its way.
 bool IsBlocked(const DenseMap& map, const Vector3d& eye_map, const Vector3d& end_map) {
@@ -22,8 +20,7 @@ bool IsBlocked(const DenseMap& map, const Vector3d& eye_map, const Vector3d& end
   int inside = 0;
   for (double s = 0.2; s < length_m - margin_m; s += step_m) {
     const Vector3d p = eye_map + along * (s / length_m);
-    const bool is_surface =
-        map.ContentAt(geometry::KeyOf(p, map.voxel_m)) == Content::kSurface;
+    const bool is_surface = map.ContentAt(geometry::KeyOf(p, map.voxel_m)) == Content::kSurface;
     inside = is_surface ? inside + 1 : 0;
     if (inside >= 2) return true;  // not a mere corner of a voxel
   }
@@ -42,19 +39,17 @@ Verdict Judge(const DenseMap& map, const Vector3d& eye_map, const Vector3d& end_
 }  // namespace
 
 void CheckBeams(const DenseMap& map, const std::vector<Beam>& beams, Hypothesis& hypothesis) {
-  int agreeing = 0, informative = 0;
+  double agreeing = 0;
   const Eigen::Isometry3f T = hypothesis.T_map_odom.cast<float>();
+  hypothesis.verdicts.clear();
   for (const Beam& beam : beams) {
-    const Verdict verdict = Judge(map, (T * beam.p_eye_odom).cast<double>(),
-                                  (T * beam.p_end_odom).cast<double>());
-    if (verdict == Verdict::kNothing) continue;
-    ++informative;
-    agreeing += verdict == Verdict::kAgrees ? 1 : 0;
+    const Verdict verdict =
+        Judge(map, (T * beam.p_eye_odom).cast<double>(), (T * beam.p_end_odom).cast<double>());
+    hypothesis.verdicts.push_back(verdict);
+    if (verdict == Verdict::kAgrees) agreeing += 1;
+    if (verdict == Verdict::kNothing) agreeing += kUnknownShare;
   }
-  const auto all = static_cast<double>(beams.size());
-  hypothesis.beams = informative;
-  hypothesis.agreement =
-      beams.empty() ? 0 : (agreeing + kUnknownShare * (all - informative)) / all;
+  hypothesis.agreement = beams.empty() ? 0 : agreeing / static_cast<double>(beams.size());
 }
 
 }  // namespace crossnav::localization

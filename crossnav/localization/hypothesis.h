@@ -3,19 +3,47 @@
 // (gravity is known), so that it has four degrees of freedom.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "crossnav/core/pose.h"
 #include "crossnav/localization/localize_config.h"
 
 namespace crossnav::localization {
 
+/// What the map says of one beam under a hypothesis.
+enum class Verdict : std::uint8_t { kNothing, kAgrees, kContradicts };
+
 struct Hypothesis {
   Pose T_map_odom = Pose::Identity();
-  double score = 0;      ///< mean of the points' scores, 0 to 100
-  double agreement = 0;  ///< share of the informative beams that agree with the map, 0 to 1
-  int beams = 0;         ///< informative ones
+  double score = 0;  ///< mean of the points' scores, 0 to 100
+  double agreement =
+      0;  ///< share of beams that agree with the map; those it is silent on count half
+  std::vector<Verdict> verdicts;  ///< of the scan's beams
 };
+
+/// How far `a` is ahead of `b`: beams that speak for one of them only.
+struct Lead {
+  int won = 0, lost = 0;
+
+  double share(std::size_t beams) const {
+    return beams > 0 ? static_cast<double>(won - lost) / static_cast<double>(beams) : 0;
+  }
+  /// Standard deviations by which `won` exceeds `lost`, were beams independent; they are not.
+  double sigmas() const { return won > lost ? (won - lost) / std::sqrt(double(won + lost)) : 0; }
+};
+inline Lead LeadOf(const Hypothesis& a, const Hypothesis& b) {
+  Lead lead;
+  for (std::size_t i = 0; i < std::min(a.verdicts.size(), b.verdicts.size()); ++i) {
+    const bool for_a = a.verdicts[i] == Verdict::kAgrees, for_b = b.verdicts[i] == Verdict::kAgrees;
+    lead.won += for_a && !for_b ? 1 : 0;
+    lead.lost += for_b && !for_a ? 1 : 0;
+  }
+  return lead;
+}
 
 /// The pose that puts `p_odom` at `p_map` with the odometry's axes turned by `yaw_rad`.
 inline Pose PlaceAt(const Vector3d& p_map, double yaw_rad, const Vector3d& p_odom) {

@@ -29,7 +29,8 @@ void LocalScan::Add(const Observation& obs) {
   const std::size_t before = beams_.size();
   const Vector3f p_eye = obs.T_world_camera.translation().cast<float>();
   ForEachPixel(obs, kPointsAcross, reach_m_, [&](const Vector3f& p) {
-    if (taken_.insert(geometry::KeyOf(p.cast<double>(), voxel_m_)).second) points_odom_.push_back(p);
+    if (taken_.insert(geometry::KeyOf(p.cast<double>(), voxel_m_)).second)
+      points_odom_.push_back(p);
   });
   ForEachPixel(obs, kBeamsAcross, reach_m_, [&](const Vector3f& p) {
     beams_.push_back({p_eye, p});

@@ -6,25 +6,15 @@
 
 #include "crossnav/core/cells.h"
 #include "crossnav/localization/pose_search.h"
+#include "crossnav/localization/walk.h"
 
 namespace crossnav::localization {
 namespace {
 
 constexpr double kScanVoxel_m = 0.05;  // chosen: half a voxel of the map
-constexpr double kPadUp_m = 4;         // chosen: a scan's points above and below the map's box
+constexpr int kRecheckEvery = 2;       // chosen: actions; half a metre of walking
 
 }  // namespace
-
-Result<PlacedMap> PlaceMap(const geometry::VoxelMap& map, const LocalizeConfig& config) {
-  auto dense = MakeDenseMap(map, config.reach_m + 1, kPadUp_m);
-  if (!dense) return tl::unexpected(dense.error());
-  PlacedMap placed{std::move(*dense), planner::GroundMap(map.config()), {}};
-  placed.ground.Rebuild(map);
-  placed.places = StandingPlaces(map, placed.ground, config.place_step_m);
-  if (placed.places.empty())
-    return Fail(ErrorCode::kInvalid, "the map has no ground to stand on", "map");
-  return placed;
-}
 
 std::string_view NameOf(Status status) {
   switch (status) {
@@ -46,69 +36,107 @@ struct Localizer::Impl {
   Body body;
   LocalizeConfig config;
   LocalScan scan;
-  std::vector<Hypothesis> hypotheses;
+  std::vector<Hypothesis> hypotheses;  // best first
   LocalizeStep last;
   int actions = 0;
-  int turns = 0;
+  int turns = 0;  // of the look around that goes on
+  Walk walk;
 
   LocalizeStep Step(const Observation& obs);
-  void Attempt(const Vector3d& p_foot_odom);
-  void Decide(const Vector3d& p_foot_odom);
+  void SearchAnew(const Vector3d& p_foot_odom);
+  void Recheck(const Vector3d& p_foot_odom, std::vector<Hypothesis> all);
+  void Decide();
+  void LookAround(const AgentPose& foot_odom);
+  std::optional<Action> NextAction(const AgentPose& foot_odom);
   int TurnsAround() const { return CellsNearest(360, body.action.turn_deg); }
 };
 
-/// Searches anew, keeps what was believed before, and orders all by their beams.
-void Localizer::Impl::Attempt(const Vector3d& p_foot_odom) {
-  std::vector<Hypothesis> all =
-      SearchPoses(map.dense, map.places, scan, p_foot_odom, config);
+/// Searches the whole map, and does not forget what was believed before.
+void Localizer::Impl::SearchAnew(const Vector3d& p_foot_odom) {
+  std::vector<Hypothesis> all = SearchPoses(map.dense, map.places, scan, p_foot_odom, config);
+  all.insert(all.end(), hypotheses.begin(), hypotheses.end());
+  Recheck(p_foot_odom, std::move(all));
+}
+
+/// Brings all up to date with what was seen and keeps the best that differ.
+void Localizer::Impl::Recheck(const Vector3d& p_foot_odom, std::vector<Hypothesis> all) {
   const auto points = RefinePoints(scan, p_foot_odom, config);
-  for (Hypothesis& h : hypotheses) {
-    Refine(map.dense, points, p_foot_odom, config, h);
-    all.push_back(h);
+  for (Hypothesis& h : all) {
+    if (!h.verdicts.empty()) Refine(map.dense, points, p_foot_odom, config, h);
+    CheckBeams(map.dense, scan.beams(), h);
   }
-  for (Hypothesis& h : all) CheckBeams(map.dense, scan.beams(), h);
   std::stable_sort(all.begin(), all.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.agreement > b.agreement;
   });
   hypotheses.clear();
-  for (const Hypothesis& h : all) {
-    const bool is_known =
+  for (Hypothesis& h : all) {
+    const bool is_listed =
         std::any_of(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& other) {
           return IsSame(h.T_map_odom, other.T_map_odom, p_foot_odom, config);
         });
-    if (!is_known) hypotheses.push_back(h);
+    if (!is_listed) hypotheses.push_back(std::move(h));
     if (static_cast<int>(hypotheses.size()) >= config.kept) break;
   }
+  Decide();
 }
 
-void Localizer::Impl::Decide(const Vector3d& p_foot_odom) {
-  Attempt(p_foot_odom);
+/// Known is a best hypothesis that the beams agree with, and that is ahead of every other.
+void Localizer::Impl::Decide() {
   last = LocalizeStep{};
   if (hypotheses.empty()) return;
   const Hypothesis& best = hypotheses.front();
+  const std::size_t beams = scan.beams().size();
   last.T_map_odom = best.T_map_odom;
   last.agreement = best.agreement;
-  last.lead = best.agreement - (hypotheses.size() > 1 ? hypotheses[1].agreement : 0);
-  for (const Hypothesis& h : hypotheses)
-    last.hypotheses += best.agreement - h.agreement < config.least_lead ? 1 : 0;
-  const bool is_sure = best.beams >= config.least_beams &&
-                       best.agreement >= config.least_agreement && last.lead >= config.least_lead;
+  last.lead = 1;
+  for (const Hypothesis& h : hypotheses) {
+    if (&h == &best) continue;
+    const double share = LeadOf(best, h).share(beams);
+    last.lead = std::min(last.lead, share);
+    last.rivals += share < config.least_lead ? 1 : 0;
+  }
+  const bool is_sure = static_cast<int>(beams) >= config.least_beams &&
+                       best.agreement >= config.least_agreement && last.rivals == 0;
   if (is_sure) last.status = Status::kKnown;
+}
+
+/// One more of the turns of a look around; attempts come with views that do not overlap.
+void Localizer::Impl::LookAround(const AgentPose& foot_odom) {
+  const bool is_last = turns == TurnsAround() - 1;
+  if (turns % config.attempt_every_turns == 0 || is_last) SearchAnew(foot_odom.p_world);
+}
+
+std::optional<Action> Localizer::Impl::NextAction(const AgentPose& foot_odom) {
+  if (actions >= config.action_budget) return std::nullopt;
+  if (turns < TurnsAround() - 1) {
+    ++turns;
+    return Action::kTurnLeft;
+  }
+  const auto action = walk.Next(map, body, scan, hypotheses, last.rivals, foot_odom);
+  if (!action && walk.HasArrived()) {
+    turns = 1;
+    return Action::kTurnLeft;
+  }
+  return action;
 }
 
 LocalizeStep Localizer::Impl::Step(const Observation& obs) {
   if (last.status != Status::kLocalising) return last;
   scan.Add(obs);
-  const Vector3d p_foot_odom = FootPoseOf(obs, body.camera_height_m).p_world;
-  const bool is_due = turns % config.attempt_every_turns == 0 || turns == TurnsAround() - 1;
-  if (is_due) Decide(p_foot_odom);
+  const AgentPose foot_odom = FootPoseOf(obs, body.camera_height_m);
+  if (walk.IsUnderWay()) {
+    if (actions % kRecheckEvery == 0) Recheck(foot_odom.p_world, std::move(hypotheses));
+  } else {
+    LookAround(foot_odom);
+  }
   if (last.status == Status::kKnown) return last;
-  if (turns >= TurnsAround() - 1 || actions >= config.action_budget) {
+  const auto action = NextAction(foot_odom);
+  if (!action) {
     last.status = Status::kUnknown;
     return last;
   }
-  ++turns, ++actions;
-  last.action = Action::kTurnLeft;
+  ++actions;
+  last.action = *action;
   return last;
 }
 

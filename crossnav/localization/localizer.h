@@ -7,28 +7,18 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "crossnav/core/action.h"
 #include "crossnav/core/observation.h"
 #include "crossnav/core/result.h"
-#include "crossnav/localization/dense_map.h"
 #include "crossnav/localization/hypothesis.h"
 #include "crossnav/localization/local_scan.h"
 #include "crossnav/localization/localize_config.h"
-#include "crossnav/planner/ground_map.h"
+#include "crossnav/localization/placed_map.h"
 
 namespace crossnav::localization {
-
-/// A saved map, prepared for localisation. Read only once made.
-struct PlacedMap {
-  DenseMap dense;
-  planner::GroundMap ground;
-  std::vector<geometry::VoxelKey> places;  ///< where the search puts the foot
-};
-
-/// Errors: a map without ground, or too large (dense_map.h).
-Result<PlacedMap> PlaceMap(const geometry::VoxelMap& map, const LocalizeConfig& config = {});
 
 enum class Status { kLocalising, kKnown, kUnknown };
 
@@ -37,18 +27,11 @@ std::string_view NameOf(Status status);
 
 struct LocalizeStep {
   Status status = Status::kLocalising;
-  Action action = Action::kStop;  ///< while localising
+  Action action = Action::kStop;       ///< while localising
   Pose T_map_odom = Pose::Identity();  ///< once known
-  double agreement = 0;           ///< of the best hypothesis
-  double lead = 0;                ///< of it over the second
-  int hypotheses = 0;             ///< that could not be told from the best
-};
-
-/// How the robot looks and moves.
-struct Body {
-  double camera_height_m = 0.88;
-  ActionConfig action;
-  geometry::MapConfig map;
+  double agreement = 0;                ///< of the best hypothesis
+  double lead = 0;                     ///< of it over the second
+  int rivals = 0;                      ///< hypotheses that could not be told from the best
 };
 
 class Localizer {

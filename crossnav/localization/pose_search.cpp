@@ -14,7 +14,7 @@ namespace {
 
 using geometry::VoxelKey;
 
-constexpr int kHeadingSector_deg = 15;  // chosen: one hypothesis a sector and ...
+constexpr int kHeadingSector_deg = 15;    // chosen: one hypothesis a sector and ...
 constexpr double kNeighbourhood_m = 0.6;  // chosen: ... a square of this side
 
 struct GridPose {

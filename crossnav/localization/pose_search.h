@@ -35,7 +35,7 @@ void Refine(const DenseMap& map, const std::vector<Vector3f>& points, const Vect
 std::vector<Vector3f> RefinePoints(const LocalScan& scan, const Vector3d& p_foot_odom,
                                    const LocalizeConfig& config);
 
-/// Fills in agreement and beams: a beam agrees that ends at a surface of the map with nothing in
+/// Fills in agreement and verdicts: a beam agrees that ends at a surface of the map with nothing in
 /// its way; it says nothing where the map is unknown.
 void CheckBeams(const DenseMap& map, const std::vector<Beam>& beams, Hypothesis& hypothesis);
 

@@ -61,8 +61,7 @@ Result<LostTrial> TryLost(const SceneContext& context, const localization::Place
   trial.start = simulator.agent();
   const Pose T_odom_world = OdometryOf(trial.start);
   const double camera_height_m = config.agent.sensor.camera_height_m;
-  localization::Localizer localizer(
-      map, {camera_height_m, config.agent.action, config.agent.map});
+  localization::Localizer localizer(map, {camera_height_m, config.agent.action, config.agent.map});
   for (;;) {
     Observation obs = simulator.Observe();
     obs.T_world_camera = T_odom_world * obs.T_world_camera;
