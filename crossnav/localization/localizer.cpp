@@ -103,6 +103,7 @@ void Localizer::Impl::Decide() {
 /// One more of the turns of a look around; attempts come with views that do not overlap.
 void Localizer::Impl::LookAround(const AgentPose& foot_odom) {
   const bool is_last = turns == TurnsAround() - 1;
+  if (turns == 0) return;  // one view alone is seldom enough, and a flat wall never
   if (turns % config.attempt_every_turns == 0 || is_last) SearchAnew(foot_odom.p_world);
 }
 

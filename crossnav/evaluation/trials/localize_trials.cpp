@@ -7,6 +7,8 @@
 #include "crossnav/evaluation/running/survey.h"
 #include "crossnav/evaluation/running/timing.h"
 #include "crossnav/sim/sensing/simulator.h"
+#include "crossnav/world/house/house_generator.h"
+#include "crossnav/world/shell/architecture.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -81,6 +83,31 @@ Result<localization::PlacedMap> SurveyedMap(const SceneContext& context, const R
   const auto survey = SurveyScene(context, config, Known::kMap);
   if (!survey) return tl::unexpected(survey.error());
   return localization::PlaceMap(survey->map);
+}
+
+Result<std::unique_ptr<SceneContext>> TwinHouse(std::uint64_t seed, world::TwinFurniture furniture,
+                                                const RunConfig& config) {
+  world::HouseParams params;
+  params.seed = seed;
+  params.floors = 2;
+  params.has_textures = false;
+  std::string why = "no plan could be drawn";
+  for (int attempt = 0; attempt < world::AttemptsFor(params); ++attempt) {
+    const auto plan = world::DrawFurnishedPlan(params, attempt);
+    if (!plan) continue;
+    Rng rng(MixSeed(seed, static_cast<std::uint64_t>(attempt)));
+    const auto twin = world::TwinFloors(*plan, furniture, {}, rng);
+    if (!twin) {
+      why = twin.error().what;
+      continue;
+    }
+    auto context = SceneContext::Of(world::BuildHouse(*twin), config);
+    if (!context) return context;
+    const sim::NavMesh& navmesh = (*context)->navmesh();
+    if (navmesh.Floors().size() == 2 && !navmesh.Connections().empty()) return context;
+    why = "its floors are not connected";
+  }
+  return Fail(ErrorCode::kNotFound, "no twin floors: " + why, world::SceneIdOf(params));
 }
 
 }  // namespace crossnav::evaluation

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "crossnav/core/pose.h"
@@ -12,6 +13,7 @@
 #include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/evaluation/settings/run_config.h"
 #include "crossnav/localization/localizer.h"
+#include "crossnav/world/house/twin_floors.h"
 
 namespace crossnav::evaluation {
 
@@ -38,5 +40,10 @@ Result<LostTrial> TryLost(const SceneContext& context, const localization::Place
 
 /// The survey of the house as a map to be lost in.
 Result<localization::PlacedMap> SurveyedMap(const SceneContext& context, const RunConfig& config);
+
+/// House `seed` of edition 1 with its upper floor made like the lower one. Error: a house of which
+/// no twin can be made, or whose floors do not come out connected; try another seed.
+Result<std::unique_ptr<SceneContext>> TwinHouse(std::uint64_t seed, world::TwinFurniture furniture,
+                                                const RunConfig& config);
 
 }  // namespace crossnav::evaluation
