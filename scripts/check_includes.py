@@ -26,7 +26,7 @@ ROOMS = {
     "localization": {"core", "geometry", "memory", "planner", "policy"},
     "trace": {"core", "geometry", "policy"},
     "agent": _AGENT - {"agent"},
-    "serve": {"core", "perception", "agent"},
+    "serve": {"core", "perception", "localization", "agent"},
     "sim": {"core", "geometry", "perception"},
     "recordings": {"core", "sim", "trace"},
     "world": {"core", "sim"},

@@ -144,6 +144,7 @@ struct RunOptions {
   std::string replay;    ///< .mcap; empty = none
   std::string save_map;  ///< map file to save the memory to; empty = none
   std::string memory;    ///< map file to start from; empty = none
+  std::string pose;      ///< unknown = to be found in that map; empty = given
   std::string success, budget_scope, perception;
 };
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);

@@ -17,6 +17,7 @@ struct PlayFiles {
   std::filesystem::path page;    ///< .html; empty = none
   std::filesystem::path map;     ///< memory to save; empty = none
   std::filesystem::path memory;  ///< saved memory to start from; empty = none
+  bool is_pose_known = true;     ///< false: the robot has to find itself in that memory
 };
 
 /// Fails unless all of them can be written. Needs no scene, so that nobody waits for the message.

@@ -44,6 +44,9 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   files.replay = options.replay;
   files.map = options.save_map;
   files.memory = options.memory;
+  files.is_pose_known = options.pose != "unknown";
+  if (!files.is_pose_known && files.memory.empty())
+    return Fail(ErrorCode::kInvalid, "a robot can only be lost in a map: give --memory", "--pose");
   if (auto ok = CheckOutputs(files); !ok) return ok;
   SceneCache cache(options.scenes, *config);
   cache.UseGoalsOf(*file);
@@ -94,7 +97,7 @@ Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Conso
   header.networks = perception->Hashes();
   header.scenes[evaluation::SceneName(episode->scene_id)] = HashesOf(**context);
   const auto folder = out / fmt::format("{}", options.number);
-  const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html", {}, {}};
+  const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html", {}, {}, true};
   const auto record =
       PlayEpisode(**context, read->episodes.front(), *config, header, files, *perception, console);
   if (!record) return tl::unexpected(record.error());

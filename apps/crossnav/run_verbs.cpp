@@ -13,6 +13,9 @@ constexpr const char* kVariantHelp =
     "(the literal method); told by "
     "ground truth: known-map, known-objects";
 
+constexpr const char* kPoseHelp =
+    "unknown: the robot has to find itself in --memory; default: given";
+
 void AddPerception(CLI::App* verb, std::string& perception) {
   verb->add_option("--perception", perception,
                    "oracle (ground truth), or networks; default: eval.perception")
@@ -54,6 +57,7 @@ void AddRuns(CLI::App& app, Options& o) {
   run->add_option("--replay", o.run.replay, "Replay to write (.mcap)");
   run->add_option("--save-map", o.run.save_map, "Map file to save the memory to");
   run->add_option("--memory", o.run.memory, "Map file to start from, as --save-map wrote it");
+  run->add_option("--pose", o.run.pose, kPoseHelp)->check(CLI::IsMember({"given", "unknown"}));
   run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
   AddProtocol(run, o.run);
 
@@ -309,6 +313,7 @@ void AddServe(CLI::App& app, Options& o) {
       ->check(CLI::IsMember({"networks", "none"}));
   AddNetworksPreset(serve, o.serve.networks);
   serve->add_option("--memory", o.serve.memory, "Map file to start from, as --save-map wrote it");
+  serve->add_option("--pose", o.serve.pose, kPoseHelp)->check(CLI::IsMember({"given", "unknown"}));
   serve->add_option("--save-map", o.serve.save_map, "Map file to save the memory to at the end");
 }
 

@@ -53,6 +53,11 @@ inline Pose PlaceAt(const Vector3d& p_map, double yaw_rad, const Vector3d& p_odo
   return T;
 }
 
+/// The frame of a foot: x ahead, z up. An odometry that knows nothing starts in it.
+inline Pose FootFrameOf(const AgentPose& foot_world) {
+  return PlaceAt(foot_world.p_world, foot_world.yaw_rad, Vector3d::Zero());
+}
+
 inline double YawOf(const Pose& T_map_odom) {
   return std::atan2(T_map_odom.linear()(1, 0), T_map_odom.linear()(0, 0));
 }

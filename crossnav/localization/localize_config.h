@@ -21,6 +21,8 @@ struct LocalizeConfig {
   // Decision: shares of the informative beams.
   double least_agreement = 0.7;  ///< of the best hypothesis
   double least_lead = 0.06;      ///< of the best over the second
+  int least_won = 60;            ///< or: beams won less lost, ...
+  double least_sigmas = 8;       ///< ... in standard deviations of as many coin flips
   int least_beams = 40;          ///< fewer decide nothing
   // Motion.
   int attempt_every_turns = 3;  ///< the field of view holds as many

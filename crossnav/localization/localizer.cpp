@@ -45,6 +45,7 @@ struct Localizer::Impl {
   LocalizeStep Step(const Observation& obs);
   void SearchAnew(const Vector3d& p_foot_odom);
   void Recheck(const Vector3d& p_foot_odom, std::vector<Hypothesis> all);
+  bool IsAhead(const Lead& lead, std::size_t beams) const;
   void Decide();
   void LookAround(const AgentPose& foot_odom);
   std::optional<Action> NextAction(const AgentPose& foot_odom);
@@ -80,6 +81,13 @@ void Localizer::Impl::Recheck(const Vector3d& p_foot_odom, std::vector<Hypothesi
   Decide();
 }
 
+/// Far ahead of all beams, or of those beams alone that tell the two apart: floors that look alike
+/// agree on most.
+bool Localizer::Impl::IsAhead(const Lead& lead, std::size_t beams) const {
+  if (lead.share(beams) >= config.least_lead) return true;
+  return lead.won - lead.lost >= config.least_won && lead.sigmas() >= config.least_sigmas;
+}
+
 /// Known is a best hypothesis that the beams agree with, and that is ahead of every other.
 void Localizer::Impl::Decide() {
   last = LocalizeStep{};
@@ -91,9 +99,11 @@ void Localizer::Impl::Decide() {
   last.lead = 1;
   for (const Hypothesis& h : hypotheses) {
     if (&h == &best) continue;
-    const double share = LeadOf(best, h).share(beams);
-    last.lead = std::min(last.lead, share);
-    last.rivals += share < config.least_lead ? 1 : 0;
+    const Lead lead = LeadOf(best, h);
+    last.rivals += IsAhead(lead, beams) ? 0 : 1;
+    if (lead.share(beams) >= last.lead) continue;
+    last.lead = lead.share(beams);
+    last.nearest = lead;
   }
   const bool is_sure = static_cast<int>(beams) >= config.least_beams &&
                        best.agreement >= config.least_agreement && last.rivals == 0;

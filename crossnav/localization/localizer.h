@@ -30,7 +30,8 @@ struct LocalizeStep {
   Action action = Action::kStop;       ///< while localising
   Pose T_map_odom = Pose::Identity();  ///< once known
   double agreement = 0;                ///< of the best hypothesis
-  double lead = 0;                     ///< of it over the second
+  double lead = 0;                     ///< of it over the nearest rival, as a share of all beams
+  Lead nearest;                        ///< the same in beams
   int rivals = 0;                      ///< hypotheses that could not be told from the best
 };
 

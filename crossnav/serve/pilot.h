@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crossnav/agent/agent.h"
+#include "crossnav/localization/awakening.h"
 #include "crossnav/serve/messages.h"
 #include "crossnav/serve/serve_config.h"
 
@@ -26,6 +27,8 @@ struct PilotOptions {
   /// A new agent for a camera so high above the ground, with the saved memory or without. The
   /// one before is gone by then.
   std::function<Result<agent::Agent>(double camera_height_m, bool restore)> make_agent;
+  /// Set where the robot does not know its pose in the saved memory: it is localised first.
+  std::function<Result<localization::Awakening>(double camera_height_m)> wake_up;
 };
 
 class Pilot {
@@ -56,13 +59,18 @@ class Pilot {
   Result<void> StartAgent(double camera_height_m);
   /// Late, or without a number.
   std::optional<Refusal> OutOfOrder(const RawObservation& raw);
-  Result<void> Step(const Observation& obs, Answer* answer);
+  Result<void> Step(Observation obs, Answer* answer);
+  /// True while the robot has to find itself; the answer has the action for it.
+  Result<bool> Localise(const Observation& obs, Answer* answer);
+  Result<void> Arrive(const localization::LocalizeStep& found);
 
   PilotOptions options_;
   Counters counters_;
   std::optional<agent::Agent> agent_;
-  double camera_height_m_ = 0;  // of agent_
-  bool restore_ = false;        // what the next agent starts with
+  std::optional<localization::Awakening> awakening_;  // until it is over
+  Pose T_agent_world_ = Pose::Identity();             // from the client's frame to the agent's
+  double camera_height_m_ = 0;                        // of agent_
+  bool restore_ = false;                              // what the next agent starts with
   State state_;
   std::optional<Answer> last_;              // to the observation state_.last_sequence
   std::optional<CameraIntrinsics> camera_;  // of this connection; nothing before Hello

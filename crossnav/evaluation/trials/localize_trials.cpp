@@ -26,14 +26,6 @@ Result<AgentPose> DrawPose(const SceneContext& context, Rng& rng, int floor) {
               context.scene().id);
 }
 
-/// The frame in which the odometry of a robot starts that knows nothing: its own foot.
-Pose OdometryOf(const AgentPose& start) {
-  Pose T_world_odom = Pose::Identity();
-  T_world_odom.linear() = Eigen::AngleAxisd(start.yaw_rad, Vector3d::UnitZ()).toRotationMatrix();
-  T_world_odom.translation() = start.p_world;
-  return T_world_odom.inverse();
-}
-
 void Judge(const Observation& obs, const AgentPose& truth, double camera_height_m,
            LostTrial& trial) {
   Observation placed = obs;
@@ -61,7 +53,7 @@ Result<LostTrial> TryLost(const SceneContext& context, const localization::Place
   simulator.UseNoise(config.noise, trial_seed);
   if (auto ok = simulator.Reset(*start); !ok) return tl::unexpected(ok.error());
   trial.start = simulator.agent();
-  const Pose T_odom_world = OdometryOf(trial.start);
+  const Pose T_odom_world = localization::FootFrameOf(trial.start).inverse();
   const double camera_height_m = config.agent.sensor.camera_height_m;
   localization::Localizer localizer(map, {camera_height_m, config.agent.action, config.agent.map});
   for (;;) {
@@ -71,6 +63,14 @@ Result<LostTrial> TryLost(const SceneContext& context, const localization::Place
     trial.answer = localizer.Step(obs);
     trial.cpu_s += (CpuMs() - before_ms) * 1e-3;
     trial.actions = localizer.actions();
+    if (getenv("LOST_DEBUG")) {
+      LostTrial t = trial;
+      Judge(obs, simulator.agent(), camera_height_m, t);
+      printf("  a %d right %d off %.2f agree %.3f lead %.3f won %d lost %d sig %.1f rivals %d\n",
+             t.actions, t.off_m < .25 && t.off_deg < 5, t.off_m, t.answer.agreement, t.answer.lead,
+             t.answer.nearest.won, t.answer.nearest.lost, t.answer.nearest.sigmas(),
+             t.answer.rivals);
+    }
     if (trial.answer.status != localization::Status::kLocalising) {
       Judge(obs, simulator.agent(), camera_height_m, trial);
       return trial;
