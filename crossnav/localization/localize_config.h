@@ -24,6 +24,9 @@ struct LocalizeConfig {
   int least_won = 60;            ///< or: beams won less lost, ...
   double least_sigmas = 8;       ///< ... in standard deviations of as many coin flips
   int least_beams = 40;          ///< fewer decide nothing
+  double pinned_m = 0.3;         ///< a shift by so much, or ...
+  double pinned_deg = 6;         ///< ... a turn, must lower the score to ...
+  double pinned_share = 0.95;    ///< ... this share of it
   // Motion.
   int attempt_every_turns = 3;  ///< the field of view holds as many
   int action_budget = 150;      ///< then the answer is "unknown"

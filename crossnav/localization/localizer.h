@@ -6,34 +6,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string_view>
 #include <vector>
 
-#include "crossnav/core/action.h"
 #include "crossnav/core/observation.h"
-#include "crossnav/core/result.h"
-#include "crossnav/localization/hypothesis.h"
-#include "crossnav/localization/local_scan.h"
-#include "crossnav/localization/localize_config.h"
-#include "crossnav/localization/placed_map.h"
+#include "crossnav/localization/belief.h"
 
 namespace crossnav::localization {
-
-enum class Status { kLocalising, kKnown, kUnknown };
-
-/// "localising", "known", "unknown".
-std::string_view NameOf(Status status);
-
-struct LocalizeStep {
-  Status status = Status::kLocalising;
-  Action action = Action::kStop;       ///< while localising
-  Pose T_map_odom = Pose::Identity();  ///< once known
-  double agreement = 0;                ///< of the best hypothesis
-  double lead = 0;                     ///< of it over the nearest rival, as a share of all beams
-  Lead nearest;                        ///< the same in beams
-  int rivals = 0;                      ///< hypotheses that could not be told from the best
-};
 
 class Localizer {
  private:

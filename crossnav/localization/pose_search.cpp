@@ -100,22 +100,6 @@ std::vector<GridPose> ScanGrid(const DenseMap& map, const std::vector<VoxelKey>&
   return best.Take(config.hypotheses);
 }
 
-/// Mean score of points of a pose, between voxels: the sum over the eight around each point would
-/// cost eight lookups; points are many, and their fractions are spread.
-double MeanScore(const DenseMap& map, const std::vector<Vector3f>& points, const Pose& T_map_odom) {
-  const Eigen::Matrix3f R = T_map_odom.linear().cast<float>() / static_cast<float>(map.voxel_m);
-  const Vector3f t = (T_map_odom.translation() / map.voxel_m).cast<float>();
-  std::int64_t sum = 0;
-  for (const Vector3f& p : points) {
-    const Vector3f q = R * p + t;
-    const std::int64_t index =
-        map.IndexOf(static_cast<int>(std::floor(q.x())), static_cast<int>(std::floor(q.y())),
-                    static_cast<int>(std::floor(q.z())));
-    if (index >= 0) sum += map.score[static_cast<std::size_t>(index)];
-  }
-  return points.empty() ? 0 : static_cast<double>(sum) / static_cast<double>(points.size());
-}
-
 }  // namespace
 
 std::vector<VoxelKey> StandingPlaces(const geometry::VoxelMap& map,
@@ -162,6 +146,20 @@ std::vector<Hypothesis> SearchPoses(const DenseMap& map, const std::vector<Voxel
   return hypotheses;
 }
 
+double ScorePose(const DenseMap& map, const std::vector<Vector3f>& points, const Pose& T_map_odom) {
+  const Eigen::Matrix3f R = T_map_odom.linear().cast<float>() / static_cast<float>(map.voxel_m);
+  const Vector3f t = (T_map_odom.translation() / map.voxel_m).cast<float>();
+  std::int64_t sum = 0;
+  for (const Vector3f& p : points) {
+    const Vector3f q = R * p + t;
+    const std::int64_t index =
+        map.IndexOf(static_cast<int>(std::floor(q.x())), static_cast<int>(std::floor(q.y())),
+                    static_cast<int>(std::floor(q.z())));
+    if (index >= 0) sum += map.score[static_cast<std::size_t>(index)];
+  }
+  return points.empty() ? 0 : static_cast<double>(sum) / static_cast<double>(points.size());
+}
+
 std::vector<Vector3f> RefinePoints(const LocalScan& scan, const Vector3d& p_foot_odom,
                                    const LocalizeConfig& config) {
   PointChoice choice;
@@ -179,7 +177,7 @@ void Refine(const DenseMap& map, const std::vector<Vector3f>& points, const Vect
   Vector3d p_map = hypothesis.T_map_odom * p_foot_odom;
   const double z0 = p_map.z();
   double yaw = YawOf(hypothesis.T_map_odom);
-  double best = MeanScore(map, points, hypothesis.T_map_odom);
+  double best = ScorePose(map, points, hypothesis.T_map_odom);
   double step_m = config.place_step_m / 2, step_rad = DegToRad(config.yaw_step_deg / 2);
   constexpr std::array<std::array<int, 4>, 8> kMoves = {{{1, 0, 0, 0},
                                                          {-1, 0, 0, 0},
@@ -196,7 +194,7 @@ void Refine(const DenseMap& map, const std::vector<Vector3f>& points, const Vect
         const Vector3d p = p_map + step_m * Vector3d(move[0], move[1], move[2]);
         if (std::abs(p.z() - z0) > config.slack_z_m) continue;
         const double turned = yaw + step_rad * move[3];
-        const double score = MeanScore(map, points, PlaceAt(p, turned, p_foot_odom));
+        const double score = ScorePose(map, points, PlaceAt(p, turned, p_foot_odom));
         if (score <= best) continue;
         best = score, p_map = p, yaw = turned, has_moved = true;
       }

@@ -31,6 +31,9 @@ std::vector<Hypothesis> SearchPoses(const DenseMap& map,
 void Refine(const DenseMap& map, const std::vector<Vector3f>& points, const Vector3d& p_foot_odom,
             const LocalizeConfig& config, Hypothesis& hypothesis);
 
+/// Mean score of the points under the pose, 0 to 100. `points` in odom.
+double ScorePose(const DenseMap& map, const std::vector<Vector3f>& points, const Pose& T_map_odom);
+
 /// Points for Refine.
 std::vector<Vector3f> RefinePoints(const LocalScan& scan, const Vector3d& p_foot_odom,
                                    const LocalizeConfig& config);

@@ -13,13 +13,14 @@ namespace {
 using geometry::VoxelKey;
 
 constexpr double kRayReach_m = 6;  // chosen: about the reach of a scan
-constexpr int kAzimuths = 16;      // chosen: every 22.5 degrees
-constexpr std::array<double, 3> kElevations_deg = {-25, 0, 20};  // chosen: inside the field of view
-constexpr double kDiffers_m = 0.4;         // chosen: more than voxels and noise
-constexpr double kLeastDifference = 0.06;  // chosen: fewer rays would be lost in those that agree
-constexpr double kReach_m = 25;            // chosen: of walking, as the planner counts it
-constexpr int kApart_vox = 4;              // chosen: places that are looked out from
-constexpr double kFixed_m = 2;             // chosen: cost of any walk, besides its length
+constexpr int kAzimuths = 24;      // chosen: every 15 degrees
+constexpr std::array<double, 4> kElevations_deg = {-35, -15, 0,
+                                                   20};  // chosen: inside the field of view
+constexpr double kDiffers_m = 0.4;                       // chosen: more than voxels and noise
+constexpr double kLeastDifference = 0.03;                // chosen: three rays; fewer are chance
+constexpr double kReach_m = 25;  // chosen: of walking, as the planner counts it
+constexpr int kApart_vox = 4;    // chosen: places that are looked out from
+constexpr double kFixed_m = 2;   // chosen: cost of any walk, besides its length
 constexpr double kSilent = -1;
 
 /// Distance to the first surface, kRayReach_m where there is none, kSilent where the unknown begins

@@ -56,16 +56,15 @@ bool IsWayClear(const std::vector<Vector3f>& points_odom, const AgentPose& foot_
 }
 
 std::optional<Action> Walk::Next(const PlacedMap& map, const Body& body, const LocalScan& scan,
-                                 const std::vector<Hypothesis>& hypotheses, int others,
-                                 const AgentPose& foot_odom) {
+                                 const Belief& belief, const AgentPose& foot_odom) {
   has_arrived_ = false;
-  if (hypotheses.empty()) return std::nullopt;
+  if (belief.hypotheses().empty()) return std::nullopt;
   while (failures_ < kMostFailures) {
-    if (!p_target_odom_ && !SetOut(map, body, hypotheses, others, foot_odom)) return std::nullopt;
+    if (!p_target_odom_ && !SetOut(map, body, belief, foot_odom)) return std::nullopt;
     const Eigen::Vector2d left = (*p_target_odom_ - foot_odom.p_world).head<2>();
     has_arrived_ = left.norm() < kArrived_m;
     if (has_arrived_) break;
-    if (auto action = Follow(map, body, scan, hypotheses.front().T_map_odom, foot_odom))
+    if (auto action = Follow(map, body, scan, belief.hypotheses().front().T_map_odom, foot_odom))
       return action;
     ++failures_;
     p_target_odom_.reset();
@@ -74,8 +73,10 @@ std::optional<Action> Walk::Next(const PlacedMap& map, const Body& body, const L
   return std::nullopt;
 }
 
-bool Walk::SetOut(const PlacedMap& map, const Body& body, const std::vector<Hypothesis>& hypotheses,
-                  int others, const AgentPose& foot_odom) {
+bool Walk::SetOut(const PlacedMap& map, const Body& body, const Belief& belief,
+                  const AgentPose& foot_odom) {
+  const std::vector<Hypothesis>& hypotheses = belief.hypotheses();
+  const int others = std::max(1, belief.opinion().rivals);
   motion_.clear();
   p_before_odom_.reset();
   const int most = std::min(kMostOthers, static_cast<int>(hypotheses.size()) - 1);

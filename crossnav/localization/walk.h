@@ -9,9 +9,7 @@
 
 #include "crossnav/core/action.h"
 #include "crossnav/core/pose.h"
-#include "crossnav/localization/hypothesis.h"
-#include "crossnav/localization/local_scan.h"
-#include "crossnav/localization/placed_map.h"
+#include "crossnav/localization/belief.h"
 
 namespace crossnav::localization {
 
@@ -22,18 +20,16 @@ bool IsWayClear(const std::vector<Vector3f>& points_odom, const AgentPose& foot_
 
 class Walk {
  public:
-  /// The next action; nothing on arrival, and where there is nowhere to walk to. `others`: how many
-  /// hypotheses are to be told from the first.
+  /// The next action; nothing on arrival, and where there is nowhere to walk to.
   std::optional<Action> Next(const PlacedMap& map, const Body& body, const LocalScan& scan,
-                             const std::vector<Hypothesis>& hypotheses, int others,
-                             const AgentPose& foot_odom);
+                             const Belief& belief, const AgentPose& foot_odom);
 
   bool IsUnderWay() const { return p_target_odom_.has_value(); }
   bool HasArrived() const { return has_arrived_; }
 
  private:
-  bool SetOut(const PlacedMap& map, const Body& body, const std::vector<Hypothesis>& hypotheses,
-              int others, const AgentPose& foot_odom);
+  bool SetOut(const PlacedMap& map, const Body& body, const Belief& belief,
+              const AgentPose& foot_odom);
   std::optional<Action> Follow(const PlacedMap& map, const Body& body, const LocalScan& scan,
                                const Pose& T_map_odom, const AgentPose& foot_odom);
 
