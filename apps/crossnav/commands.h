@@ -291,6 +291,9 @@ Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& c
 
 struct LocalizeBenchOptions {
   std::string scenes;
+  std::string twins;  ///< same | own: houses whose floors are one plan, instead of scenes
+  std::uint64_t house_seed = 1;
+  int houses = 10;  ///< twins
   int count = 100;
   std::uint64_t seed = 1;
 };

@@ -112,24 +112,55 @@ Result<void> TryHouse(const evaluation::SceneContext& context, const evaluation:
   return {};
 }
 
+Result<void> TryScenes(const LocalizeBenchOptions& options, const evaluation::RunConfig& config,
+                       Console& console, Summary& summary) {
+  const auto ids = evaluation::ListScenes(options.scenes);
+  if (!ids) return tl::unexpected(ids.error());
+  const int houses = static_cast<int>(ids->size());
+  for (int i = 0; i < houses; ++i) {
+    console.Progress(fmt::format("house {} of {}", i + 1, houses));
+    const auto& id = (*ids)[static_cast<std::size_t>(i)];
+    const auto context = evaluation::SceneContext::Load(options.scenes, id, config);
+    if (!context) return tl::unexpected(context.error());
+    const int count = options.count * (i + 1) / houses - options.count * i / houses;
+    if (auto ok = TryHouse(**context, config, options, count, summary); !ok) return ok;
+  }
+  return {};
+}
+
+/// Houses of which no twin can be made are named and left out.
+Result<void> TryTwins(const LocalizeBenchOptions& options, const evaluation::RunConfig& config,
+                      Console& console, Summary& summary) {
+  const auto furniture =
+      options.twins == "same" ? world::TwinFurniture::kSame : world::TwinFurniture::kOwn;
+  for (int i = 0; i < options.houses; ++i) {
+    console.Progress(fmt::format("house {} of {}", i + 1, options.houses));
+    const auto context = evaluation::TwinHouse(options.house_seed + static_cast<std::uint64_t>(i),
+                                               furniture, config);
+    if (!context && context.error().code == ErrorCode::kNotFound) {
+      console.Log(context.error().Message());
+      continue;
+    }
+    if (!context) return tl::unexpected(context.error());
+    const int left = options.houses - i;
+    const int count = (options.count - summary.trials + left - 1) / left;
+    if (auto ok = TryHouse(**context, config, options, count, summary); !ok) return ok;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOptions& common,
                            Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  const auto ids = evaluation::ListScenes(options.scenes);
-  if (!ids) return tl::unexpected(ids.error());
+  if (options.scenes.empty() == options.twins.empty())
+    return Fail(ErrorCode::kInvalid, "give the one or the other", "--scenes, --twins");
   Summary summary;
-  const int houses = static_cast<int>(ids->size());
-  for (int i = 0; i < houses; ++i) {
-    console.Progress(fmt::format("house {} of {}", i + 1, houses));
-    const auto context = evaluation::SceneContext::Load(
-        options.scenes, (*ids)[static_cast<std::size_t>(i)], *config);
-    if (!context) return tl::unexpected(context.error());
-    const int count = options.count * (i + 1) / houses - options.count * i / houses;
-    if (auto ok = TryHouse(**context, *config, options, count, summary); !ok) return ok;
-  }
+  auto ok = options.twins.empty() ? TryScenes(options, *config, console, summary)
+                                  : TryTwins(options, *config, console, summary);
+  if (!ok) return ok;
   console.EndProgress();
   Report(summary, options, console);
   return {};
@@ -140,7 +171,16 @@ void AddLocalizeBench(CLI::App& bench, Options& o) {
       AddVerb(bench, o, "localize", "Finding the pose in a saved map, from anywhere in the house",
               "crossnav bench localize --scenes scenes --count 400 --set noise.profile=realsense",
               [&o](Console& c) { return BenchLocalize(o.localize_bench, o.common, c); });
-  localize->add_option("--scenes", o.localize_bench.scenes, "Folder of scenes")->required();
+  localize->add_option("--scenes", o.localize_bench.scenes, "Folder of scenes");
+  localize
+      ->add_option(
+          "--twins", o.localize_bench.twins,
+          "Instead: generated houses whose floors are one plan, with the same furniture or "
+          "their own")
+      ->check(CLI::IsMember({"same", "own"}));
+  localize->add_option("--house-seed", o.localize_bench.house_seed, "Of the first of them");
+  localize->add_option("--houses", o.localize_bench.houses, "How many of them")
+      ->check(CLI::Range(1, 100000));
   localize->add_option("--count", o.localize_bench.count, "Poses, spread over houses and floors")
       ->check(CLI::Range(1, 100000));
   localize->add_option("--seed", o.localize_bench.seed, "Of the poses");

@@ -63,14 +63,6 @@ Result<LostTrial> TryLost(const SceneContext& context, const localization::Place
     trial.answer = localizer.Step(obs);
     trial.cpu_s += (CpuMs() - before_ms) * 1e-3;
     trial.actions = localizer.actions();
-    if (getenv("LOST_DEBUG")) {
-      LostTrial t = trial;
-      Judge(obs, simulator.agent(), camera_height_m, t);
-      printf("  a %d right %d off %.2f agree %.3f lead %.3f won %d lost %d sig %.1f rivals %d\n",
-             t.actions, t.off_m < .25 && t.off_deg < 5, t.off_m, t.answer.agreement, t.answer.lead,
-             t.answer.nearest.won, t.answer.nearest.lost, t.answer.nearest.sigmas(),
-             t.answer.rivals);
-    }
     if (trial.answer.status != localization::Status::kLocalising) {
       Judge(obs, simulator.agent(), camera_height_m, trial);
       return trial;
