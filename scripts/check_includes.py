@@ -23,7 +23,7 @@ ROOMS = {
     "memory": {"core", "geometry"},
     "planner": {"core", "geometry"},
     "policy": _LEFT,
-    "localization": {"core", "geometry", "memory", "planner", "policy"},
+    "localization": {"core", "geometry", "planner", "policy"},
     "trace": {"core", "geometry", "policy"},
     "agent": _AGENT - {"agent"},
     "serve": {"core", "perception", "localization", "agent"},
