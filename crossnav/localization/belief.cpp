@@ -58,7 +58,7 @@ void Belief::Keep(std::vector<Hypothesis> all, const LocalScan& scan, const Vect
 /// agree on most.
 bool Belief::IsAhead(const Lead& lead, std::size_t beams) const {
   if (lead.share(beams) >= config_.least_lead) return true;
-  return lead.won - lead.lost >= config_.least_won && lead.sigmas() >= config_.least_sigmas;
+  return lead.share(beams) >= config_.least_share && lead.sigmas() >= config_.least_sigmas;
 }
 
 /// A flat wall leaves two degrees of freedom open: shifts along it score the same.
