@@ -24,17 +24,18 @@ ROOMS = {
     "objects": {"core", "geometry", "memory"},
     "planner": {"core", "geometry"},
     "policy": _LEFT,
+    "localization": {"core", "geometry", "planner", "policy"},
     "trace": {"core", "geometry", "policy"},
     "watch": {"core", "geometry", "trace"},
     "agent": _AGENT - {"agent"},
-    "serve": {"core", "perception", "agent"},
+    "serve": {"core", "perception", "localization", "agent"},
     "sim": {"core", "geometry", "perception"},
     "recordings": {"core", "sim", "trace"},
     "world": {"core", "sim"},
     "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory", "objects"},
     "scenegraph": {"core", "geometry", "memory", "objects"},
-    "evaluation": _AGENT | {"scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
+    "evaluation": _AGENT | {"localization", "scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
 }
 
 # Rooms with folders: folders of the same room that each folder may include besides itself.

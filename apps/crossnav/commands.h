@@ -150,6 +150,7 @@ struct RunOptions {
   std::string replay;    ///< .mcap; empty = none
   std::string save_map;  ///< map file to save the memory to; empty = none
   std::string memory;    ///< map file to start from; empty = none
+  std::string pose;      ///< unknown = to be found in that map; empty = given
   std::string success, budget_scope, perception;
   WatchOptions watch;
 };
@@ -298,6 +299,17 @@ struct GraphBenchOptions {
 };
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console);
+
+struct LocalizeBenchOptions {
+  std::string scenes;
+  std::string twins;  ///< same | own: houses whose floors are one plan, instead of scenes
+  std::uint64_t house_seed = 1;
+  int houses = 10;  ///< twins
+  int count = 100;
+  std::uint64_t seed = 1;
+};
+Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOptions& common,
+                           Console& console);
 
 struct SensorTrialOptions {
   std::string data;        ///< folder

@@ -10,23 +10,37 @@
 
 namespace crossnav::app {
 
-Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::RunConfig& config,
-                           const std::string& encoder, agent::Agent& agent) {
+Result<store::LoadedMemory> ReadMemory(const std::filesystem::path& path,
+                                       const evaluation::RunConfig& config,
+                                       const std::string& encoder) {
   const auto header = store::ReadMapHeader(path);
   if (!header) return tl::unexpected(header.error());
-  if (auto ok = CheckEncoder(*header, encoder, path.string()); !ok) return ok;
+  if (auto ok = CheckEncoder(*header, encoder, path.string()); !ok)
+    return tl::unexpected(ok.error());
   store::LoadOptions options;
   options.map = config.agent.map;
   // Agent::Restore gives the evidence counts where it has none.
   if (config.agent.memory.mode == "revise") options.map->clearing = header->clearing;
   options.fusion = config.agent.fusion;
-  auto loaded = store::LoadMemory(path, options);
+  return store::LoadMemory(path, options);
+}
+
+Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::RunConfig& config,
+                           const std::string& encoder, agent::Agent& agent) {
+  auto loaded = ReadMemory(path, config, encoder);
   if (!loaded) return tl::unexpected(loaded.error());
   auto restored = agent.Restore(std::move(loaded->map), std::move(loaded->memory),
                                 std::move(loaded->flights), loaded->seen_stairs);
   if (!restored) return restored;
   agent.RestoreObjects(std::move(loaded->objects), static_cast<int>(header->revision));
   return {};
+}
+
+Result<std::optional<store::LoadedMemory>> MemoryLoader::LostIn() {
+  if (is_pose_known_) return std::nullopt;
+  auto loaded = ReadMemory(path_, config_, encoder_);
+  if (!loaded) return tl::unexpected(loaded.error());
+  return std::optional<store::LoadedMemory>(std::move(*loaded));
 }
 
 Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::filesystem::path& path,

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "crossnav/agent/agent.h"
@@ -24,20 +25,37 @@ Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::
 Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::filesystem::path& path,
                                        const std::string& encoder, const std::string& frame);
 
-/// Loads a saved memory into an agent before its first goal: the lifelong case.
+/// Reads the memory saved at `path` for going on with `config`. Errors: features of another encoder
+/// than `encoder`, what LoadMemory refuses.
+Result<store::LoadedMemory> ReadMemory(const std::filesystem::path& path,
+                                       const evaluation::RunConfig& config,
+                                       const std::string& encoder);
+
+/// Gives an agent a saved memory before its first goal: the lifelong case. With an unknown pose the
+/// robot has to find itself in it first.
 class MemoryLoader : public evaluation::RunObserver {
  public:
-  MemoryLoader(std::filesystem::path path, const evaluation::RunConfig& config, std::string encoder)
-      : path_(std::move(path)), config_(config), encoder_(std::move(encoder)) {}
+  MemoryLoader(std::filesystem::path path, const evaluation::RunConfig& config, std::string encoder,
+               bool is_pose_known = true)
+      : path_(std::move(path)),
+        config_(config),
+        encoder_(std::move(encoder)),
+        is_pose_known_(is_pose_known) {}
 
   Result<void> OnStart(agent::Agent& state) override {
-    return RestoreMemory(path_, config_, encoder_, state);
+    return is_pose_known_ ? RestoreMemory(path_, config_, encoder_, state) : Result<void>();
   }
+  Result<std::optional<store::LoadedMemory>> LostIn() override;
+  void OnAwoken(const evaluation::Awoken& awoken) override { awoken_ = awoken; }
+  /// Nothing where the pose was known.
+  const std::optional<evaluation::Awoken>& awoken() const { return awoken_; }
 
  private:
   std::filesystem::path path_;
   const evaluation::RunConfig& config_;
   std::string encoder_;
+  bool is_pose_known_;
+  std::optional<evaluation::Awoken> awoken_;
 };
 
 /// Memories of the variants known-map and known-objects: ground truth, a file for each scene in

@@ -95,9 +95,36 @@ Result<Written> WriteFiles(const evaluation::EpisodeRecord& record,
   return written;
 }
 
-void Announce(const evaluation::EpisodeRecord& record, const MemorySummary& memory,
+std::string AwokenText(const evaluation::Awoken& awoken) {
+  const localization::LocalizeStep& answer = awoken.answer;
+  const bool is_known = answer.status == localization::Status::kKnown;
+  return fmt::format("  pose     {} after {} actions, agreement {:.2f}{}\n",
+                     localization::NameOf(answer.status), awoken.actions, answer.agreement,
+                     is_known ? fmt::format("; {:.2f} m and {:.1f} deg from the true one",
+                                            awoken.off_m, awoken.off_deg)
+                              : "; goes on with an empty memory");
+}
+
+Json AwokenJson(const evaluation::Awoken& awoken) {
+  return {{"status", localization::NameOf(awoken.answer.status)},
+          {"actions", awoken.actions},
+          {"agreement", awoken.answer.agreement},
+          {"rivals", awoken.answer.rivals},
+          {"off_m", awoken.off_m},
+          {"off_deg", awoken.off_deg}};
+}
+
+/// What was learned besides the record.
+struct Learned {
+  MemorySummary memory;
+  std::optional<evaluation::Awoken> awoken;
+};
+
+void Announce(const evaluation::EpisodeRecord& record, const Learned& learned,
               const Written& written, Console& console) {
+  const MemorySummary& memory = learned.memory;
   std::string text = evaluation::EpisodeText(record);
+  if (learned.awoken) text += AwokenText(*learned.awoken);
   text += fmt::format("  memory   {} feature rows, {} of them int8, {} dropped; {:.1f} MB\n",
                       memory.rows, memory.compacted_rows, memory.dropped_rows,
                       static_cast<double>(memory.bytes) / 1e6);
@@ -112,13 +139,15 @@ void Announce(const evaluation::EpisodeRecord& record, const MemorySummary& memo
   }
   console.Print(text);
   if (!console.json()) return;
-  console.Document(Json({{"record", Json::parse(evaluation::ToJsonLine(record))},
-                         {"memory",
-                          {{"feature_rows", memory.rows},
-                           {"compacted_rows", memory.compacted_rows},
-                           {"dropped_rows", memory.dropped_rows},
-                           {"bytes", memory.bytes}}},
-                         {"files", std::move(paths)}}));
+  Json document = {{"record", Json::parse(evaluation::ToJsonLine(record))},
+                   {"memory",
+                    {{"feature_rows", memory.rows},
+                     {"compacted_rows", memory.compacted_rows},
+                     {"dropped_rows", memory.dropped_rows},
+                     {"bytes", memory.bytes}}}};
+  if (learned.awoken) document["pose"] = AwokenJson(*learned.awoken);
+  document["files"] = std::move(paths);
+  console.Document(document);
 }
 
 /// Checks, before the first step, every output of the episode.
@@ -162,7 +191,7 @@ Result<evaluation::EpisodeRecord> PlayEpisode(
     replay = std::move(*opened);
     observers.push_back(replay.get());
   }
-  MemoryLoader memory(files.memory, config, perception.EncoderName());
+  MemoryLoader memory(files.memory, config, perception.EncoderName(), files.is_pose_known);
   if (!files.memory.empty()) observers.push_back(&memory);
   const KnownMemories known(files.folder, header.variant, config, perception.EncoderName());
   const auto told = known.For(context);
@@ -181,7 +210,7 @@ Result<evaluation::EpisodeRecord> PlayEpisode(
   }
   const auto written = WriteFiles(*record, header, files, picture, trace);
   if (!written) return tl::unexpected(written.error());
-  Announce(*record, map.summary(), *written, console);
+  Announce(*record, {map.summary(), memory.awoken()}, *written, console);
   return record;
 }
 

@@ -22,6 +22,7 @@ struct PlayFiles {
   std::filesystem::path map;      ///< memory to save; empty = none
   std::filesystem::path memory;   ///< saved memory to start from; empty = none
   watch::Watch* watch = nullptr;  ///< shows the episode; null = nobody asked
+  bool is_pose_known = true;      ///< false: the robot has to find itself in that memory
 };
 
 /// Fails unless all files can be written. Needs no scene, so that the message comes at once.

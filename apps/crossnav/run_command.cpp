@@ -45,6 +45,9 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   files.replay = options.replay;
   files.map = options.save_map;
   files.memory = options.memory;
+  files.is_pose_known = options.pose != "unknown";
+  if (!files.is_pose_known && files.memory.empty())
+    return Fail(ErrorCode::kInvalid, "a robot can only be lost in a map: give --memory", "--pose");
   if (auto ok = CheckOutputs(files); !ok) return ok;
   const auto watch = OpenWatch(options.watch, console);
   if (!watch) return tl::unexpected(watch.error());

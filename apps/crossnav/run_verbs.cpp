@@ -55,6 +55,7 @@ void AddRuns(CLI::App& app, Options& o) {
   run->add_option("--replay", o.run.replay, "Replay to write (.mcap)");
   run->add_option("--save-map", o.run.save_map, "Map file to save the memory to");
   run->add_option("--memory", o.run.memory, "Map file to start from, as --save-map wrote it");
+  run->add_option("--pose", o.run.pose, kPoseHelp)->check(CLI::IsMember({"given", "unknown"}));
   run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
   AddWatch(run, o.run.watch);
   AddProtocol(run, o.run);
@@ -335,6 +336,7 @@ void AddTools(CLI::App& app, Options& o) {
   graph->add_option("--edition", o.graph_bench.edition, "Of the generator")
       ->check(CLI::Range(1, 2));
   graph->add_option("--pictures", o.graph_bench.pictures, "Folder for a picture of each floor");
+  AddLocalizeBench(*bench, o);
   CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",
                             "crossnav bench noise --scenes scenes --episodes e.json --count 12",
                             [&o](Console& c) { return BenchNoise(o.noise, o.common, c); });

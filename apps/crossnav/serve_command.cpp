@@ -82,6 +82,13 @@ class AgentMaker {
     watch_.Start(Info(), agent);
     return agent;
   }
+  /// The saved memory as a map to be lost in.
+  Result<localization::Awakening> WakeUp(double camera_height_m) const {
+    const auto saved = ReadMemory(options_.memory, config_, EncoderName());
+    if (!saved) return tl::unexpected(saved.error());
+    return localization::Awakening::In(saved->map,
+                                       {camera_height_m, config_.agent.action, config_.agent.map});
+  }
   bool IsBlind() const { return options_.perception == "none"; }
   std::string EncoderName() const { return IsBlind() ? "none" : source_.EncoderName(); }
 
@@ -116,6 +123,8 @@ serve::PilotOptions PilotOf(const evaluation::RunConfig& config, const ServeOpti
   pilot.make_agent = [&maker](double camera_height_m, bool restore) {
     return maker.Make(camera_height_m, restore);
   };
+  if (options.pose == "unknown")
+    pilot.wake_up = [&maker](double camera_height_m) { return maker.WakeUp(camera_height_m); };
   pilot.on_step = [&watch](const Observation& obs, const agent::StepResult& result,
                            const agent::Agent& agent) {
     watch.Add(obs, result.trace, result.percept, agent);
@@ -146,6 +155,8 @@ Result<void> ServeLive(const ServeOptions& options, const CommonOptions& common,
   auto config = ConfigOf(options, common);
   if (!config) return tl::unexpected(config.error());
   if (auto ok = evaluation::CheckOutputFile(options.save_map, "--save-map"); !ok) return ok;
+  if (options.pose == "unknown" && options.memory.empty())
+    return Fail(ErrorCode::kInvalid, "a robot can only be lost in a map: give --memory", "--pose");
   if (!options.memory.empty()) {
     if (const auto header = store::ReadMapHeader(options.memory); !header)
       return tl::unexpected(header.error());

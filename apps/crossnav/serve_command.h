@@ -14,6 +14,7 @@ struct ServeOptions {
   std::string perception = "networks";  ///< networks | none
   std::string networks;                 ///< preset, as in LoadWithNetworks
   std::string memory;                   ///< map file to start from; empty = none
+  std::string pose;                     ///< unknown = to be found in that map; empty = given
   std::string save_map;                 ///< map file to save the memory to at the end; empty = none
   WatchOptions watch;
 };

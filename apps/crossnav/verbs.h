@@ -12,6 +12,9 @@
 
 namespace crossnav::app {
 
+inline constexpr const char* kPoseHelp =
+    "unknown: the robot has to find itself in --memory; default: given";
+
 using Command = std::function<Result<void>(Console&)>;
 
 /// Options of every verb, filled in by CLI11.
@@ -42,6 +45,7 @@ struct Options {
   StairsOptions stairs;
   NoiseSweepOptions noise;
   GraphBenchOptions graph_bench;
+  LocalizeBenchOptions localize_bench;
   SensorTrialOptions sensor_trials;
   ServeOptions serve;
   Command command;
@@ -64,6 +68,8 @@ void AddWatch(CLI::App* verb, WatchOptions& watch);
 void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.
 void AddReplay(CLI::App& app, Options& options);
+/// `bench localize`.
+void AddLocalizeBench(CLI::App& bench, Options& options);
 /// `bench sensors`.
 void AddSensorTrials(CLI::App& bench, Options& options);
 

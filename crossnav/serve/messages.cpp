@@ -77,6 +77,11 @@ void Fill(const State& state, live::State* m) {
   m->set_goals(state.goals);
   m->set_steps(state.steps);
   m->set_last_sequence(state.last_sequence);
+  m->set_pose(static_cast<live::PoseState>(state.pose));
+  if (!state.T_map_world) return;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      m->add_t_map_world(state.T_map_world->matrix()(row, column));
 }
 
 /// Fills the reply's member for the given kind.

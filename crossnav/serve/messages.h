@@ -52,12 +52,18 @@ using Request = std::variant<Hello, SetGoal, RawObservation, Reset, GetStats>;
 
 enum class Phase { kNoGoal, kSearching, kClaimed, kExplored };
 
+/// Whether the agent knows where in its map it is; given = the client's poses are in the map's
+/// frame.
+enum class PoseState { kGiven, kLocalising, kKnown, kUnknown };
+
 struct State {
   Phase phase = Phase::kNoGoal;
   std::string goal;
   std::uint32_t goals = 0;
   std::uint64_t steps = 0;
   std::uint64_t last_sequence = 0;
+  PoseState pose = PoseState::kGiven;
+  std::optional<Pose> T_map_world{};  ///< once known
 };
 
 struct Welcome {

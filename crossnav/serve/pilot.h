@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crossnav/agent/agent.h"
+#include "crossnav/localization/awakening.h"
 #include "crossnav/serve/messages.h"
 #include "crossnav/serve/serve_config.h"
 
@@ -28,6 +29,8 @@ struct PilotOptions {
   std::function<Result<agent::Agent>(double camera_height_m, bool restore)> make_agent;
   /// Called after each step of the agent; may be empty.
   std::function<void(const Observation&, const agent::StepResult&, const agent::Agent&)> on_step{};
+  /// Set where the robot does not know its pose in the saved memory: it is localised first.
+  std::function<Result<localization::Awakening>(double camera_height_m)> wake_up;
 };
 
 class Pilot {
@@ -58,13 +61,18 @@ class Pilot {
   Result<void> StartAgent(double camera_height_m);
   /// Refusal of a late frame, or of a frame without a number.
   std::optional<Refusal> OutOfOrder(const RawObservation& raw);
-  Result<void> Step(const Observation& obs, Answer* answer);
+  Result<void> Step(Observation obs, Answer* answer);
+  /// True while the robot has to find itself; the answer has the action for it.
+  Result<bool> Localise(const Observation& obs, Answer* answer);
+  Result<void> Arrive(const localization::LocalizeStep& found);
 
   PilotOptions options_;
   Counters counters_;
   std::optional<agent::Agent> agent_;
-  double camera_height_m_ = 0;  // of agent_
-  bool restore_ = false;        // memory option of the next agent
+  std::optional<localization::Awakening> awakening_;  // until it is over
+  Pose T_agent_world_ = Pose::Identity();             // from the client's frame to the agent's
+  double camera_height_m_ = 0;                        // of agent_
+  bool restore_ = false;                              // what the next agent starts with
   State state_;
   std::optional<Answer> last_;              // to the observation state_.last_sequence
   std::optional<CameraIntrinsics> camera_;  // of this connection; empty before Hello

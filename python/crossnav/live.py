@@ -47,6 +47,17 @@ class Phase(enum.IntEnum):
     """Nothing is left where it could be."""
 
 
+class PoseState(enum.IntEnum):
+    """Whether the agent knows where it is in its saved map (``serve --pose unknown``)."""
+
+    GIVEN = 0
+    LOCALISING = 1
+    """Actions are for finding out."""
+    KNOWN = 2
+    UNKNOWN = 3
+    """It could not be found out: the agent goes on with an empty memory."""
+
+
 @dataclass(frozen=True)
 class State:
     """Of the agent, which outlives connections."""
@@ -58,6 +69,9 @@ class State:
     steps: int
     last_sequence: int
     """Number of the last observation that was answered; 0 = none."""
+    pose: PoseState = PoseState.GIVEN
+    T_map_world: NDArray[np.float64] | None = None
+    """(4, 4), with PoseState.KNOWN: from the world of the poses that are sent to the saved map."""
 
 
 @dataclass(frozen=True)
@@ -145,7 +159,8 @@ def _command_of(message: Any) -> Command:
 
 def _state_of(message: Any) -> State:
     return State(Phase(message.phase), message.goal, message.goals, message.steps,
-                 message.last_sequence)
+                 message.last_sequence, PoseState(message.pose),
+                 np.array(message.T_map_world).reshape(4, 4) if message.T_map_world else None)
 
 
 def _fill_camera(camera: CameraIntrinsics, message: Any) -> None:

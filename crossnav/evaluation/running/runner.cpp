@@ -12,6 +12,7 @@
 #include "crossnav/evaluation/running/walk_log.h"
 #include "crossnav/evaluation/scoring/cause.h"
 #include "crossnav/evaluation/scoring/outcome.h"
+#include "crossnav/localization/awakening.h"
 #include "crossnav/sim/sensing/ground_truth.h"
 #include "crossnav/sim/sensing/simulator.h"
 
@@ -69,6 +70,9 @@ class EpisodeRun {
     int actions_before = 0;
   };
 
+  Result<void> WakeUp();
+  Result<void> Localise(store::LoadedMemory memory);
+  Observation Observe();
   Result<StageRecord> RunStage(const std::string& goal);
   Result<bool> StepOnce(StageState& stage, StageEnd& end);  // true = the stage is over
   void AddCost(const StepCost& cost);
@@ -91,6 +95,10 @@ class EpisodeRun {
   std::deque<double> recent_m_;  // displacement of the last eval.stuck_steps steps
   int actions_ = 0;
   TimingLog timing_;
+  // The frame that the agent's poses are in. Another than the world's after waking up lost: the
+  // map's, as far as the localisation is right, or that of the start.
+  Pose T_agent_world_ = Pose::Identity();
+  Pose T_world_claims_ = Pose::Identity();  // of what the agent says; a map's frame is the world's
 };
 
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
@@ -115,6 +123,7 @@ Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   for (RunObserver* observer : observers_) {
     if (auto ok = observer->OnStart(agent_); !ok) return tl::unexpected(ok.error());
   }
+  if (auto ok = WakeUp(); !ok) return tl::unexpected(ok.error());
   for (const std::string& goal : episode_.goals) {
     if (!HasBudget(actions_)) break;  // a stage without an action leaves no row
     auto stage = RunStage(goal);
@@ -134,6 +143,54 @@ Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
     if (auto ok = observer->OnEpisodeEnd(agent_, record); !ok) return tl::unexpected(ok.error());
   }
   return record;
+}
+
+Result<void> EpisodeRun::WakeUp() {
+  for (RunObserver* observer : observers_) {
+    auto memory = observer->LostIn();
+    if (!memory) return tl::unexpected(memory.error());
+    if (*memory) return Localise(std::move(**memory));
+  }
+  return {};
+}
+
+/// The odometry starts at the robot's own foot and knows nothing of the map.
+Result<void> EpisodeRun::Localise(store::LoadedMemory memory) {
+  const agent::Config& config = config_.agent;
+  auto awakening = localization::Awakening::In(
+      memory.map, {config.sensor.camera_height_m, config.action, config.map});
+  if (!awakening) return tl::unexpected(awakening.error());
+  const Pose T_odom_world = localization::FootFrameOf(simulator_.agent()).inverse();
+  T_agent_world_ = T_odom_world;
+  Observation observation = Observe();
+  while (awakening->Step(observation).status == localization::Status::kLocalising) {
+    simulator_.Step(awakening->last().action);
+    floors_->Move(simulator_.agent().p_world);
+    ++actions_;
+    observation = Observe();
+  }
+  Awoken awoken{awakening->last(), awakening->actions()};
+  T_agent_world_ = awakening->T_agent_odom() * T_odom_world;
+  if (awoken.answer.status == localization::Status::kKnown) {
+    observation.T_world_camera = awakening->T_agent_odom() * observation.T_world_camera;
+    const AgentPose said = FootPoseOf(observation, config.sensor.camera_height_m);
+    const AgentPose& truth = simulator_.agent();
+    awoken.off_m = (said.p_world - truth.p_world).norm();
+    awoken.off_deg = std::abs(RadToDeg(WrapAngle(said.yaw_rad - truth.yaw_rad)));
+    auto ok = agent_.Restore(std::move(memory.map), std::move(memory.memory),
+                             std::move(memory.flights), memory.seen_stairs);
+    if (!ok) return ok;
+  } else {
+    T_world_claims_ = T_odom_world.inverse();
+  }
+  for (RunObserver* observer : observers_) observer->OnAwoken(awoken);
+  return {};
+}
+
+Observation EpisodeRun::Observe() {
+  Observation observation = simulator_.Observe();
+  observation.T_world_camera = T_agent_world_ * observation.T_world_camera;
+  return observation;
 }
 
 Result<StageRecord> EpisodeRun::RunStage(const std::string& goal) {
@@ -164,7 +221,7 @@ Result<StageRecord> EpisodeRun::RunStage(const std::string& goal) {
 
 Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
   Stopwatch watch;
-  const Observation observation = simulator_.Observe();
+  const Observation observation = Observe();
   const Stopwatch::Lap observed = watch.Next();
   auto step = agent_.Step(observation);
   if (!step) return tl::unexpected(step.error());
@@ -187,8 +244,8 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
     end.stopped = true;
     end.is_reached = IsGoalReached(context_, context_.TargetsOf(stage.record.goal),
                                    simulator_.agent().p_world, config_.eval);
-    end.is_claim_near =
-        step->p_claimed_world && IsClaimNear(stage.record.goal, *step->p_claimed_world);
+    end.is_claim_near = step->p_claimed_world &&
+                        IsClaimNear(stage.record.goal, T_world_claims_ * *step->p_claimed_world);
   } else {
     Move(step->action, stage);
   }

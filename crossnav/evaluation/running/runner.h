@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,10 @@
 #include "crossnav/evaluation/records/episode_record.h"
 #include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/evaluation/settings/run_config.h"
+#include "crossnav/localization/localizer.h"
 #include "crossnav/perception/perception.h"
 #include "crossnav/sim/sensing/simulator.h"
+#include "crossnav/store/map_file.h"
 #include "crossnav/trace/step_trace.h"
 
 namespace crossnav::evaluation {
@@ -35,14 +38,25 @@ struct StepCost {
   double observe_wall_ms = 0, observe_cpu_ms = 0;  ///< rendering and moving
 };
 
+/// How a robot that was lost came to know its pose, or did not.
+struct Awoken {
+  localization::LocalizeStep answer;
+  int actions = 0;
+  double off_m = 0, off_deg = 0;  ///< of a known pose from the true one
+};
+
 /// Observer of an episode: progress line, replay, pictures. Must not influence it, except that
-/// OnStart may give the agent a saved memory.
+/// OnStart may give the agent a saved memory, and LostIn one in which it has to find itself.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
   /// Whether the observer reads colours; colours are rendered only if needed.
   virtual bool NeedsColour() const { return false; }
   virtual Result<void> OnStart(agent::Agent& /*state*/) { return {}; }
+  /// A saved memory in which the robot wakes up without its pose: it is localised before the first
+  /// goal, and starts from the memory where that succeeds. Its actions count in the episode's.
+  virtual Result<std::optional<store::LoadedMemory>> LostIn() { return std::nullopt; }
+  virtual void OnAwoken(const Awoken& /*awoken*/) {}
   virtual Result<void> OnStep(const StepView& /*step*/) { return {}; }
   virtual void OnStepCost(const StepCost& /*cost*/) {}
   virtual Result<void> OnStageEnd(const StageRecord& /*stage*/) { return {}; }
