@@ -57,6 +57,7 @@ FOLDERS = {
     "world": {
         "mesh": set(),
         "scene": set(),
+        "change": {"scene"},
         "models": {"mesh"},
         "plan": {"mesh"},
         "stairs": {"mesh", "plan"},

@@ -15,9 +15,11 @@
 namespace crossnav::world {
 
 /// Writes `scene` below `dir` (made if absent) and returns the scene's folder. `scene.id` must read
-/// "<number>-<name>". `house_text` goes into `<hash>.house.json` where there is any.
+/// "<number>-<name>". `house_text` goes into `<hash>.house.json`, `changes_text` into
+/// `<hash>.changes.json`, where there is any.
 Result<std::filesystem::path> WriteScene(const sim::Scene& scene, const std::filesystem::path& dir,
-                                         const std::string& house_text = {});
+                                         const std::string& house_text = {},
+                                         const std::string& changes_text = {});
 
 /// Rewrites the data set file of `dir` so that it lists every scene below it.
 Result<void> WriteDatasetConfig(const std::filesystem::path& dir);
