@@ -13,8 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string PlaceText(const world::ChangePlace& place) {
-  std::string text =
-      fmt::format("{:.2f}, {:.2f}, {:.2f}", place.p_world.x(), place.p_world.y(), place.p_world.z());
+  std::string text = fmt::format("{:.2f}, {:.2f}, {:.2f}", place.p_world.x(), place.p_world.y(),
+                                 place.p_world.z());
   if (place.room >= 0) text += fmt::format(" (room {}, floor {})", place.room, place.floor);
   return text;
 }

@@ -48,8 +48,8 @@ void AddChange(CLI::App& world, Options& o) {
                    "other_floor, removed, added, door_closed, passage_blocked, flight_barred; "
                    "default: each once, where the house has a place for it")
       ->delimiter(',')
-      ->check(CLI::IsMember(std::vector<std::string>(world::kChangeNames.begin(),
-                                                     world::kChangeNames.end())));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(world::kChangeNames.begin(), world::kChangeNames.end())));
 }
 
 void AddWorld(CLI::App& app, Options& o) {

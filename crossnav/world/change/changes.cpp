@@ -34,7 +34,8 @@ Json ToJson(const ChangePlace& place) {
 Json ToJson(const std::vector<Change>& changes) {
   Json list = Json::array();
   for (const Change& change : changes) {
-    Json json = {{"kind", NameOf(change.kind)}, {"instance", change.instance}, {"name", change.name}};
+    Json json = {
+        {"kind", NameOf(change.kind)}, {"instance", change.instance}, {"name", change.name}};
     if (!change.category.empty()) json["category"] = change.category;
     if (change.from) json["from"] = ToJson(*change.from);
     if (change.to) json["to"] = ToJson(*change.to);
@@ -107,7 +108,8 @@ class Reader {
     if (json.contains("category")) change.category = Text(json["category"], key + ".category");
     if (json.contains("from")) change.from = Place(json["from"], key + ".from");
     if (json.contains("to")) change.to = Place(json["to"], key + ".to");
-    if (IsMove(change.kind) && !(change.from && change.to)) Bad(key, "is a move without from and to");
+    if (IsMove(change.kind) && !(change.from && change.to))
+      Bad(key, "is a move without from and to");
     if (change.kind == ChangeKind::kRemoved && !change.from) Bad(key, "is removed from nowhere");
     if (change.kind > ChangeKind::kRemoved && !change.to) Bad(key, "has no place \"to\"");
     return change;

@@ -46,8 +46,8 @@ inline bool IsMove(ChangeKind kind) {
 struct ChangePlace {
   Vector3d p_world = Vector3d::Zero();  ///< middle of its lower side
   Box3 box;
-  int room = -1;   ///< region of the semantic text; -1 = not known
-  int floor = -1;  ///< from 0, by height; -1 = not known
+  int room = -1;    ///< region of the semantic text; -1 = not known
+  int floor = -1;   ///< from 0, by height; -1 = not known
   int support = 0;  ///< instance that it stands on, or beside; 0 = none
 };
 

@@ -47,9 +47,8 @@ Result<void> CheckRooms(const HouseView& first, const sim::NavMesh& navmesh,
   return {};
 }
 
-bool IsViewable(const sim::Scene& scene, const sim::NavMesh& navmesh,
-                const sim::RayCaster& caster, const sim::SceneInstance& instance,
-                const Vector3d& start_world) {
+bool IsViewable(const sim::Scene& scene, const sim::NavMesh& navmesh, const sim::RayCaster& caster,
+                const sim::SceneInstance& instance, const Vector3d& start_world) {
   const auto viewpoints = sim::Viewpoints(scene, navmesh, caster, instance, SensorConfig());
   return !viewpoints.empty() && navmesh.Geodesic(start_world, viewpoints).has_value();
 }
@@ -70,8 +69,8 @@ Result<void> CheckCategories(const sim::Scene& first, const sim::Scene& scene,
     return Refuse("fewer than five categories", scene.id);
   }
   for (const std::string& category : now) {
-    const bool is_viewable = std::any_of(
-        scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
+    const bool is_viewable =
+        std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
           return instance.category == category && !instance.box.empty() &&
                  IsViewable(scene, navmesh, caster, instance, start_world);
         });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a box of a scene is empty but for one object, asked with single rays. World frame, metres.
+// Whether a box of a scene is empty but for one object, asked with single rays. World frame,
+// metres.
 #pragma once
 
 #include <functional>

@@ -55,8 +55,8 @@ class HouseCalendar {
   std::unique_ptr<sim::Scene> first_;
   HouseView view_;  // of the first day
   DaysOptions options_;
-  sim::Scene evening_;                // of the day before, without what bars the way
-  std::vector<Change> barred_;        // on the day before
+  sim::Scene evening_;          // of the day before, without what bars the way
+  std::vector<Change> barred_;  // on the day before
   int day_ = 0;
 };
 

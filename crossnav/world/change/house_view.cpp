@@ -10,10 +10,10 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kBeside_m = 0.7;      // chosen: a chair belongs to the table at arm's length
-constexpr double kLayer_m = 0.12;      // chosen: rugs and navmesh heights above the floor itself
-constexpr double kContact_m = 0.06;    // chosen: gaps below feet in scans
-constexpr double kChain_m = 1.6;       // chosen: from the underside of the highest shelf's load
+constexpr double kBeside_m = 0.7;         // chosen: a chair belongs to the table at arm's length
+constexpr double kLayer_m = 0.12;         // chosen: rugs and navmesh heights above the floor itself
+constexpr double kContact_m = 0.06;       // chosen: gaps below feet in scans
+constexpr double kChain_m = 1.6;          // chosen: from the underside of the highest shelf's load
 constexpr double kLandmarkSide_m = 0.35;  // chosen: narrower pieces are no landmarks
 
 const sim::SceneInstance* NamedAt(const sim::Scene& scene, int id) {

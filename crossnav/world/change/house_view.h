@@ -29,11 +29,11 @@ struct RoomView {
 };
 
 struct ObjectView {
-  int room = -1;          ///< index of RoomView; -1 = none
-  int support = 0;        ///< instance below it, 0 = nothing
+  int room = -1;    ///< index of RoomView; -1 = none
+  int support = 0;  ///< instance below it, 0 = nothing
   bool is_on_ground = false;
   bool is_carrier = false;  ///< something stands on it
-  int landmark = 0;       ///< of things on the ground: large piece beside it, 0 = none
+  int landmark = 0;         ///< of things on the ground: large piece beside it, 0 = none
 };
 
 struct HouseView {

@@ -16,6 +16,7 @@ constexpr double kLeafHeight_m = 2.0;     // chosen: below every frame's head
 constexpr double kBarrierHeight_m = 1.1;  // chosen: nobody steps over it, a camera looks over it
 constexpr double kBarrierDeep_m = 0.06;
 constexpr double kInPlane_m = 0.1;  // chosen: a frame's half depth; what is beyond is an open leaf
+constexpr double kAround_m = 1.5;   // chosen: less is a way past the board
 constexpr int kBarTries = 6;        // chosen: each costs a navmesh
 
 std::set<int> ChangedOf(const DayChanges& list) {
@@ -127,15 +128,11 @@ int Bar(const Passage& passage, ChangeKind kind, sim::Scene& scene) {
   return id;
 }
 
-/// Whether the board holds: no way leads past it within a metre, but one leads around.
-bool IsBarred(const Passage& passage, const sim::NavMesh& navmesh) {
-  const auto around_m = navmesh.Geodesic(passage.a_world, passage.b_world);
-  if (!around_m) return false;
-  for (const Vector3d& p : navmesh.ShortestPath(passage.a_world, passage.b_world)) {
-    if (!passage.is_flight) continue;
-    if ((p - passage.board.centre_world).norm() < 0.6) return false;
-  }
-  return passage.is_flight || *around_m > 2.5;
+/// Whether the board holds: a way leads around it, and it is longer than the open one.
+bool IsBarred(const Passage& passage, const sim::NavMesh& open, const sim::NavMesh& barred) {
+  const auto open_m = open.Geodesic(passage.a_world, passage.b_world);
+  const auto around_m = barred.Geodesic(passage.a_world, passage.b_world);
+  return open_m && around_m && *around_m > *open_m + kAround_m;
 }
 
 Box3 BoxOf(const Board& board, double height_m) {
@@ -165,7 +162,7 @@ Result<bool> BarWay(const ChangeWish& wish, HouseDay& day, Rng& rng) {
     const int id = Bar(passages[i], wish.kind, barred);
     const auto navmesh = sim::NavMesh::Build(barred, wish.navmesh);
     if (!navmesh) return tl::unexpected(navmesh.error());
-    if (!IsBarred(passages[i], *navmesh)) continue;
+    if (!IsBarred(passages[i], *wish.evening.navmesh, *navmesh)) continue;
     day.scene = std::move(barred);
     Change change = ChangeOf(wish.kind, *day.scene.FindInstance(id));
     const RoomView& room = wish.evening.rooms[static_cast<std::size_t>(passages[i].room_a)];
@@ -204,8 +201,7 @@ Result<bool> ChangeOnce(const ChangeWish& wish, HouseDay& day, Rng& rng) {
   return ChangeObject(wish, day, rng);
 }
 
-sim::Scene WithoutBars(const sim::Scene& scene, const sim::Scene& evening,
-                       const DayChanges& list) {
+sim::Scene WithoutBars(const sim::Scene& scene, const sim::Scene& evening, const DayChanges& list) {
   sim::Scene open = scene;
   for (const Change& change : list.changes) {
     if (change.kind < ChangeKind::kDoorClosed) continue;

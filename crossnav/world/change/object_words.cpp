@@ -7,20 +7,20 @@
 namespace crossnav::world {
 namespace {
 
-constexpr std::string_view kGround[] = {"floor",   "balcony", "rug",     "carpet",
-                                        "mat",     "terrace", "doormat", "ground"};
-constexpr std::string_view kTops[] = {
-    "table",      "desk",     "cabinet", "dresser",   "drawers", "stand",   "sideboard", "counter",
-    "nightstand", "bookcase", "shelf",   "bookshelf", "console", "cupboard"};
+constexpr std::string_view kGround[] = {"floor", "balcony", "rug",     "carpet",
+                                        "mat",   "terrace", "doormat", "ground"};
+constexpr std::string_view kTops[] = {"table", "desk",      "cabinet", "dresser",    "drawers",
+                                      "stand", "sideboard", "counter", "nightstand", "bookcase",
+                                      "shelf", "bookshelf", "console", "cupboard"};
 constexpr std::string_view kLandmarks[] = {
-    "table",  "desk",     "cabinet",   "dresser", "drawers",   "stand",    "sideboard", "counter",
-    "bed",    "bookcase", "bookshelf", "sofa",    "couch",     "wardrobe", "piano",     "bathtub",
-    "stove",  "oven",     "machine",   "sink",    "washbasin", "toilet",   "fireplace", "closet",
-    "shower", "shelf",    "nightstand", "refrigerator"};
+    "table",   "desk",      "cabinet",  "dresser",   "drawers", "stand",      "sideboard",
+    "counter", "bed",       "bookcase", "bookshelf", "sofa",    "couch",      "wardrobe",
+    "piano",   "bathtub",   "stove",    "oven",      "machine", "sink",       "washbasin",
+    "toilet",  "fireplace", "closet",   "shower",    "shelf",   "nightstand", "refrigerator"};
 constexpr std::string_view kMovable[] = {
-    "chair", "armchair", "stool", "bench", "ottoman",  "pouf", "plant",  "flowers",
-    "can",   "bin",      "basket", "box",  "lamp",     "vase", "suitcase", "bag",
-    "toy",   "book",     "laptop", "bowl", "clock",    "fan",  "radio",  "speaker",
+    "chair", "armchair", "stool",  "bench",      "ottoman", "pouf",  "plant",    "flowers",
+    "can",   "bin",      "basket", "box",        "lamp",    "vase",  "suitcase", "bag",
+    "toy",   "book",     "laptop", "bowl",       "clock",   "fan",   "radio",    "speaker",
     "cup",   "bottle",   "tv",     "television", "monitor", "guitar"};
 constexpr std::string_view kMovableCategories[] = {"chair", "sofa", "plant", "tv_monitor"};
 constexpr std::string_view kBath[] = {"toilet", "bathtub", "shower", "bidet"};

@@ -13,11 +13,11 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kWidest_m = 1.6;       // chosen: two leaves
-constexpr double kNarrowest_m = 0.4;    // chosen: nobody passes anyway
-constexpr double kOneDoorway_m = 0.9;   // chosen: crossings nearer to each other are one
-constexpr double kLeafNear_m = 0.3;     // chosen: an open leaf touches its doorway
-constexpr double kOnFlight_m = 0.35;    // chosen: above the second tread, below the third
+constexpr double kWidest_m = 1.6;      // chosen: two leaves
+constexpr double kNarrowest_m = 0.4;   // chosen: nobody passes anyway
+constexpr double kOneDoorway_m = 0.9;  // chosen: crossings nearer to each other are one
+constexpr double kLeafNear_m = 0.3;    // chosen: an open leaf touches its doorway
+constexpr double kOnFlight_m = 0.35;   // chosen: above the second tread, below the third
 
 /// Steps of the ground grid from one room into another.
 struct Crossing {
@@ -83,8 +83,7 @@ Section SectionAt(const sim::RayCaster& caster, const Vector3d& p_world, double 
 
 /// The narrowest of several sections around a place that is passed along `along`.
 Section NarrowestSection(const sim::RayCaster& caster, const Vector3d& p_world,
-                         const Vector3d& along, int leaf,
-                         std::initializer_list<double> heights_m) {
+                         const Vector3d& along, int leaf, std::initializer_list<double> heights_m) {
   constexpr double kWorthIt_m = 0.01;  // chosen: of equal ones the middle one
   const double across_rad = std::atan2(along.y(), along.x()) + std::numbers::pi / 2;
   Section best;
@@ -203,12 +202,11 @@ void AddFlights(const sim::Scene& scene, const sim::RayCaster& caster, const Hou
     passage.room_a = RoomNearest(view, low, &passage.a_world);
     passage.room_b = RoomNearest(view, high, &passage.b_world);
     if (passage.room_a < 0 || passage.room_b < 0) continue;
-    const auto at = PointAbove(view.navmesh->ShortestPath(passage.a_world, passage.b_world),
-                               kOnFlight_m);
+    const auto at =
+        PointAbove(view.navmesh->ShortestPath(passage.a_world, passage.b_world), kOnFlight_m);
     passage.board.length_m = 0;
     if (at && stairs.box.HorizontalDistance(at->first) < 0.3) {
-      const Section section =
-          NarrowestSection(caster, at->first, at->second, 0, {0.3, 0.6, 0.93});
+      const Section section = NarrowestSection(caster, at->first, at->second, 0, {0.3, 0.6, 0.93});
       SetBoard(section, at->first.z() - 0.2, passage);  // into the tread
       if (!IsBarrable(section)) passage.board.length_m = 0;
     }

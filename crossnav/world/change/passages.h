@@ -15,8 +15,8 @@ namespace crossnav::world {
 struct Passage {
   int room_a = -1, room_b = -1;  ///< indices of rooms; of a flight: where it begins and ends
   Vector3d a_world = Vector3d::Zero(), b_world = Vector3d::Zero();  ///< ground on either side
-  Board board;    ///< across it, as wide as it is; its height is the caller's
-  int leaf = 0;   ///< instance of a door that hangs in it; 0 = none
+  Board board;   ///< across it, as wide as it is; its height is the caller's
+  int leaf = 0;  ///< instance of a door that hangs in it; 0 = none
   bool is_flight = false;
 };
 

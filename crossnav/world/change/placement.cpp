@@ -12,15 +12,15 @@
 namespace crossnav::world {
 namespace {
 
-constexpr int kTries = 60;              // chosen: places of a room that are tried for an object
-constexpr double kLong_m = 0.9;         // chosen: what is longer stands at a wall, or where it stood
-constexpr double kWallReach_m = 2.5;    // chosen: a wall further away is another wall's
-constexpr double kOffWall_m = 0.05;     // chosen: skirting and cables
+constexpr int kTries = 60;            // chosen: places of a room that are tried for an object
+constexpr double kLong_m = 0.9;       // chosen: what is longer stands at a wall, or where it stood
+constexpr double kWallReach_m = 2.5;  // chosen: a wall further away is another wall's
+constexpr double kOffWall_m = 0.05;   // chosen: skirting and cables
 constexpr double kMovedOnTop_m = 0.25;  // chosen: further than a hand pushes a thing aside
 constexpr double kMovedBeside_m = 0.5;  // chosen: another side of a table
 constexpr double kMovedAway_m = 1.0;    // chosen: out of the success radius of where it was
 constexpr double kLowestTop_m = 0.25, kHighestTop_m = 1.4;  // chosen: above the ground
-constexpr double kLoungeArea_m2 = 5;    // chosen: smaller rooms hold no sofa
+constexpr double kLoungeArea_m2 = 5;                        // chosen: smaller rooms hold no sofa
 
 const std::array<Vector3d, 4> kSides = {Vector3d::UnitX(), Vector3d::UnitY(), -Vector3d::UnitX(),
                                         -Vector3d::UnitY()};
@@ -67,9 +67,7 @@ class Placer {
     if (is_long_) back_ = BackOf();
   }
 
-  std::optional<Standing> Find() {
-    return was_.is_on_ground ? FindOnGround() : FindOnTop();
-  }
+  std::optional<Standing> Find() { return was_.is_on_ground ? FindOnGround() : FindOnTop(); }
 
  private:
   Shift TurnBy(int quarter_turns) const {
@@ -135,7 +133,8 @@ class Placer {
 
   bool Suits(const RoomView& room) const {
     if (room.ground.empty()) return false;
-    const bool is_lounge = object_.category == "sofa" || object_.category == "tv_monitor" || is_long_;
+    const bool is_lounge =
+        object_.category == "sofa" || object_.category == "tv_monitor" || is_long_;
     if (is_lounge && (room.is_bath || room.is_kitchen || room.AreaM2() < kLoungeArea_m2)) {
       return false;
     }
@@ -147,9 +146,9 @@ class Placer {
     const double moved_m = (FootOf(box) - foot_).head<2>().norm();
     switch (kind_) {
       case ChangeKind::kSameFurniture:
-        return was_.is_on_ground ? was_.landmark != 0 && beside == was_.landmark &&
-                                       moved_m > kMovedBeside_m
-                                 : beside == was_.support && moved_m > kMovedOnTop_m;
+        return was_.is_on_ground
+                   ? was_.landmark != 0 && beside == was_.landmark && moved_m > kMovedBeside_m
+                   : beside == was_.support && moved_m > kMovedOnTop_m;
       case ChangeKind::kOtherFurniture:
         return beside != 0 && beside != (was_.is_on_ground ? was_.landmark : was_.support) &&
                moved_m > kMovedAway_m;

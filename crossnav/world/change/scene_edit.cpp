@@ -140,12 +140,10 @@ void AddBoard(sim::Scene& scene, int id, const Board& board, Rgb8 colour) {
     return board.centre_world + along * (board.length_m * (x - 0.5)) +
            across * (board.thickness_m * (y - 0.5)) + Vector3d(0, 0, board.height_m * z);
   };
-  constexpr int kFaces[6][4][3] = {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
-                                   {{1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {1, 1, 1}},
-                                   {{0, 1, 0}, {0, 0, 0}, {0, 0, 1}, {0, 1, 1}},
-                                   {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}},
-                                   {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-                                   {{0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}}};
+  constexpr int kFaces[6][4][3] = {
+      {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {1, 1, 1}},
+      {{0, 1, 0}, {0, 0, 0}, {0, 0, 1}, {0, 1, 1}}, {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}},
+      {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, {{0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}}};
   for (const auto& face : kFaces) {
     std::array<Vector3d, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = corner(face[i][0], face[i][1], face[i][2]);
