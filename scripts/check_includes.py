@@ -51,6 +51,7 @@ FOLDERS = {
         "scoring": {"episodes", "files", "records", "settings"},
         "generation": {"episodes", "records", "scoring", "settings"},
         "running": {"episodes", "files", "records", "scoring", "settings"},
+        "lifelong": {"episodes", "files", "records", "running", "scoring", "settings"},
         "trials": {"episodes", "records", "running", "scoring", "settings"},
         "reporting": {"records", "scoring", "settings"},
     },

@@ -11,12 +11,12 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr double kDetour_m = 1.5;      // chosen: a closed door that makes the way so much longer
-constexpr double kStaleNear_m = 1.5;   // as of a STOP: an instance within it is not gone
-constexpr double kMinStart_m = 1.0;    // as dataset.min_first_goal_m
-constexpr int kStarts = 60;            // chosen: draws of a start
-constexpr int kMostStatic = 3;         // chosen: of the goals of a later day, where others are there
-constexpr double kRounding_m = 1e-4;   // files keep it
+constexpr double kDetour_m = 1.5;     // chosen: a closed door that makes the way so much longer
+constexpr double kStaleNear_m = 1.5;  // as of a STOP: an instance within it is not gone
+constexpr double kMinStart_m = 1.0;   // as dataset.min_first_goal_m
+constexpr int kStarts = 60;           // chosen: draws of a start
+constexpr int kMostStatic = 3;        // chosen: of the goals of a later day, where others are there
+constexpr double kRounding_m = 1e-4;  // files keep it
 
 /// Instances that a goal means.
 int CountOf(const sim::Scene& scene, const std::string& goal, bool is_category) {

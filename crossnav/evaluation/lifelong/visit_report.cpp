@@ -177,7 +177,8 @@ std::string VisitReportMarkdown(const std::string& suite, const std::vector<Visi
   for (const VisitResults& run : runs) {
     text += fmt::format(
         "\n## memory = {}\n\n{} perception, settings {}, suite {}\n\n"
-        "| track | visits | goals | success % | SPL % | stale visits a goal | actions until revised "
+        "| track | visits | goals | success % | SPL % | stale visits a goal | actions until "
+        "revised "
         "| budget unspent % |\n|---|---|---|---|---|---|---|---|\n",
         run.run.memory_mode, run.run.perception, run.run.config_hash, run.run.suite_hash);
     for (const auto& [track, f] : FiguresOf(run)) {

@@ -21,12 +21,12 @@ struct Figure {
 
 struct TrackFigures {
   int visits = 0, goals = 0;
-  Figure success;               ///< Wilson's interval
-  std::optional<Figure> spl;    ///< from the previous stop; not of absent goals
-  Figure unspent;               ///< share of the budget that was left
-  double stale_visits = 0;      ///< a goal, mean
-  int revised = 0;              ///< goals for which a stale place was set out for
-  double revised_after = 0;     ///< actions, mean over these
+  Figure success;             ///< Wilson's interval
+  std::optional<Figure> spl;  ///< from the previous stop; not of absent goals
+  Figure unspent;             ///< share of the budget that was left
+  double stale_visits = 0;    ///< a goal, mean
+  int revised = 0;            ///< goals for which a stale place was set out for
+  double revised_after = 0;   ///< actions, mean over these
 };
 
 /// By track, in the order of kVisitTracks; tracks without goals are left out.

@@ -67,8 +67,7 @@ class VisitRun {
     if (step->action == Action::kStop) {
       end.stopped = true;
       const auto& targets = context_.TargetsOf(goal.goal);
-      end.is_reached =
-          IsGoalReached(context_, targets, simulator_.agent().p_world, config_.eval);
+      end.is_reached = IsGoalReached(context_, targets, simulator_.agent().p_world, config_.eval);
       end.is_claim_near = step->p_claimed_world && IsNear(targets, *step->p_claimed_world);
       return true;
     }

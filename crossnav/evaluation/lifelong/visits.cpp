@@ -105,8 +105,7 @@ Json ToJson(const GoalRecord& goal) {
   return json;
 }
 
-GoalRecord ReadGoalRecord(const Json& json, const std::string& where,
-                          std::optional<Error>& error) {
+GoalRecord ReadGoalRecord(const Json& json, const std::string& where, std::optional<Error>& error) {
   const ResultLine line(json, where);
   GoalRecord goal;
   std::string outcome;
@@ -230,13 +229,10 @@ Result<VisitRecord> ParseVisitLine(const std::string& text, const std::string& w
 
 std::string VisitResultsText(const VisitResults& results) {
   const VisitRun& run = results.run;
-  const Json header = {{"format", kFormat},
-                       {"suite_hash", run.suite_hash},
-                       {"memory_mode", run.memory_mode},
-                       {"variant", run.variant},
-                       {"config_hash", run.config_hash},
-                       {"perception", run.perception},
-                       {"version", run.version}};
+  const Json header = {
+      {"format", kFormat},      {"suite_hash", run.suite_hash},   {"memory_mode", run.memory_mode},
+      {"variant", run.variant}, {"config_hash", run.config_hash}, {"perception", run.perception},
+      {"version", run.version}};
   std::string text = header.dump() + "\n";
   for (const VisitRecord& record : results.records) text += VisitLine(record) + "\n";
   return text;

@@ -24,14 +24,14 @@ inline constexpr std::array<std::string_view, 8> kVisitTracks = {
 struct VisitGoal {
   std::string goal;  ///< a category, or a raw name
   std::string track;
-  bool is_absent = false;           ///< right is to say so: no candidate is left
-  std::vector<int> floors;          ///< certificate: floors with an instance that can be reached
+  bool is_absent = false;             ///< right is to say so: no candidate is left
+  std::vector<int> floors;            ///< certificate: floors with an instance that can be reached
   std::vector<Vector3d> stale_world;  ///< where an instance stood on an earlier day, and none now
   friend bool operator==(const VisitGoal&, const VisitGoal&) = default;
 };
 
 struct HouseVisit {
-  std::string house;     ///< id of its first day
+  std::string house;  ///< id of its first day
   int day = 0;
   std::string scene_id;  ///< of the day
   AgentPose start;
@@ -60,8 +60,8 @@ struct GoalRecord {
   double shortest_m = 0;  ///< from the previous stop; 0 for an absent goal
   double length_m = 0;
   int actions = 0, budget = 0;
-  int stale_visits = 0;       ///< how often the agent set out for a stale place
-  int revised_after = 0;      ///< actions until it set out for none any more; 0 = it never did
+  int stale_visits = 0;   ///< how often the agent set out for a stale place
+  int revised_after = 0;  ///< actions until it set out for none any more; 0 = it never did
   friend bool operator==(const GoalRecord&, const GoalRecord&) = default;
 
   double Spl() const;  ///< 0 without success

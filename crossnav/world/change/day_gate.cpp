@@ -18,21 +18,30 @@ tl::unexpected<Error> Refuse(std::string what, std::string where) {
   return Fail(ErrorCode::kInvalid, std::move(what), std::move(where));
 }
 
-/// A place of the first day's largest part that can still be stood on.
-std::optional<Vector3d> StartOn(const HouseView& first, const sim::NavMesh& navmesh) {
-  if (const auto p = navmesh.Snap(first.start_world, 0.05, 0.25)) return p;
+bool IsShut(const ShutRooms& shut, const RoomView& room) {
+  return shut.contains({room.floor, room.region});
+}
+
+/// A place of the first day's largest part that can still be stood on and is behind no shut door.
+std::optional<Vector3d> StartOn(const HouseView& first, const sim::NavMesh& navmesh,
+                                const ShutRooms& shut) {
+  const RoomView* largest = nullptr;
   for (const RoomView& room : first.rooms) {
-    for (const Vector3d& p : room.ground) {
-      if (const auto snapped = navmesh.Snap(p, 0.05, 0.25)) return snapped;
-    }
+    if (IsShut(shut, room)) continue;
+    if (largest == nullptr || room.ground.size() > largest->ground.size()) largest = &room;
+  }
+  if (largest == nullptr) return std::nullopt;
+  for (const Vector3d& p : largest->ground) {
+    if (const auto snapped = navmesh.Snap(p, 0.05, 0.25)) return snapped;
   }
   return std::nullopt;
 }
 
-Result<void> CheckRooms(const HouseView& first, const sim::NavMesh& navmesh,
+Result<void> CheckRooms(const HouseView& first, const sim::NavMesh& navmesh, const ShutRooms& shut,
                         const Vector3d& start_world) {
   constexpr std::size_t kEvery = 4;  // chosen: a point in .3 m, as the generator's gate looks
   for (const RoomView& room : first.rooms) {
+    if (IsShut(shut, room)) continue;
     int walkable = 0, reached = 0;
     for (std::size_t i = 0; i < room.ground.size(); i += kEvery) {
       const auto p = navmesh.Snap(room.ground[i], 0.05, 0.25);
@@ -95,17 +104,17 @@ Result<void> CheckChanged(const sim::Scene& scene, const sim::NavMesh& navmesh,
 
 }  // namespace
 
-Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene,
-                      const sim::Scene& scene, const sim::NavMesh& navmesh,
-                      const std::vector<Change>& changes) {
+Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, const JudgedDay& day,
+                      const sim::NavMesh& navmesh) {
+  const sim::Scene& scene = day.scene;
   if (navmesh.Floors().size() < first.navmesh->Floors().size()) {
     return Refuse("a floor has no walkable ground", scene.id);
   }
-  const auto start = StartOn(first, navmesh);
+  const auto start = StartOn(first, navmesh, day.shut);
   if (!start) return Refuse("no walkable ground", scene.id);
-  if (auto ok = CheckRooms(first, navmesh, *start); !ok) return ok;
+  if (auto ok = CheckRooms(first, navmesh, day.shut, *start); !ok) return ok;
   const sim::RayCaster caster(scene);
-  if (auto ok = CheckChanged(scene, navmesh, caster, *start, changes); !ok) return ok;
+  if (auto ok = CheckChanged(scene, navmesh, caster, *start, day.changes); !ok) return ok;
   return CheckCategories(first_scene, scene, navmesh, caster, *start);
 }
 

@@ -68,7 +68,8 @@ Result<HouseDay> HouseCalendar::Draw(const HouseView& evening, int attempt) cons
   }
   auto navmesh = sim::NavMesh::Build(next.scene, options_.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
-  if (auto ok = CheckDay(view_, *first_, next.scene, *navmesh, next.list.changes); !ok) {
+  if (auto ok = CheckDay(view_, *first_, {next.scene, next.list.changes, next.shut}, *navmesh);
+      !ok) {
     return tl::unexpected(ok.error());
   }
   return next;

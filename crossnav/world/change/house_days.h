@@ -31,8 +31,9 @@ struct DaysOptions {
 struct HouseDay {
   sim::Scene scene;
   DayChanges list;
-  std::vector<ChangeKind> missing;  ///< kinds for which the house has no place
-  int attempts = 0;                 ///< draws until one passed the gate
+  std::vector<ChangeKind> missing;     ///< kinds for which the house has no place
+  std::set<std::pair<int, int>> shut;  ///< rooms behind a bar (floor, region)
+  int attempts = 0;                    ///< draws until one passed the gate
 };
 
 /// Draws one day after another from a house; nothing is written.

@@ -105,9 +105,12 @@ std::vector<Vector3d> FeetOf(const sim::Scene& scene, const sim::SceneInstance& 
   const std::size_t count = std::min(kFeet, low.size());
   const Vector3d centre = instance.box.Center();
   for (std::size_t i = 0; i < count; ++i) {
-    Vector3d foot = low[i * low.size() / count];
-    foot.head<2>() += 0.1 * (centre - foot).head<2>();  // off the edge of what it stands on
-    feet.push_back(foot);
+    const Vector3d foot = low[i * low.size() / count];
+    Vector3d inwards = centre - foot;
+    inwards.z() = 0;
+    // Beside the foot as well: under it the two surfaces often lie in one plane.
+    feet.push_back(foot + 0.1 * inwards);
+    if (inwards.norm() > 1e-6) feet.push_back(foot - 0.015 * inwards.normalized());
   }
   return feet;
 }

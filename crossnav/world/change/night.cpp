@@ -17,6 +17,7 @@ constexpr double kBarrierHeight_m = 1.1;  // chosen: nobody steps over it, a cam
 constexpr double kBarrierDeep_m = 0.06;
 constexpr double kInPlane_m = 0.1;  // chosen: a frame's half depth; what is beyond is an open leaf
 constexpr double kAround_m = 1.5;   // chosen: less is a way past the board
+constexpr double kShutShare = 0.3;  // chosen: of the house's ground, behind one door
 constexpr int kBarTries = 6;        // chosen: each costs a navmesh
 
 std::set<int> ChangedOf(const DayChanges& list) {
@@ -128,11 +129,24 @@ int Bar(const Passage& passage, ChangeKind kind, sim::Scene& scene) {
   return id;
 }
 
-/// Whether the board holds: a way leads around it, and it is longer than the open one.
+/// Whether the board holds: no way leads past it, or a longer one around.
 bool IsBarred(const Passage& passage, const sim::NavMesh& open, const sim::NavMesh& barred) {
   const auto open_m = open.Geodesic(passage.a_world, passage.b_world);
   const auto around_m = barred.Geodesic(passage.a_world, passage.b_world);
-  return open_m && around_m && *around_m > *open_m + kAround_m;
+  return open_m && (!around_m || *around_m > *open_m + kAround_m);
+}
+
+/// A room that a door may shut: one alone, a small part of the house, nothing new in it.
+bool MayBeShut(const std::vector<int>& rooms, const HouseView& view, const DayChanges& list) {
+  if (rooms.empty()) return true;
+  if (rooms.size() > 1) return false;
+  const RoomView& room = view.rooms[static_cast<std::size_t>(rooms.front())];
+  double area_m2 = 0;
+  for (const RoomView& other : view.rooms) area_m2 += other.AreaM2();
+  if (room.AreaM2() > kShutShare * area_m2) return false;
+  return std::none_of(list.changes.begin(), list.changes.end(), [&](const Change& change) {
+    return change.to && change.to->room == room.region && change.to->floor == room.floor;
+  });
 }
 
 Box3 BoxOf(const Board& board, double height_m) {
@@ -145,31 +159,60 @@ Box3 BoxOf(const Board& board, double height_m) {
   return box;
 }
 
+/// A passage that may be barred, and the room that this cuts off, if any.
+struct BarWish {
+  std::size_t passage = 0;
+  std::vector<int> shut;
+};
+
+/// Passages with a way around first; a flight without one is never barred.
+std::vector<BarWish> BarWishes(const std::vector<Passage>& passages, const ChangeWish& wish,
+                               const DayChanges& list, Rng& rng) {
+  std::vector<BarWish> wishes;
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    const bool is_free = !ChangedOf(list).contains(passages[i].leaf);
+    if (!is_free || !IsOfKind(passages[i], wish.kind)) continue;
+    BarWish bar{i, CutOffWithout(passages, i, wish.evening)};
+    if (passages[i].is_flight ? bar.shut.empty() : MayBeShut(bar.shut, wish.evening, list)) {
+      wishes.push_back(std::move(bar));
+    }
+  }
+  rng.Shuffle(wishes);
+  std::stable_sort(wishes.begin(), wishes.end(),
+                   [](const auto& a, const auto& b) { return a.shut.size() < b.shut.size(); });
+  if (wishes.size() > kBarTries) wishes.resize(kBarTries);
+  return wishes;
+}
+
+void NoteBar(const ChangeWish& wish, const Passage& passage, const BarWish& bar, int id,
+             HouseDay& day) {
+  const int index = bar.shut.empty() ? passage.room_a : bar.shut.front();
+  const RoomView& room = wish.evening.rooms[static_cast<std::size_t>(index)];
+  Change change = ChangeOf(wish.kind, *day.scene.FindInstance(id));
+  change.to = ChangePlace{passage.board.centre_world, BoxOf(passage.board, kBarrierHeight_m),
+                          room.region, room.floor, 0};
+  SetRegion(day.scene, id, room.region);
+  for (const int shut : bar.shut) {
+    const RoomView& behind = wish.evening.rooms[static_cast<std::size_t>(shut)];
+    day.shut.emplace(behind.floor, behind.region);
+  }
+  day.list.changes.push_back(std::move(change));
+}
+
 Result<bool> BarWay(const ChangeWish& wish, HouseDay& day, Rng& rng) {
   const sim::RayCaster caster(day.scene);
   const auto passages = PassagesOf(day.scene, caster, wish.evening);
-  std::vector<std::size_t> candidates;
-  for (std::size_t i = 0; i < passages.size(); ++i) {
-    const bool is_free = !ChangedOf(day.list).contains(passages[i].leaf);
-    if (is_free && IsOfKind(passages[i], wish.kind) && HasWayAround(passages, i, wish.evening)) {
-      candidates.push_back(i);
-    }
-  }
-  rng.Shuffle(candidates);
-  if (candidates.size() > kBarTries) candidates.resize(kBarTries);
-  for (const std::size_t i : candidates) {
+  for (const BarWish& bar : BarWishes(passages, wish, day.list, rng)) {
+    const Passage& passage = passages[bar.passage];
     sim::Scene barred = day.scene;
-    const int id = Bar(passages[i], wish.kind, barred);
+    const int id = Bar(passage, wish.kind, barred);
     const auto navmesh = sim::NavMesh::Build(barred, wish.navmesh);
     if (!navmesh) return tl::unexpected(navmesh.error());
-    if (!IsBarred(passages[i], *wish.evening.navmesh, *navmesh)) continue;
+    const bool has_way = navmesh->Geodesic(passage.a_world, passage.b_world).has_value();
+    if (!IsBarred(passage, *wish.evening.navmesh, *navmesh)) continue;
+    if (!has_way && bar.shut.empty()) continue;
     day.scene = std::move(barred);
-    Change change = ChangeOf(wish.kind, *day.scene.FindInstance(id));
-    const RoomView& room = wish.evening.rooms[static_cast<std::size_t>(passages[i].room_a)];
-    change.to = ChangePlace{passages[i].board.centre_world,
-                            BoxOf(passages[i].board, kBarrierHeight_m), room.region, room.floor, 0};
-    SetRegion(day.scene, id, room.region);
-    day.list.changes.push_back(std::move(change));
+    NoteBar(wish, passage, bar, id, day);
     return true;
   }
   return false;

@@ -7,8 +7,8 @@
 namespace crossnav::world {
 namespace {
 
-constexpr std::string_view kGround[] = {"floor", "balcony", "rug",     "carpet",
-                                        "mat",   "terrace", "doormat", "ground"};
+constexpr std::string_view kGround[] = {"floor",   "balcony", "rug",    "carpet",   "mat",
+                                        "terrace", "doormat", "ground", "threshold"};
 constexpr std::string_view kTops[] = {"table", "desk",      "cabinet", "dresser",    "drawers",
                                       "stand", "sideboard", "counter", "nightstand", "bookcase",
                                       "shelf", "bookshelf", "console", "cupboard"};
@@ -72,7 +72,8 @@ bool IsBathFixture(std::string_view name) {
 }
 
 bool IsKitchenFixture(std::string_view name) {
-  return Holds(kKitchen, LastWord(name));
+  const std::string_view last = LastWord(name);
+  return Holds(kKitchen, last) || (name.starts_with("kitchen") && last == "cabinet");
 }
 
 }  // namespace crossnav::world

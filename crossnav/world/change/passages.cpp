@@ -81,16 +81,18 @@ Section SectionAt(const sim::RayCaster& caster, const Vector3d& p_world, double 
   return {left_m + right_m, p_world + side * (0.5 * (left_m - right_m)), yaw_rad};
 }
 
-/// The narrowest of several sections around a place that is passed along `along`.
+/// The narrowest of several sections around a place that is passed along `along`; turned by up to
+/// `most_deg`: on a flight, a section far from square would meet treads instead of walls.
 Section NarrowestSection(const sim::RayCaster& caster, const Vector3d& p_world,
-                         const Vector3d& along, int leaf, std::initializer_list<double> heights_m) {
+                         const Vector3d& along, int leaf, double most_deg) {
   constexpr double kWorthIt_m = 0.01;  // chosen: of equal ones the middle one
   const double across_rad = std::atan2(along.y(), along.x()) + std::numbers::pi / 2;
+  const std::initializer_list<double> heights_m = {0.3, 0.6, 0.93};
   Section best;
   for (const double off_m : {0.0, -0.05, 0.05, -0.1, 0.1, -0.2, 0.2, -0.3, 0.3}) {
-    for (const double turn_deg : {0.0, -15.0, 15.0, -30.0, 30.0, -45.0, 45.0}) {
+    for (const double share : {0.0, -1 / 3.0, 1 / 3.0, -2 / 3.0, 2 / 3.0, -1.0, 1.0}) {
       const Section section = SectionAt(caster, p_world + off_m * along,
-                                        across_rad + DegToRad(turn_deg), leaf, heights_m);
+                                        across_rad + DegToRad(share * most_deg), leaf, heights_m);
       if (section.width_m < best.width_m - kWorthIt_m) best = section;
     }
   }
@@ -146,10 +148,10 @@ void AddDoorways(const sim::Scene& scene, const sim::RayCaster& caster, const Ho
     passage.room_a = sum.room_a;
     passage.room_b = sum.room_b;
     const Vector3d middle = sum.p_world / count;
-    const Vector3d along = sum.along.normalized();
-    if (!along.allFinite()) continue;
+    const Vector3d along =
+        sum.along.norm() > 0.1 ? Vector3d(sum.along.normalized()) : Vector3d(Vector3d::UnitX());
     passage.leaf = LeafAt(scene, middle);
-    const Section section = NarrowestSection(caster, middle, along, passage.leaf, {0.3, 1.0});
+    const Section section = NarrowestSection(caster, middle, along, passage.leaf, 45);
     SetBoard(section, middle.z(), passage);
     passage.a_world = middle - 0.5 * along;
     passage.b_world = middle + 0.5 * along;
@@ -206,7 +208,7 @@ void AddFlights(const sim::Scene& scene, const sim::RayCaster& caster, const Hou
         PointAbove(view.navmesh->ShortestPath(passage.a_world, passage.b_world), kOnFlight_m);
     passage.board.length_m = 0;
     if (at && stairs.box.HorizontalDistance(at->first) < 0.3) {
-      const Section section = NarrowestSection(caster, at->first, at->second, 0, {0.3, 0.6, 0.93});
+      const Section section = NarrowestSection(caster, at->first, at->second, 0, 10);
       SetBoard(section, at->first.z() - 0.2, passage);  // into the tread
       if (!IsBarrable(section)) passage.board.length_m = 0;
     }
@@ -224,7 +226,8 @@ std::vector<Passage> PassagesOf(const sim::Scene& scene, const sim::RayCaster& c
   return passages;
 }
 
-bool HasWayAround(const std::vector<Passage>& passages, std::size_t index, const HouseView& view) {
+std::vector<int> CutOffWithout(const std::vector<Passage>& passages, std::size_t index,
+                               const HouseView& view) {
   std::vector<int> group(view.rooms.size());
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = static_cast<int>(i);
   for (std::size_t i = 0; i < passages.size(); ++i) {
@@ -233,9 +236,16 @@ bool HasWayAround(const std::vector<Passage>& passages, std::size_t index, const
     const int b = group[static_cast<std::size_t>(passages[i].room_b)];
     for (int& g : group) g = g == a ? b : g;
   }
-  const Passage& barred = passages[index];
-  return group[static_cast<std::size_t>(barred.room_a)] ==
-         group[static_cast<std::size_t>(barred.room_b)];
+  const int a = group[static_cast<std::size_t>(passages[index].room_a)];
+  const int b = group[static_cast<std::size_t>(passages[index].room_b)];
+  if (a == b) return {};
+  std::vector<int> side_a, side_b;
+  double area_a_m2 = 0, area_b_m2 = 0;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    if (group[i] == a) side_a.push_back(static_cast<int>(i)), area_a_m2 += view.rooms[i].AreaM2();
+    if (group[i] == b) side_b.push_back(static_cast<int>(i)), area_b_m2 += view.rooms[i].AreaM2();
+  }
+  return area_a_m2 < area_b_m2 ? side_a : side_b;
 }
 
 }  // namespace crossnav::world

@@ -24,8 +24,9 @@ struct Passage {
 std::vector<Passage> PassagesOf(const sim::Scene& scene, const sim::RayCaster& caster,
                                 const HouseView& view);
 
-/// Whether a way leads from one side of `passages[index]` to the other without it, as far as rooms,
-/// passages and flights tell.
-bool HasWayAround(const std::vector<Passage>& passages, std::size_t index, const HouseView& view);
+/// Rooms that are cut off from the rest without `passages[index]`, as far as rooms, passages and
+/// flights tell: the smaller side, by area; none where a way leads around.
+std::vector<int> CutOffWithout(const std::vector<Passage>& passages, std::size_t index,
+                               const HouseView& view);
 
 }  // namespace crossnav::world
