@@ -65,7 +65,7 @@ Result<void> WorldChange(const ChangeOptions& options, const CommonOptions& /*co
                     {"missing", std::move(missing)},
                     {"list", Json::parse(world::ChangesText(day.list))}});
   }
-  console.Document({{"days", std::move(list)}});
+  console.Document(Json({{"days", std::move(list)}}));
   return {};
 }
 

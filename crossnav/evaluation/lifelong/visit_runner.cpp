@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/evaluation/lifelong/visit_runner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <numeric>
@@ -16,10 +17,10 @@ namespace {
 constexpr double kAtPlace_m = 1.0, kAtHeight_m = 1.5;  // chosen: a remembered place's spread
 
 /// Everything that lives as long as one visit.
-class VisitRun {
+class GoalSearch {
  public:
-  VisitRun(const SceneContext& context, const RunConfig& config, sim::Simulator& simulator,
-           agent::Agent& agent)
+  GoalSearch(const SceneContext& context, const RunConfig& config, sim::Simulator& simulator,
+             agent::Agent& agent)
       : context_(context), config_(config), simulator_(simulator), agent_(agent) {}
 
   Result<GoalRecord> Search(const VisitGoal& goal) {
@@ -131,7 +132,7 @@ Result<VisitRecord> PlayVisit(const SceneContext& context, const HouseVisit& vis
   VisitRecord record;
   record.house = visit.house;
   record.day = visit.day;
-  VisitRun run(context, config, simulator, agent);
+  GoalSearch run(context, config, simulator, agent);
   for (const VisitGoal& goal : visit.goals) {
     auto found = run.Search(goal);
     if (!found) {
