@@ -56,6 +56,16 @@ struct WorldOptions {
 Result<void> WorldGenerate(const WorldOptions& options, const CommonOptions& common,
                            Console& console);
 
+struct ChangeOptions {
+  std::string house, out;  ///< folders; out empty = the folder that holds the house
+  std::uint64_t seed = 1;
+  int days = 1;
+  std::vector<std::string> kinds;  ///< empty = each once
+};
+/// The same house on later days.
+Result<void> WorldChange(const ChangeOptions& options, const CommonOptions& common,
+                         Console& console);
+
 /// Generates houses without keeping them, and prints their statistics.
 Result<void> WorldStats(const WorldOptions& options, const CommonOptions& common, Console& console);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <map>
 
+#include "crossnav/world/change/changes.h"
 #include "crossnav/world/layout/edition.h"
 #include "verbs.h"
 
@@ -31,6 +32,26 @@ void AddHouses(CLI::App* verb, WorldOptions& world) {
   verb->add_flag("--scan", world.scan, "With the faults of a real scan, drawn from the seed");
 }
 
+void AddChange(CLI::App& world, Options& o) {
+  CLI::App* change =
+      AddVerb(world, o, "change", "The same house on later days: things moved, ways barred",
+              "crossnav world change scenes/00001-House1 --seed 1 --days 3",
+              [&o](Console& c) { return WorldChange(o.change, o.common, c); });
+  change->add_option("HOUSE", o.change.house, "Scene folder")->required();
+  change->add_option("--seed", o.change.seed, "Seed of the changes");
+  change->add_option("--days", o.change.days, "Days after the first")->check(CLI::Range(1, 1000));
+  change->add_option("--out", o.change.out,
+                     "Folder to write HOUSE-day1 ... to; default: the folder that holds HOUSE");
+  change
+      ->add_option("--kinds", o.change.kinds,
+                   "Changes of each night: same_furniture, other_furniture, other_room, "
+                   "other_floor, removed, added, door_closed, passage_blocked, flight_barred; "
+                   "default: each once, where the house has a place for it")
+      ->delimiter(',')
+      ->check(CLI::IsMember(
+          std::vector<std::string>(world::kChangeNames.begin(), world::kChangeNames.end())));
+}
+
 void AddWorld(CLI::App& app, Options& o) {
   CLI::App* world = app.add_subcommand("world", "Make scenes");
   world->require_subcommand(1);
@@ -43,6 +64,7 @@ void AddWorld(CLI::App& app, Options& o) {
                    "Picture of all houses: a view from inside and every floor from above")
       ->type_name("FILE.png");
   verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
+  AddChange(*world, o);
   CLI::App* stats =
       AddVerb(*world, o, "stats", "Statistics of a set of generated houses; keeps none of them",
               "crossnav world stats --seed 1 --count 200 --floors 0",

@@ -10,6 +10,7 @@
 #include "crossnav/evaluation/generation/episode_generator.h"
 #include "crossnav/evaluation/running/worker_pool.h"
 #include "eval_progress.h"
+#include "lifelong_command.h"
 #include "session.h"
 #include "suite_buildings.h"
 
@@ -227,6 +228,7 @@ std::pair<std::string, Json> Describe(const SuitePlace& place,
 
 Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& /*common*/,
                        Console& console) {
+  if (IsLifelong(options.name)) return LifelongMake(options, console);
   const auto tracks = WantedTracks(options, console);
   if (!tracks) return tl::unexpected(tracks.error());
   Json documents = Json::array();
@@ -243,6 +245,7 @@ Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& /*commo
 }
 
 Result<void> SuiteRun(const SuiteOptions& options, const CommonOptions& common, Console& console) {
+  if (IsLifelong(options.name)) return LifelongRun(options, common, console);
   const auto tracks = WantedTracks(options, console);
   if (!tracks) return tl::unexpected(tracks.error());
   if (tracks->size() == 1) return EnsureRun(tracks->front(), options, common, console);
@@ -258,6 +261,7 @@ Result<void> SuiteRun(const SuiteOptions& options, const CommonOptions& common, 
 
 Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& common,
                          Console& console) {
+  if (IsLifelong(options.name)) return LifelongReport(options, console);
   const auto tracks = WantedTracks(options, console);
   if (!tracks) return tl::unexpected(tracks.error());
   Console quiet(false, common.quiet, /*is_silent=*/true);  // the report has the run's figures

@@ -21,6 +21,7 @@ using Command = std::function<Result<void>(Console&)>;
 struct Options {
   CommonOptions common;
   WorldOptions world;
+  ChangeOptions change;
   AssetsOptions assets;
   SceneOptions scene;
   ViewsOptions views;

@@ -154,6 +154,7 @@ Json MaterialJson(const sim::Scene& scene, const sim::Material& m, RenderColours
   }
   material["pbrMetallicRoughness"] = std::move(pbr);
   material["doubleSided"] = true;
+  if (m.is_unlit) material["extensions"] = {{"KHR_materials_unlit", Json::object()}};
   return material;
 }
 
@@ -264,6 +265,9 @@ std::string EncodeRenderGlb(const sim::Scene& scene, RenderColours colours) {
     primitives.push_back(RenderPrimitive(scene, groups[m], static_cast<int>(m), colours, buffers));
   }
   Json root = Root(std::move(primitives), std::move(materials));
+  const bool has_unlit = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                     [](const sim::Material& m) { return m.is_unlit; });
+  if (has_unlit) root["extensionsUsed"] = {"KHR_materials_unlit"};
   AddImages(scene, root, buffers);
   return Finish(std::move(root), std::move(buffers));
 }

@@ -98,7 +98,7 @@ Result<void> WriteDatasetConfig(const fs::path& dir) {
 }
 
 Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir,
-                            const std::string& house_text) {
+                            const std::string& house_text, const std::string& changes_text) {
   const auto dash = scene.id.find('-');
   if (dash == std::string::npos || dash + 1 == scene.id.size()) {
     return Fail(ErrorCode::kInvalid, "a scene id reads <number>-<name>", scene.id);
@@ -110,6 +110,7 @@ Result<fs::path> WriteScene(const sim::Scene& scene, const fs::path& dir,
   if (error) return Fail(ErrorCode::kIo, error.message(), folder.string());
   const std::string stem = scene.id.substr(dash + 1);
   const NamedBytes files[] = {{stem + ".house.json", house_text},
+                              {stem + ".changes.json", changes_text},
                               {stem + ".semantic.txt", SemanticText(scene)},
                               {stem + ".semantic.glb", EncodeSemanticGlb(scene)},
                               {stem + ".glb", EncodeRenderGlb(scene)}};

@@ -15,9 +15,11 @@
 namespace crossnav::world {
 
 /// Writes `scene` below `dir` (created if absent) and returns the scene's folder. `scene.id` must
-/// be "<number>-<name>". A non-empty `house_text` goes into `<hash>.house.json`.
+/// be "<number>-<name>". A non-empty `house_text` goes into `<hash>.house.json`, a non-empty
+/// `changes_text` into `<hash>.changes.json`.
 Result<std::filesystem::path> WriteScene(const sim::Scene& scene, const std::filesystem::path& dir,
-                                         const std::string& house_text = {});
+                                         const std::string& house_text = {},
+                                         const std::string& changes_text = {});
 
 /// Rewrites the data set file of `dir` so that it lists every scene below it.
 Result<void> WriteDatasetConfig(const std::filesystem::path& dir);

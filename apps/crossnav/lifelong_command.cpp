@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "lifelong_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "crossnav/core/read_file.h"
+#include "crossnav/core/version.h"
+#include "crossnav/core/write_file.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/lifelong/visit_report.h"
+#include "crossnav/evaluation/lifelong/visit_runner.h"
+#include "crossnav/evaluation/running/worker_pool.h"
+#include "crossnav/evaluation/settings/config_file.h"
+#include "lifelong_houses.h"
+#include "memory_files.h"
+#include "perception_source.h"
+#include "session.h"
+
+namespace crossnav::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kModes[] = {"none", "keep", "revise"};
+constexpr const char* kModeKey = "memory.mode=";
+
+/// memory.mode out of the overrides, which do not know it.
+Result<std::string> TakeMode(CommonOptions& common) {
+  std::string mode = "keep";
+  std::erase_if(common.overrides, [&](const std::string& setting) {
+    if (!setting.starts_with(kModeKey)) return false;
+    mode = setting.substr(std::string(kModeKey).size());
+    return true;
+  });
+  if (std::find(std::begin(kModes), std::end(kModes), mode) != std::end(kModes)) return mode;
+  return Fail(ErrorCode::kInvalid, "is \"" + mode + "\"; it must be none, keep or revise",
+              "memory.mode");
+}
+
+struct ChainSettings {
+  const evaluation::RunConfig& config;
+  const PerceptionSource& perception;
+  std::string mode;
+  const LifelongPlace& place;
+  fs::path run;
+};
+
+/// Plays one day; the memory goes on in the house's map file.
+Result<evaluation::VisitRecord> PlayDay(const evaluation::HouseVisit& visit,
+                                        const ChainSettings& chain) {
+  auto context = evaluation::SceneContext::Load(chain.place.scenes(), visit.scene_id, chain.config);
+  if (!context) return tl::unexpected(context.error());
+  const fs::path map = chain.run / "memory" / (visit.house + ".map");
+  const std::string encoder = chain.perception.EncoderName();
+  evaluation::VisitHooks hooks;
+  if (chain.mode != "none" && visit.day > 0) {
+    hooks.begin = [&](agent::Agent& agent) {
+      return RestoreMemory(map, chain.config, encoder, agent);
+    };
+  }
+  if (chain.mode != "none") {
+    hooks.end = [&](const agent::Agent& agent) -> Result<void> {
+      const auto saved = SaveMemoryOf(agent, map, encoder, visit.house);
+      if (!saved) return tl::unexpected(saved.error());
+      return {};
+    };
+  }
+  auto record =
+      evaluation::PlayVisit(**context, visit, chain.config, hooks, chain.perception.Maker());
+  if (!record) return record;
+  std::error_code ignored;
+  const auto bytes = fs::file_size(map, ignored);
+  if (chain.mode != "none" && !ignored) record->map_bytes = static_cast<std::int64_t>(bytes);
+  return record;
+}
+
+/// All days of one house, as lines; a day that errs ends the chain.
+std::string PlayHouse(const std::vector<evaluation::HouseVisit>& visits,
+                      const ChainSettings& chain) {
+  std::string lines;
+  for (const evaluation::HouseVisit& visit : visits) {
+    auto record = PlayDay(visit, chain);
+    if (!record) {
+      evaluation::VisitRecord failed;
+      failed.house = visit.house;
+      failed.day = visit.day;
+      failed.failure = record.error().Message();
+      return lines + evaluation::VisitLine(failed) + "\n";
+    }
+    lines += evaluation::VisitLine(*record) + "\n";
+  }
+  return lines;
+}
+
+/// Houses in the order of the file.
+std::vector<std::vector<evaluation::HouseVisit>> ByHouse(const evaluation::VisitFile& file) {
+  std::vector<std::vector<evaluation::HouseVisit>> houses;
+  for (const evaluation::HouseVisit& visit : file.visits) {
+    if (houses.empty() || houses.back().front().house != visit.house) houses.emplace_back();
+    houses.back().push_back(visit);
+  }
+  return houses;
+}
+
+/// What the run's file holds already. Error: it is of another run.
+Result<evaluation::VisitResults> Started(const fs::path& path, const evaluation::VisitRun& run) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return evaluation::VisitResults{run, {}};
+  const auto text = ReadFile(path);
+  if (!text) return tl::unexpected(text.error());
+  auto results = evaluation::ParseVisitResults(*text, path.string());
+  if (!results || results->run == run) return results;
+  return Fail(
+      ErrorCode::kMismatch,
+      "is of other visits, settings, perception or version; remove it, or use another --out",
+      path.string());
+}
+
+void Add(const std::string& lines, evaluation::VisitResults& results) {
+  std::size_t begin = 0;
+  while (begin < lines.size()) {
+    const std::size_t end = lines.find('\n', begin);
+    auto record = evaluation::ParseVisitLine(lines.substr(begin, end - begin), "visit");
+    if (record) results.records.push_back(std::move(*record));
+    begin = end + 1;
+  }
+  std::stable_sort(results.records.begin(), results.records.end(),
+                   [](const auto& a, const auto& b) {
+                     return std::pair(a.house, a.day) < std::pair(b.house, b.day);
+                   });
+}
+
+/// Plays the houses that have no records yet; the file is whole after each of them.
+Result<void> PlayHouses(const std::vector<std::vector<evaluation::HouseVisit>>& houses, int jobs,
+                        const ChainSettings& chain, evaluation::VisitResults& results,
+                        Console& console) {
+  std::vector<const std::vector<evaluation::HouseVisit>*> open;
+  for (const auto& house : houses) {
+    const bool is_done =
+        std::any_of(results.records.begin(), results.records.end(),
+                    [&](const auto& record) { return record.house == house.front().house; });
+    if (!is_done) open.push_back(&house);
+  }
+  evaluation::PoolTask task;
+  task.count = static_cast<int>(open.size());
+  task.jobs = jobs;
+  task.work = [&](int item) -> Result<std::string> {
+    return PlayHouse(*open[static_cast<std::size_t>(item)], chain);
+  };
+  int done = 0;
+  task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
+    const auto& house = *open[static_cast<std::size_t>(item)];
+    evaluation::VisitRecord failed;
+    failed.house = house.front().house;
+    failed.failure = answer.error.Message();
+    const bool is_played = answer.end == evaluation::ItemEnd::kDone;
+    Add(is_played ? answer.text : evaluation::VisitLine(failed) + "\n", results);
+    console.Progress(fmt::format("house {} of {}", ++done, open.size()));
+    return WriteFileAtomically(chain.run / "visits.jsonl", evaluation::VisitResultsText(results));
+  };
+  return evaluation::RunPool(task);
+}
+
+std::string FiguresText(const evaluation::VisitResults& results) {
+  return evaluation::VisitReportMarkdown("visits", {results}, {});
+}
+
+}  // namespace
+
+bool IsLifelong(const std::string& suite) {
+  return suite.starts_with("crossnav-lifelong-");
+}
+
+Result<void> LifelongMake(const SuiteOptions& options, Console& console) {
+  const auto file = EnsureVisits(options, console);
+  if (!file) return tl::unexpected(file.error());
+  std::map<std::string, int> tracks;
+  std::set<std::string> houses;
+  for (const evaluation::HouseVisit& visit : file->visits) {
+    houses.insert(visit.house);
+    for (const evaluation::VisitGoal& goal : visit.goals) ++tracks[goal.track];
+  }
+  std::string text =
+      fmt::format("{}: {} houses, {} visits", LifelongPlaceOf(options).folder.string(),
+                  houses.size(), file->visits.size());
+  for (const auto& [track, count] : tracks) text += fmt::format(", {} {}", count, track);
+  console.Print(text + ", hash " + file->content_hash + "\n");
+  console.Document(Json({{"folder", LifelongPlaceOf(options).folder.string()},
+                         {"houses", houses.size()},
+                         {"visits", file->visits.size()},
+                         {"goals", tracks},
+                         {"hash", file->content_hash}}));
+  return {};
+}
+
+Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& common,
+                         Console& console) {
+  CommonOptions rest = common;
+  const auto mode = TakeMode(rest);
+  if (!mode) return tl::unexpected(mode.error());
+  const auto config = LoadRunConfig(rest, {options.variant, "", "", ""});
+  if (!config) return tl::unexpected(config.error());
+  const auto perception = PerceptionSource::Read(*config);
+  if (!perception) return tl::unexpected(perception.error());
+  const auto file = EnsureVisits(options, console);
+  if (!file) return tl::unexpected(file.error());
+  const LifelongPlace place = LifelongPlaceOf(options);
+  const std::string name = options.variant == "full" ? *mode : *mode + "-" + options.variant;
+  const ChainSettings chain{*config, *perception, *mode, place, place.runs() / name};
+  const fs::path path = chain.run / "visits.jsonl";
+  if (auto ok = evaluation::CheckOutputFile(path, "--out"); !ok) return ok;
+  std::error_code error;
+  fs::create_directories(chain.run / "memory", error);
+  if (error) return Fail(ErrorCode::kIo, error.message(), (chain.run / "memory").string());
+  auto results =
+      Started(path, {file->content_hash, *mode, options.variant, evaluation::ConfigHash(*config),
+                     config->eval.perception + "-perception", CROSSNAV_VERSION});
+  if (!results) return tl::unexpected(results.error());
+  if (auto ok = PlayHouses(ByHouse(*file), options.jobs, chain, *results, console); !ok) return ok;
+  console.EndProgress();
+  console.Print(FiguresText(*results) + path.string() + "\n");
+  console.Document(Json::parse(evaluation::VisitReportJson({*results}, {})));
+  return {};
+}
+
+Result<void> LifelongReport(const SuiteOptions& options, Console& console) {
+  const LifelongPlace place = LifelongPlaceOf(options);
+  std::vector<evaluation::VisitResults> runs;
+  for (const char* mode : kModes) {
+    const fs::path path = place.runs() / mode / "visits.jsonl";
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) continue;
+    const auto text = ReadFile(path);
+    if (!text) return tl::unexpected(text.error());
+    auto results = evaluation::ParseVisitResults(*text, path.string());
+    if (!results) return tl::unexpected(results.error());
+    runs.push_back(std::move(*results));
+  }
+  if (runs.empty()) {
+    return Fail(
+        ErrorCode::kNotFound,
+        "has no run; begin with `crossnav suite run " + options.name + " --set memory.mode=keep`",
+        place.runs().string());
+  }
+  std::vector<evaluation::VisitComparison> comparisons;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (std::size_t j = i + 1; j < runs.size(); ++j) {
+      auto comparison = evaluation::CompareVisits(runs[i], runs[j]);
+      if (!comparison) return tl::unexpected(comparison.error());
+      comparisons.push_back(std::move(*comparison));
+    }
+  }
+  const std::string text = evaluation::VisitReportMarkdown(options.name, runs, comparisons);
+  const std::string json = evaluation::VisitReportJson(runs, comparisons);
+  const fs::path folder = place.folder / "report";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return Fail(ErrorCode::kIo, error.message(), folder.string());
+  if (auto ok = WriteFileAtomically(folder / "report.md", text); !ok) return ok;
+  if (auto ok = WriteFileAtomically(folder / "report.json", json + "\n"); !ok) return ok;
+  console.Print(text + (folder / "report.md").string() + "\n");
+  console.Document(Json::parse(json));
+  return {};
+}
+
+}  // namespace crossnav::app

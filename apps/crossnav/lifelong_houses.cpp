@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "lifelong_houses.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "crossnav/core/write_file.h"
+#include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/lifelong/visit_maker.h"
+#include "crossnav/evaluation/running/worker_pool.h"
+#include "crossnav/world/change/house_days.h"
+#include "crossnav/world/house/house_generator.h"
+
+namespace crossnav::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LifelongSuite {
+  const char* name;
+  std::uint64_t first_seed;
+  int houses, days;  ///< days after the first
+};
+// Seeds 7001 to 7040 are run to report only.
+constexpr LifelongSuite kSuites[] = {{"crossnav-lifelong-1", 7001, 40, 3},
+                                     {"crossnav-lifelong-1-val", 8101, 10, 3},
+                                     {"crossnav-lifelong-1-mini", 8001, 1, 2}};
+constexpr std::uint64_t kSeedsAHouse = 5;  // chosen: that may be tried for each house
+Result<LifelongSuite> SuiteOf(const std::string& name) {
+  for (const LifelongSuite& suite : kSuites) {
+    if (name == suite.name) return suite;
+  }
+  return Fail(ErrorCode::kNotFound,
+              "no suite of this name; there are crossnav-lifelong-1, -val and -mini", name);
+}
+
+/// What happens in each night of the suite: one change a track.
+std::vector<world::ChangeKind> NightOf() {
+  using world::ChangeKind;
+  return {ChangeKind::kSameFurniture, ChangeKind::kOtherFurniture, ChangeKind::kOtherRoom,
+          ChangeKind::kOtherFloor,    ChangeKind::kRemoved,        ChangeKind::kDoorClosed};
+}
+
+/// What visits are made with; they depend on no settings of the user's.
+evaluation::RunConfig MakerConfig() {
+  evaluation::RunConfig config;
+  config.dataset.certificate = "detection";
+  return config;
+}
+
+/// One house with its days and visits; empty text where the seed gives none.
+Result<std::string> MakeHouse(const LifelongSuite& suite, std::uint64_t seed,
+                              const LifelongPlace& place) {
+  world::HouseParams params;
+  params.seed = seed;
+  params.floors = seed % 3 == 0 ? 3 : 2;
+  const auto house = world::GenerateHouse(params, place.scenes());
+  if (!house && house.error().code == ErrorCode::kInvalid) return std::string();
+  if (!house) return tl::unexpected(house.error());
+  world::DaysOptions options;
+  options.seed = seed;
+  options.days = suite.days;
+  options.kinds = NightOf();
+  const auto days = world::WriteDays(house->folder, place.scenes(), options);
+  if (!days && days.error().code == ErrorCode::kInvalid) return std::string();
+  if (!days) return tl::unexpected(days.error());
+  const evaluation::RunConfig config = MakerConfig();
+  std::vector<evaluation::VisitDay> visited;
+  for (int day = 0; day <= suite.days; ++day) {
+    evaluation::VisitDay next;
+    const std::string id =
+        day == 0 ? house->scene_id : (*days)[static_cast<std::size_t>(day) - 1].list.scene;
+    auto context = evaluation::SceneContext::Load(place.scenes(), id, config);
+    if (!context) return tl::unexpected(context.error());
+    next.scene_id = id;
+    next.context = std::move(*context);
+    if (day > 0) next.list = (*days)[static_cast<std::size_t>(day) - 1].list;
+    visited.push_back(std::move(next));
+  }
+  const auto visits = evaluation::MakeVisits(visited, seed);
+  if (!visits && visits.error().code == ErrorCode::kInvalid) return std::string();
+  if (!visits) return tl::unexpected(visits.error());
+  return evaluation::VisitsText(*visits);
+}
+
+Result<void> MakeHouses(const LifelongSuite& suite, const LifelongPlace& place, int jobs,
+                        int wanted, std::uint64_t& seed,
+                        std::vector<evaluation::HouseVisit>& visits, int& houses,
+                        Console& console) {
+  std::map<int, std::string> texts;
+  const std::uint64_t first = seed;
+  evaluation::PoolTask task;
+  task.count = wanted;
+  task.jobs = jobs;
+  task.work = [&](int item) {
+    return MakeHouse(suite, first + static_cast<std::uint64_t>(item), place);
+  };
+  task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
+    if (answer.end != evaluation::ItemEnd::kDone) {
+      return Fail(answer.error.code, answer.error.Message(),
+                  fmt::format("house of seed {}", first + static_cast<std::uint64_t>(item)));
+    }
+    texts[item] = answer.text;
+    console.Progress(
+        fmt::format("house {} of {}", houses + static_cast<int>(texts.size()), suite.houses));
+    return {};
+  };
+  if (auto ok = evaluation::RunPool(task); !ok) return ok;
+  seed += static_cast<std::uint64_t>(wanted);
+  for (const auto& [item, text] : texts) {
+    if (text.empty()) continue;
+    auto file = evaluation::ParseVisits(text, suite.name);
+    if (!file) return tl::unexpected(file.error());
+    ++houses;
+    for (auto& visit : file->visits) visits.push_back(std::move(visit));
+  }
+  return {};
+}
+
+}  // namespace
+
+LifelongPlace LifelongPlaceOf(const SuiteOptions& options) {
+  return {fs::path(options.out) / options.name};
+}
+
+Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console& console) {
+  const auto suite = SuiteOf(options.name);
+  if (!suite) return tl::unexpected(suite.error());
+  const LifelongPlace place = LifelongPlaceOf(options);
+  std::error_code ignored;
+  if (fs::exists(place.visits(), ignored)) return evaluation::ReadVisits(place.visits());
+  if (auto ok = evaluation::CheckOutputFile(place.visits(), "--out"); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  fs::remove_all(place.scenes(), ignored);  // of a make that was interrupted
+  std::vector<evaluation::HouseVisit> visits;
+  int houses = 0;
+  std::uint64_t seed = suite->first_seed;
+  const std::uint64_t last = seed + kSeedsAHouse * static_cast<std::uint64_t>(suite->houses);
+  while (houses < suite->houses) {
+    if (seed >= last) return Fail(ErrorCode::kInvalid, "too few seeds give a house", suite->name);
+    if (auto ok = MakeHouses(*suite, place, options.jobs, suite->houses - houses, seed, visits,
+                             houses, console);
+        !ok) {
+      return tl::unexpected(ok.error());
+    }
+  }
+  console.EndProgress();
+  if (auto ok = WriteFileAtomically(place.visits(), evaluation::VisitsText(visits)); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  return evaluation::ReadVisits(place.visits());
+}
+
+}  // namespace crossnav::app

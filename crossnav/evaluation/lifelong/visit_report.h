@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Figures of visits by track, with intervals, and runs of different memory in pairs: whole houses
+// are drawn, because visits of a house are alike. Pure and seeded.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crossnav/evaluation/lifelong/visits.h"
+#include "crossnav/evaluation/scoring/metrics.h"
+
+namespace crossnav::evaluation {
+
+/// A mean with its percentile interval, 95 %.
+struct Figure {
+  double value = 0;
+  Interval interval;
+};
+
+struct TrackFigures {
+  int visits = 0, goals = 0;
+  Figure success;             ///< Wilson's interval
+  std::optional<Figure> spl;  ///< from the previous stop; not of absent goals
+  Figure unspent;             ///< share of the budget that was left
+  double stale_visits = 0;    ///< a goal, mean
+  int revised = 0;            ///< goals for which a stale place was set out for
+  double revised_after = 0;   ///< actions, mean over these
+};
+
+/// By track, in the order of kVisitTracks; tracks without goals are left out.
+std::vector<std::pair<std::string, TrackFigures>> FiguresOf(const VisitResults& results,
+                                                            const BootstrapConfig& bootstrap = {});
+
+/// Differences b - a on the goals that both played.
+struct TrackDifference {
+  int goals = 0, houses = 0;
+  Figure success;
+  std::optional<Figure> spl;
+};
+struct VisitComparison {
+  std::string name_a, name_b;
+  std::vector<std::pair<std::string, TrackDifference>> tracks;
+};
+
+/// Error: runs of other visits, settings, perception or version.
+Result<VisitComparison> CompareVisits(const VisitResults& a, const VisitResults& b,
+                                      const BootstrapConfig& bootstrap = {});
+
+std::string VisitReportMarkdown(const std::string& suite, const std::vector<VisitResults>& runs,
+                                const std::vector<VisitComparison>& comparisons);
+std::string VisitReportJson(const std::vector<VisitResults>& runs,
+                            const std::vector<VisitComparison>& comparisons);
+
+}  // namespace crossnav::evaluation

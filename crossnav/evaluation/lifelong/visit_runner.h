@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Plays one visit: its goals in order, each with a budget of its own, each from where the search
+// before it ended, whether or not that one found its goal. World frame, metres.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "crossnav/agent/agent.h"
+#include "crossnav/evaluation/lifelong/visits.h"
+#include "crossnav/evaluation/running/runner.h"
+#include "crossnav/trace/step_trace.h"
+
+namespace crossnav::evaluation {
+
+/// Follows the search for one goal for the places that the agent sets out for though the goal stood
+/// there on an earlier day only.
+class StaleWatch {
+ public:
+  explicit StaleWatch(std::vector<Vector3d> stale_world) : stale_world_(std::move(stale_world)) {}
+
+  void Add(const trace::StepTrace& step);
+  int visits() const { return visits_; }
+  int revised_after() const { return revised_after_; }
+
+ private:
+  std::vector<Vector3d> stale_world_;
+  int steps_ = 0, visits_ = 0, revised_after_ = 0;
+  int last_ = -1;  // stale place of the step before; -1 = none
+};
+
+/// What a visit begins and ends with.
+struct VisitHooks {
+  std::function<Result<void>(agent::Agent&)> begin = [](agent::Agent&) { return Result<void>(); };
+  std::function<Result<void>(const agent::Agent&)> end = [](const agent::Agent&) {
+    return Result<void>();
+  };
+};
+
+/// Errors: a start off the navmesh, a goal that cannot be reached from where its search starts, a
+/// malformed observation, a failing hook.
+Result<VisitRecord> PlayVisit(const SceneContext& context, const HouseVisit& visit,
+                              const RunConfig& config, const VisitHooks& hooks,
+                              const MakePerception& make_perception = {});
+
+}  // namespace crossnav::evaluation

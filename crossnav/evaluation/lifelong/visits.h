@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Visits to houses on several days, and what came of them. A visit has goals of its own tracks: a
+// goal that stayed, one that was moved overnight, one that is gone, one behind a door that was
+// closed. Files: docs/formats/visits.md. World frame, metres.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/core/pose.h"
+#include "crossnav/core/result.h"
+#include "crossnav/evaluation/records/episode_record.h"
+
+namespace crossnav::evaluation {
+
+/// Goals of the first day are of the track "first": nothing can be remembered yet.
+inline constexpr std::array<std::string_view, 8> kVisitTracks = {
+    "first",      "static",      "same_furniture", "other_furniture",
+    "other_room", "other_floor", "removed",        "doors"};
+
+struct VisitGoal {
+  std::string goal;  ///< a category, or a raw name
+  std::string track;
+  bool is_absent = false;             ///< right is to say so: no candidate is left
+  std::vector<int> floors;            ///< certificate: floors with an instance that can be reached
+  std::vector<Vector3d> stale_world;  ///< where an instance stood on an earlier day, and none now
+  friend bool operator==(const VisitGoal&, const VisitGoal&) = default;
+};
+
+struct HouseVisit {
+  std::string house;  ///< id of its first day
+  int day = 0;
+  std::string scene_id;  ///< of the day
+  AgentPose start;
+  std::vector<VisitGoal> goals;
+
+  std::string Id() const { return house + "/" + std::to_string(day); }
+};
+
+/// Visits of a house follow each other, by day.
+struct VisitFile {
+  std::vector<HouseVisit> visits;
+  std::string content_hash;  ///< of the text
+};
+
+std::string VisitsText(const std::vector<HouseVisit>& visits);
+/// Error: malformed, with `where` and the key; days of a house out of order.
+Result<VisitFile> ParseVisits(std::string_view text, const std::string& where);
+Result<VisitFile> ReadVisits(const std::filesystem::path& path);
+
+/// How the search for one goal ended.
+struct GoalRecord {
+  std::string goal, track;
+  bool is_absent = false;
+  Outcome outcome = Outcome::kOutOfTime;  ///< of an absent goal, success = it was said to be gone
+  bool success = false;
+  double shortest_m = 0;  ///< from the previous stop; 0 for an absent goal
+  double length_m = 0;
+  int actions = 0, budget = 0;
+  int stale_visits = 0;   ///< how often the agent set out for a stale place
+  int revised_after = 0;  ///< actions until it set out for none any more; 0 = it never did
+  friend bool operator==(const GoalRecord&, const GoalRecord&) = default;
+
+  double Spl() const;  ///< 0 without success
+};
+
+struct VisitRecord {
+  std::string house;
+  int day = 0;
+  std::vector<GoalRecord> goals;
+  std::int64_t map_bytes = 0;  ///< of the memory that was saved after it
+  std::string failure;         ///< why it has no goals; empty = it was played
+};
+
+/// What makes two runs comparable.
+struct VisitRun {
+  std::string suite_hash, memory_mode, variant, config_hash, perception, version;
+  friend bool operator==(const VisitRun&, const VisitRun&) = default;
+};
+
+struct VisitResults {
+  VisitRun run;
+  std::vector<VisitRecord> records;  ///< by house and day
+};
+
+/// JSON Lines: the run, then a line for each visit.
+std::string VisitResultsText(const VisitResults& results);
+Result<VisitResults> ParseVisitResults(std::string_view text, const std::string& where);
+std::string VisitLine(const VisitRecord& record);
+Result<VisitRecord> ParseVisitLine(const std::string& line, const std::string& where);
+
+}  // namespace crossnav::evaluation

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/world/change/day_gate.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "crossnav/sim/sensing/scene_info.h"
+
+namespace crossnav::world {
+namespace {
+
+constexpr double kReachableShare = 0.6;    // as of a generated house's rooms
+constexpr std::size_t kMinCategories = 5;  // as of a generated house
+
+tl::unexpected<Error> Refuse(std::string what, std::string where) {
+  return Fail(ErrorCode::kInvalid, std::move(what), std::move(where));
+}
+
+bool IsShut(const ShutRooms& shut, const RoomView& room) {
+  return shut.contains({room.floor, room.region});
+}
+
+/// A place of the first day's largest part that can still be stood on and is behind no shut door.
+std::optional<Vector3d> StartOn(const HouseView& first, const sim::NavMesh& navmesh,
+                                const ShutRooms& shut) {
+  const RoomView* largest = nullptr;
+  for (const RoomView& room : first.rooms) {
+    if (IsShut(shut, room)) continue;
+    if (largest == nullptr || room.ground.size() > largest->ground.size()) largest = &room;
+  }
+  if (largest == nullptr) return std::nullopt;
+  for (const Vector3d& p : largest->ground) {
+    if (const auto snapped = navmesh.Snap(p, 0.05, 0.25)) return snapped;
+  }
+  return std::nullopt;
+}
+
+Result<void> CheckRooms(const HouseView& first, const sim::NavMesh& navmesh, const ShutRooms& shut,
+                        const Vector3d& start_world) {
+  constexpr std::size_t kEvery = 4;  // chosen: a point in .3 m, as the generator's gate looks
+  for (const RoomView& room : first.rooms) {
+    if (IsShut(shut, room)) continue;
+    int walkable = 0, reached = 0;
+    for (std::size_t i = 0; i < room.ground.size(); i += kEvery) {
+      const auto p = navmesh.Snap(room.ground[i], 0.05, 0.25);
+      if (!p) continue;
+      ++walkable;
+      reached += navmesh.Geodesic(start_world, *p).has_value() ? 1 : 0;
+    }
+    const std::string where = fmt::format("room {} on floor {}", room.region, room.floor);
+    if (walkable == 0) return Refuse("no walkable ground in a room", where);
+    if (reached < kReachableShare * walkable) return Refuse("a room is cut off", where);
+  }
+  return {};
+}
+
+bool IsViewable(const sim::Scene& scene, const sim::NavMesh& navmesh, const sim::RayCaster& caster,
+                const sim::SceneInstance& instance, const Vector3d& start_world) {
+  const auto viewpoints = sim::Viewpoints(scene, navmesh, caster, instance, SensorConfig());
+  return !viewpoints.empty() && navmesh.Geodesic(start_world, viewpoints).has_value();
+}
+
+std::set<std::string> CategoriesOf(const sim::Scene& scene) {
+  std::set<std::string> categories;
+  for (const auto& instance : scene.instances) {
+    if (!instance.category.empty() && !instance.box.empty()) categories.insert(instance.category);
+  }
+  return categories;
+}
+
+Result<void> CheckCategories(const sim::Scene& first, const sim::Scene& scene,
+                             const sim::NavMesh& navmesh, const sim::RayCaster& caster,
+                             const Vector3d& start_world) {
+  const auto before = CategoriesOf(first), now = CategoriesOf(scene);
+  if (now.size() < std::min(kMinCategories, before.size())) {
+    return Refuse("fewer than five categories", scene.id);
+  }
+  for (const std::string& category : now) {
+    const bool is_viewable =
+        std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
+          return instance.category == category && !instance.box.empty() &&
+                 IsViewable(scene, navmesh, caster, instance, start_world);
+        });
+    const bool was_there = before.contains(category);
+    if (was_there && !is_viewable) return Refuse("no instance can be viewed", category);
+  }
+  return {};
+}
+
+Result<void> CheckChanged(const sim::Scene& scene, const sim::NavMesh& navmesh,
+                          const sim::RayCaster& caster, const Vector3d& start_world,
+                          const std::vector<Change>& changes) {
+  for (const Change& change : changes) {
+    if (!IsMove(change.kind) && change.kind != ChangeKind::kAdded) continue;
+    const auto* instance = scene.FindInstance(change.instance);
+    if (instance == nullptr || !IsViewable(scene, navmesh, caster, *instance, start_world)) {
+      return Refuse("a changed object cannot be viewed", change.name);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, const JudgedDay& day,
+                      const sim::NavMesh& navmesh) {
+  const sim::Scene& scene = day.scene;
+  if (navmesh.Floors().size() < first.navmesh->Floors().size()) {
+    return Refuse("a floor has no walkable ground", scene.id);
+  }
+  const auto start = StartOn(first, navmesh, day.shut);
+  if (!start) return Refuse("no walkable ground", scene.id);
+  if (auto ok = CheckRooms(first, navmesh, day.shut, *start); !ok) return ok;
+  const sim::RayCaster caster(scene);
+  if (auto ok = CheckChanged(scene, navmesh, caster, *start, day.changes); !ok) return ok;
+  return CheckCategories(first_scene, scene, navmesh, caster, *start);
+}
+
+}  // namespace crossnav::world

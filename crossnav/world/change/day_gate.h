@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The gate of a changed house: what the generator asks of a house (house/house_gate.h), asked of a
+// scene, so that it holds for imported homes, too. Judged against the first day.
+#pragma once
+
+#include <set>
+#include <utility>
+
+#include "crossnav/core/camera.h"
+#include "crossnav/world/change/changes.h"
+#include "crossnav/world/change/house_view.h"
+
+namespace crossnav::world {
+
+/// `shut` rooms (floor, region) lie behind a door or barrier of the day and need not be reached.
+using ShutRooms = std::set<std::pair<int, int>>;
+struct JudgedDay {
+  const sim::Scene& scene;
+  const std::vector<Change>& changes;
+  const ShutRooms& shut;
+};
+/// Error with the first reason: a floor or room that was usable on the first day is gone or cut
+/// off, fewer than five categories (or than the first day had), a category or a changed object that
+/// cannot be viewed from a place that the start reaches.
+Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, const JudgedDay& day,
+                      const sim::NavMesh& navmesh);
+
+}  // namespace crossnav::world

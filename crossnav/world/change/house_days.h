@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// A house on later days: overnight objects are moved, removed and added, doors closed, passages and
+// flights barred, on plausible places only, and never so that the house cannot be used any more
+// (day_gate.h). Generated houses and imported homes. Same seed, same bytes.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "crossnav/core/result.h"
+#include "crossnav/sim/navmesh/navmesh.h"
+#include "crossnav/world/change/changes.h"
+#include "crossnav/world/change/house_view.h"
+
+namespace crossnav::world {
+
+/// Every kind once.
+std::vector<ChangeKind> AllChangeKinds();
+
+struct DaysOptions {
+  std::uint64_t seed = 1;
+  int days = 1;
+  std::vector<ChangeKind> kinds = AllChangeKinds();  ///< asked for each night, in this order
+  sim::NavMeshSettings navmesh = {};
+};
+
+/// A house on one day.
+struct HouseDay {
+  sim::Scene scene;
+  DayChanges list;
+  std::vector<ChangeKind> missing;     ///< kinds for which the house has no place
+  std::set<std::pair<int, int>> shut;  ///< rooms behind a bar (floor, region)
+  int attempts = 0;                    ///< draws until one passed the gate
+};
+
+/// Draws one day after another from a house; nothing is written.
+class HouseCalendar {
+ public:
+  /// Error: as ViewHouse.
+  static Result<HouseCalendar> Begin(sim::Scene first, const DaysOptions& options);
+
+  /// The next day. Error: no draw passed the gate, with the reasons.
+  Result<HouseDay> Next();
+
+  const sim::Scene& first() const { return *first_; }
+
+ private:
+  HouseCalendar(std::unique_ptr<sim::Scene> first, HouseView view, const DaysOptions& options)
+      : first_(std::move(first)), view_(std::move(view)), options_(options), evening_(*first_) {}
+
+  Result<HouseDay> Draw(const HouseView& evening, int attempt) const;
+
+  std::unique_ptr<sim::Scene> first_;
+  HouseView view_;  // of the first day
+  DaysOptions options_;
+  sim::Scene evening_;          // of the day before, without what bars the way
+  std::vector<Change> barred_;  // on the day before
+  int day_ = 0;
+};
+
+struct DayReport {
+  std::filesystem::path folder;
+  DayChanges list;
+  std::vector<ChangeKind> missing;
+};
+
+/// Reads the scene of `house`, writes `<out_dir>/<id>-day1` ... with their lists of changes; an
+/// empty `out_dir` is the folder that holds the house.
+Result<std::vector<DayReport>> WriteDays(const std::filesystem::path& house,
+                                         const std::filesystem::path& out_dir,
+                                         const DaysOptions& options);
+
+}  // namespace crossnav::world
