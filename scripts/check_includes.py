@@ -33,6 +33,7 @@ ROOMS = {
     "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory", "objects"},
     "scenegraph": {"core", "geometry", "memory", "objects"},
+    "language": {"core", "geometry", "memory", "objects", "scenegraph"},
     "evaluation": _AGENT | {"scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
 }
 
