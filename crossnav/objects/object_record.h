@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "crossnav/geometry/voxel_key.h"
+
 namespace crossnav::objects {
 
 struct ObjectRecord {
@@ -25,6 +27,17 @@ struct ObjectRecord {
   double confidence = 0;                                 ///< that it is still there [0, 1]
   std::optional<std::array<std::uint8_t, 3>> colour;     ///< mean red, green, blue of its pixels
   std::vector<std::uint8_t> picture_png;                 ///< at most 64 px a side; may be empty
+  std::vector<geometry::VoxelKey> voxels;                ///< surface that was seen; sorted
+
+  friend bool operator==(const ObjectRecord& a, const ObjectRecord& b) {
+    return a.id == b.id && a.category == b.category && a.centre_world_m == b.centre_world_m &&
+           a.box_world_m.min() == b.box_world_m.min() &&
+           a.box_world_m.max() == b.box_world_m.max() && a.floor == b.floor && a.room == b.room &&
+           a.views == b.views && a.first_seen_step == b.first_seen_step &&
+           a.last_seen_step == b.last_seen_step && a.first_seen_day == b.first_seen_day &&
+           a.last_seen_day == b.last_seen_day && a.confidence == b.confidence &&
+           a.colour == b.colour && a.picture_png == b.picture_png && a.voxels == b.voxels;
+  }
 };
 
 }  // namespace crossnav::objects

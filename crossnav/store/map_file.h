@@ -25,6 +25,7 @@
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/objects/object_record.h"
 
 namespace crossnav::store {
 
@@ -39,6 +40,7 @@ struct SaveInfo {
   std::string frame = "episode";   ///< what the world frame is, in the user's words
   std::vector<geometry::StairFlight> flights{};    ///< Agent::flights()
   std::vector<geometry::SeenStair> seen_stairs{};  ///< Agent::seen_stairs()
+  std::vector<objects::ObjectRecord> objects{};    ///< Agent::objects()
 };
 
 /// The file's header: what `crossnav map info` prints.
@@ -91,6 +93,7 @@ struct LoadedMemory {
   memory::SemanticMemory memory;
   std::vector<geometry::StairFlight> flights;
   std::vector<geometry::SeenStair> seen_stairs;
+  std::vector<objects::ObjectRecord> objects;
   std::vector<std::string> damaged;  ///< e.g. "feature block 12 (3,-1,0): checksum differs"
 };
 

@@ -1,2 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "crossnav/objects/object_record.h"
