@@ -147,9 +147,7 @@ bool ParsePlace(WordStream& words, Description* whole) {
   return false;
 }
 
-Result<Description> ParseDescription(WordStream& words) {
-  auto whole = ParseHead(words);
-  if (!whole) return whole;
+Result<void> ParsePlaces(WordStream& words, Description* whole) {
   // Landmarks one inside the other, each with the relation that leads to it; put together from the
   // inside at "and" and at the end, so that no pointer into a growing vector is kept.
   std::vector<RelationPhrase> chain;
@@ -167,16 +165,23 @@ Result<Description> ParseDescription(WordStream& words) {
     (void)words.Take({"that is", "which is", "that are", "which are", "thats", "standing",
                       "located", "hanging", "lying"});
     if (is_and) close();
-    if (ParsePlace(words, &*whole)) continue;
+    if (ParsePlace(words, whole)) continue;
     const auto relation = words.TakeFrom(RelationWords());
     if (!relation)
       return tl::unexpected(NotUnderstood(words, "a place (on, next to, in, upstairs)"));
     auto landmark = ParseHead(words);
-    if (!landmark) return landmark;
-    if (auto ok = GiveToWhole(words, *landmark, *whole); !ok) return tl::unexpected(ok.error());
+    if (!landmark) return tl::unexpected(landmark.error());
+    if (auto ok = GiveToWhole(words, *landmark, *whole); !ok) return ok;
     chain.push_back({*relation, std::move(*landmark)});
   }
   close();
+  return {};
+}
+
+Result<Description> ParseDescription(WordStream& words) {
+  auto whole = ParseHead(words);
+  if (!whole) return whole;
+  if (auto ok = ParsePlaces(words, &*whole); !ok) return tl::unexpected(ok.error());
   return whole;
 }
 

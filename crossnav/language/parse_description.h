@@ -27,6 +27,9 @@ Result<Description> ParseDescription(WordStream& words);
 /// False where nothing of that kind comes next.
 bool ParsePlace(WordStream& words, Description* whole);
 
+/// All places up to the end of the stream: relations, room, floor.
+Result<void> ParsePlaces(WordStream& words, Description* whole);
+
 /// Whether a goal is to be read as a description: it begins with an article, or is one that says
 /// more than a category. Names of categories stay names, known or not.
 bool IsDescription(std::string_view text);

@@ -129,7 +129,7 @@ std::vector<int> FloorsOf(const FloorPhrase& phrase, const KnownHome& home) {
 }
 
 Fit FitOf(const Description& d, const KnownHome& home, const Thing& thing) {
-  Fit fit = IsKindOf(thing.category, d.noun) ? Fit::kYes : Fit::kNo;
+  Fit fit = d.noun.empty() || IsKindOf(thing.category, d.noun) ? Fit::kYes : Fit::kNo;
   const auto also = [&fit](Fit other) { fit = std::min(fit, other); };
   if (d.floor && fit != Fit::kNo) also(FloorFit(*d.floor, home, thing));
   if (d.room && fit != Fit::kNo)

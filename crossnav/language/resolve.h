@@ -28,7 +28,8 @@ struct Resolution {
 
 Resolution Resolve(const Description& description, const KnownHome& home);
 
-/// How well a thing fits, but for order and size, which say something of all that fit.
+/// How well a thing fits, but for order and size, which say something of all that fit. Without a
+/// noun anything may fit.
 Fit FitOf(const Description& description, const KnownHome& home, const Thing& thing);
 
 /// Things of the kind that fit at least so well, by the distance to the robot where it stands

@@ -49,6 +49,11 @@ bool WordStream::Take(std::initializer_list<std::string_view> phrases) {
   return false;
 }
 
+void WordStream::DropLast(std::initializer_list<std::string_view> last) {
+  if (!IsAtEnd() && std::find(last.begin(), last.end(), words_.back()) != last.end())
+    words_.pop_back();
+}
+
 std::string WordStream::Quoted() const {
   std::string text = "\"";
   for (std::size_t i = 0; i < words_.size(); ++i) text += (i == 0 ? "" : " ") + words_[i];

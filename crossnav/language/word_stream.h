@@ -27,6 +27,9 @@ class WordStream {
   /// Takes the next words if they are one of these phrases; the first that fits.
   bool Take(std::initializer_list<std::string_view> phrases);
 
+  /// Leaves out the last word if it is one of these and was not taken yet.
+  void DropLast(std::initializer_list<std::string_view> last);
+
   /// Takes the longest phrase of `table` that comes next.
   template <class T>
   std::optional<T> TakeFrom(const WordTable<T>& table) {
