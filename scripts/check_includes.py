@@ -34,7 +34,7 @@ ROOMS = {
     "store": {"core", "geometry", "memory", "objects"},
     "scenegraph": {"core", "geometry", "memory", "objects"},
     "language": {"core", "geometry", "memory", "objects", "scenegraph"},
-    "evaluation": _AGENT | {"scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
+    "evaluation": _AGENT | {"language", "scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
 }
 
 # Rooms whose files lie in folders: what each folder may include of its own room besides itself.

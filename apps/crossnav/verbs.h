@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "ask_command.h"
 #include "commands.h"
 #include "map_build.h"
 #include "noise_command.h"
@@ -18,6 +19,7 @@ using Command = std::function<Result<void>(Console&)>;
 struct Options {
   CommonOptions common;
   WorldOptions world;
+  AskOptions ask;
   AssetsOptions assets;
   SceneOptions scene;
   ViewsOptions views;
@@ -43,6 +45,7 @@ struct Options {
   NoiseSweepOptions noise;
   GraphBenchOptions graph_bench;
   SensorTrialOptions sensor_trials;
+  WordBenchOptions word_bench;
   ServeOptions serve;
   Command command;
 };
@@ -60,6 +63,10 @@ void AddRunVerbs(CLI::App& app, Options& options);
 void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.
 void AddReplay(CLI::App& app, Options& options);
+/// `ask`.
+void AddAsk(CLI::App& app, Options& options);
+/// `bench words`.
+void AddWordTrials(CLI::App& bench, Options& options);
 /// `bench sensors`.
 void AddSensorTrials(CLI::App& bench, Options& options);
 

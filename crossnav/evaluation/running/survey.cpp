@@ -48,8 +48,9 @@ struct Shown {
 class Surveyor {
  public:
   Surveyor(const SceneContext& context, const RunConfig& config, perception::PerceptionSuite& suite,
-           sim::Simulator& simulator)
-      : context_(context),
+           sim::Simulator& simulator, const ViewWatcher& watcher)
+      : watcher_(watcher),
+        context_(context),
         config_(config),
         suite_(suite),
         simulator_(simulator),
@@ -71,6 +72,7 @@ class Surveyor {
   Result<void> Look(bool with_objects);
   void NoteObjects(const Observation& obs);
 
+  const ViewWatcher& watcher_;
   const SceneContext& context_;
   const RunConfig& config_;
   perception::PerceptionSuite& suite_;
@@ -106,6 +108,7 @@ Result<void> Surveyor::Look(bool with_objects) {
   flight_survey_.Update(stairs_, levels_m_, simulator_.agent().p_world, config_.agent.map.voxel_m,
                         &survey_.flights);
   if (with_objects) NoteObjects(obs);
+  if (watcher_) watcher_(obs, simulator_.last_frame().instance);
   return {};
 }
 
@@ -169,7 +172,8 @@ Known KnownOf(const std::string& variant) {
   return variant == "known-objects" ? Known::kObjects : Known::kNothing;
 }
 
-Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known) {
+Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
+                                const ViewWatcher& watcher) {
   const bool with_objects = known == Known::kObjects;
   if (with_objects && config.eval.perception != "oracle") {
     return Fail(ErrorCode::kUnsupported,
@@ -178,10 +182,10 @@ Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& co
   }
   sim::Simulator simulator(context.scene(), context.navmesh(), context.caster(),
                            config.agent.sensor, config.agent.action);
-  simulator.ShowColour(false);
+  simulator.ShowColour(static_cast<bool>(watcher));
   auto suite = sim::GroundTruthPerception(simulator, config.ground_truth);
   if (!suite) return tl::unexpected(suite.error());
-  Surveyor surveyor(context, config, *suite, simulator);
+  Surveyor surveyor(context, config, *suite, simulator, watcher);
   for (const Vector3d& p : PlacesOf(context)) {
     if (auto ok = surveyor.LookAround(p, with_objects); !ok) return tl::unexpected(ok.error());
   }

@@ -6,6 +6,7 @@
 // metres. Deterministic.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "crossnav/core/result.h"
@@ -31,8 +32,12 @@ struct SceneSurvey {
   int places = 0, views = 0;
 };
 
+/// Sees each view of a survey, in colour.
+using ViewWatcher = std::function<void(const Observation& obs, const InstanceImage& instance)>;
+
 /// Costs some 6 ms a view of 640 x 640, eight views a square metre or so. Errors: objects that are
 /// to be known to an encoder of another kind than ground truth's (eval.perception = networks).
-Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known);
+Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
+                                const ViewWatcher& watcher = {});
 
 }  // namespace crossnav::evaluation

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "crossnav/core/result.h"
+#include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/evaluation/settings/run_config.h"
 #include "crossnav/scenegraph/scene_graph.h"
+#include "crossnav/world/layout/house_params.h"
 #include "crossnav/world/plan/plan.h"
 
 namespace crossnav::evaluation {
@@ -32,6 +35,10 @@ struct GraphTrial {
   scenegraph::SceneGraph graph;
   double seconds = 0;  ///< of BuildGraph, wall clock
 };
+
+/// The first plan that passes the gate, and the scene built from it.
+Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunConfig& config,
+                                    std::unique_ptr<SceneContext>& context);
 
 /// House `seed` of edition 1 or 2 as the generator draws it, its survey
 /// (evaluation/running/survey.h), its graph.
