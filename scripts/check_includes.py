@@ -12,7 +12,7 @@ import re
 import sys
 
 _LEFT = {"core", "geometry", "perception", "memory", "planner"}
-_AGENT = _LEFT | {"objects", "policy", "trace", "agent"}
+_AGENT = _LEFT | {"objects", "scenegraph", "policy", "trace", "agent"}
 
 # What each room may include besides itself. `evaluation` is where the agent meets the simulator.
 ROOMS = {

@@ -9,11 +9,13 @@
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
+#include "crossnav/agent/object_notes.h"
 #include "crossnav/agent/observation_check.h"
 #include "crossnav/agent/onemap_policy.h"
 #include "crossnav/agent/paper_policy.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/check.h"
 #include "crossnav/core/colour_grid.h"
 
@@ -156,10 +158,13 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
     return Fail(ErrorCode::kMismatch, "the saved features have another dimension than the encoder",
                 "memory");
   world.map = std::move(map);
+  if (IsRevising(impl_->config))
+    if (auto done = CountEvidence(&world.map); !done) return done;
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
   world.flights = std::move(flights);
   world.stairs.Import(seen_stairs);
+  if (IsRevising(impl_->config)) world.revision = RevisionOf(world);
   for (const geometry::StairFlight& flight : world.flights) {
     if (!flight.IsWalked()) continue;
     for (std::size_t i = 1; i < flight.steps_world.size(); ++i)
@@ -168,6 +173,18 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
       world.levels_m.push_back(p_end.z());
   }
   return {};
+}
+
+void Agent::RestoreObjects(std::vector<objects::ObjectRecord> records, int day) {
+  World& world = impl_->world;
+  CROSSNAV_CHECK(world.step == 0, "a saved memory is given before the first step");
+  world.objects.Load(std::move(records));
+  world.day = day;
+  LocateObjects(&world);
+}
+
+std::vector<objects::ObjectRecord> Agent::objects() const {
+  return impl_->world.objects.Confirmed();
 }
 
 /// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; sightings below the
@@ -181,6 +198,7 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(
       policy::LiftDetections(detections, obs, config.map, object,
                              std::min(object.secondary_confidence, hint.detector_confidence));
   sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
+  NoteObjects(sightings, detections, obs, &world, &goal);
   goal.full.hints.Update(sightings, hint, config.map.voxel_m, world.step);
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;

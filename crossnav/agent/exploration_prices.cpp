@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/policy/whereabouts.h"
 
 namespace crossnav::agent {
@@ -51,6 +52,9 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
     case ExplorationClass::kFlight:
       return {FlightPrice(RiseOf(now_, found.place)) + Doubt(found.candidate)};
     case ExplorationClass::kUninspected:
+      // Odds of rooms know of floors.
+      if (now_.goal.full.search)
+        return {config_.uninspected_m, SearchWorth(now_, found.candidate.p_focus_world)};
       return {config_.uninspected_m + level_m};
     case ExplorationClass::kHint:
       return {config_.hint_bonus_m};

@@ -6,6 +6,7 @@
 #include "crossnav/agent/cut_off.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 namespace {
@@ -50,6 +51,7 @@ bool StepOnSeats(StepState& now) {
 }
 
 bool AskMemoryAgain(StepState& now) {
+  if (IsSurelyAbsent(now)) return false;
   Config relaxed = now.config;
   relaxed.query.min_similarity *= 0.8;  // chosen: looser, still a response
   relaxed.query.min_z_score *= 0.6;
@@ -60,6 +62,7 @@ bool AskMemoryAgain(StepState& now) {
 }
 
 bool TryAllAgain(StepState& now) {
+  if (IsSurelyAbsent(now)) return false;
   GoalState& goal = now.goal;
   goal.full.attempts.clear();
   goal.full.looks.clear();

@@ -28,6 +28,19 @@ std::vector<MapBlock> ExportBlocks(const VoxelMap& map) {
   return blocks;
 }
 
+void CountOnce(const MapConfig& config, MapBlock* block) {
+  if (!block->counts.empty()) return;
+  const auto most = static_cast<std::uint16_t>(std::max(config.max_hits, config.min_hits));
+  block->counts.resize(kBlockVoxels);
+  for (int cell = 0; cell < kBlockVoxels; ++cell) {
+    HitCount& count = block->counts[static_cast<std::size_t>(cell)];
+    if (block->hit.Test(cell))
+      count.hits = most;
+    else if (block->free.Test(cell))
+      count.passes = most;
+  }
+}
+
 Result<VoxelMap> ImportBlocks(const std::vector<MapBlock>& blocks, const MapConfig& config) {
   VoxelMap map(config);
   MapData& data = MapAccess::Of(map);

@@ -11,6 +11,8 @@ namespace crossnav::language {
 namespace {
 
 constexpr double kLookedAt = 0.6;  // chosen: of a room's area; what lies behind things is not seen
+constexpr double kBelieved = 0.3;  // as objects::BookConfig::gone
+constexpr double kSamePlace_m = 0.5;    // chosen: between the centres, which features blur
 constexpr double kUnderGround_m = 0.5;  // as scenegraph::FloorAt
 
 Thing ThingOf(const scenegraph::GraphObject& object) {
@@ -40,6 +42,20 @@ Thing ThingOf(const objects::ObjectRecord& record, const scenegraph::SceneGraph&
   return thing;
 }
 
+bool IsBelieved(const objects::ObjectRecord& record) {
+  return record.confidence >= kBelieved && record.views > 0;
+}
+
+/// The memory's place is that of the record, whether or not it is believed any more.
+bool IsOfRecord(const scenegraph::GraphObject& object, const objects::ObjectRecord& record) {
+  if (CanonicalName(object.category) != CanonicalName(record.category)) return false;
+  const auto& box = record.box_world_m;
+  return ((object.p_center_world - record.centre_world_m).norm() <= kSamePlace_m) ||
+         (!box.isEmpty() && box.contains(object.p_center_world)) ||
+         ((record.centre_world_m.array() >= object.box.min.array()).all() &&
+          (record.centre_world_m.array() <= object.box.max.array()).all());
+}
+
 }  // namespace
 
 bool KnownRoom::WasLookedAt() const {
@@ -52,18 +68,21 @@ KnownHome HomeOf(const scenegraph::SceneGraph& graph,
   for (const auto& floor : graph.floors) home.floors.push_back({floor.height_m});
   for (const auto& room : graph.rooms)
     home.rooms.push_back({room.floor, {}, room.area_m2, room.looked_at, room.p_center_world});
-  std::set<std::string> recorded;
+  std::set<std::string> asked;
   for (std::size_t i = 0; i < records.size(); ++i) {
+    asked.insert(CanonicalName(records[i].category));
+    if (!IsBelieved(records[i])) continue;
     home.things.push_back(ThingOf(records[i], graph));
     home.things.back().record = static_cast<int>(i);
-    recorded.insert(home.things.back().category);
   }
   for (const auto& object : graph.objects) {
-    Thing thing = ThingOf(object);
-    if (!recorded.contains(thing.category)) home.things.push_back(std::move(thing));
+    const bool is_recorded = std::any_of(records.begin(), records.end(), [&](const auto& record) {
+      return IsOfRecord(object, record);
+    });
+    if (!is_recorded) home.things.push_back(ThingOf(object));
   }
-  for (const std::string& category : graph.asked) recorded.insert(CanonicalName(category));
-  home.asked.assign(recorded.begin(), recorded.end());
+  for (const std::string& category : graph.asked) asked.insert(CanonicalName(category));
+  home.asked.assign(asked.begin(), asked.end());
   TellRooms(home);
   return home;
 }

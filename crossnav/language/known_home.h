@@ -58,7 +58,7 @@ struct KnownHome {
   std::optional<Vector3d> p_robot_world;  ///< foot point; empty = nobody stands anywhere
 };
 
-/// Things of a category that has records are the records; of others the graph's objects.
+/// Records that are believed, and the graph's objects where no record is.
 KnownHome HomeOf(const scenegraph::SceneGraph& graph,
                  std::span<const objects::ObjectRecord> records = {});
 

@@ -239,10 +239,33 @@ void ObjectBook::Refute(const std::string& category, std::span<const VoxelKey> v
       record.confidence = kLeastBelief;
 }
 
+void ObjectBook::Disprove(const std::string& category, std::vector<VoxelKey> voxels,
+                          const Moment& when) {
+  if (voxels.empty()) return;
+  const Eigen::AlignedBox3d box = BoxOf(voxels, voxel_m_);
+  bool is_known = false;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    if (records_[i].category != category || OverlapOf(box, records_[i].box_world_m) < kSameOverlap)
+      continue;
+    is_known = true;
+    if (watches_[i].noted_step < 0) records_[i].confidence = kLeastBelief;
+  }
+  if (is_known) return;
+  ObjectRecord& record = records_.emplace_back();
+  watches_.emplace_back();
+  record.id = next_id_++;
+  record.category = category;
+  record.voxels = std::move(voxels);
+  record.confidence = kLeastBelief;
+  record.first_seen_day = record.last_seen_day = when.day;
+  record.first_seen_step = record.last_seen_step = when.step;
+  Measure(record, voxel_m_);
+}
+
 std::vector<ObjectRecord> ObjectBook::Confirmed() const {
   std::vector<ObjectRecord> out;
   for (const ObjectRecord& record : records_)
-    if (record.views >= config_.least_views) out.push_back(record);
+    if (record.views >= config_.least_views || record.views == 0) out.push_back(record);
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return out;
 }

@@ -56,9 +56,14 @@ class ObjectBook {
   /// A claim about the object was refuted: `voxels` show something else.
   void Refute(const std::string& category, std::span<const geometry::VoxelKey> voxels);
 
+  /// Looked at from near, and nothing was found: `voxels` are no place of the category. Where no
+  /// record lies there, one without views says so.
+  void Disprove(const std::string& category, std::vector<geometry::VoxelKey> voxels,
+                const Moment& when);
+
   /// In no order; those of a single frame, too.
   const std::vector<ObjectRecord>& records() const { return records_; }
-  /// Those that enough frames showed, by id: what is saved.
+  /// Those that enough frames showed, and places that were disproved, by id: what is saved.
   std::vector<ObjectRecord> Confirmed() const;
   bool IsGone(const ObjectRecord& record) const { return record.confidence < config_.gone; }
 

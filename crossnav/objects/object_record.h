@@ -21,7 +21,7 @@ struct ObjectRecord {
   Eigen::AlignedBox3d box_world_m;  ///< of the surface that was seen
   int floor = -1;                   ///< id of the graph's floor; -1 = not known
   int room = -1;                    ///< id of the graph's room; -1 = not known
-  int views = 0;                    ///< frames that showed it
+  int views = 0;  ///< frames that showed it; 0 = a place where it was looked for in vain
   std::int64_t first_seen_step = 0, last_seen_step = 0;  ///< of the day's run
   int first_seen_day = 0, last_seen_day = 0;             ///< runs with this memory so far, from 0
   double confidence = 0;                                 ///< that it is still there [0, 1]
