@@ -12,7 +12,7 @@ import re
 import sys
 
 _LEFT = {"core", "geometry", "perception", "memory", "planner"}
-_AGENT = _LEFT | {"objects", "scenegraph", "policy", "trace", "agent"}
+_AGENT = _LEFT | {"objects", "scenegraph", "language", "policy", "trace", "agent"}
 
 # What each room may include besides itself. `evaluation` is where the agent meets the simulator.
 ROOMS = {
@@ -34,7 +34,7 @@ ROOMS = {
     "store": {"core", "geometry", "memory", "objects"},
     "scenegraph": {"core", "geometry", "memory", "objects"},
     "language": {"core", "geometry", "memory", "objects", "scenegraph"},
-    "evaluation": _AGENT | {"language", "scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
+    "evaluation": _AGENT | {"inference", "serve", "sim", "world", "homes", "store"},
 }
 
 # Rooms whose files lie in folders: what each folder may include of its own room besides itself.
@@ -53,7 +53,7 @@ FOLDERS = {
         "scoring": {"episodes", "files", "records", "settings"},
         "generation": {"episodes", "records", "scoring", "settings"},
         "running": {"episodes", "files", "records", "scoring", "settings"},
-        "trials": {"episodes", "records", "running", "scoring", "settings"},
+        "trials": {"episodes", "generation", "records", "running", "scoring", "settings"},
         "reporting": {"records", "scoring", "settings"},
     },
     "world": {

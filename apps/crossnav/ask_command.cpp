@@ -9,7 +9,7 @@
 #include "crossnav/core/write_file.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/language/answer.h"
-#include "crossnav/scenegraph/build_graph.h"
+#include "crossnav/language/map_home.h"
 #include "map_texts.h"
 
 namespace crossnav::app {
@@ -69,17 +69,25 @@ Result<std::string> WritePicture(const language::Thing& thing, const AskOptions&
 
 Result<KnownHome> HomeIn(const AskOptions& options, const language::Question& question,
                          const store::LoadedMemory& loaded, const evaluation::RunConfig& config) {
-  auto graph = scenegraph::BuildGraph(loaded.map, loaded.memory, loaded.flights);
-  if (auto ok = FindObjects(options.file, language::NamesFor(question), loaded, config, graph); !ok)
-    return tl::unexpected(ok.error());
-  KnownHome home = language::HomeOf(graph, loaded.objects);
+  std::unique_ptr<perception::DenseEncoder> encoder;
+  if (loaded.memory.Size() > 0) {
+    auto made = EncoderFor(options.file, loaded.header, config);
+    if (!made) return tl::unexpected(made.error());
+    encoder = std::move(*made);
+  }
+  auto known = language::HomeOf(
+      {loaded.map, loaded.memory, loaded.flights, loaded.objects, loaded.header.encoder_name},
+      language::NamesFor(question),
+      [&](const std::string& text) { return encoder->EncodeText(text); }, config.agent.query);
+  if (!known) return known;
+  KnownHome& home = *known;
   if (options.ground_floor >= static_cast<int>(home.floors.size()) && options.ground_floor > 0)
     return Fail(ErrorCode::kInvalid,
                 fmt::format("the map has {} floors, counted from 0", home.floors.size()),
                 "--ground-floor");
   home.ground_floor = options.ground_floor;
   if (options.from.size() == 3) home.p_robot_world = Vector3d(options.from.data());
-  return home;
+  return known;
 }
 
 }  // namespace

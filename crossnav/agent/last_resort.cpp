@@ -67,6 +67,7 @@ bool TryAllAgain(StepState& now) {
   goal.full.attempts.clear();
   goal.full.looks.clear();
   goal.live.ForgiveDiscarded();
+  if (goal.described) goal.described->set_aside.clear();
   goal.tried_viewpoints.clear();
   goal.failed_views = 0;
   goal.full.failed.clear();
@@ -77,8 +78,8 @@ bool TryAllAgain(StepState& now) {
   return true;
 }
 
-constexpr std::array kResorts = {LookAroundAgain, ForgetBumps,    Squeeze,
-                                 StepOnSeats,     AskMemoryAgain, TryAllAgain};
+constexpr std::array kResorts = {TakeGuesses, LookAroundAgain, ForgetBumps, Squeeze,
+                                 StepOnSeats, AskMemoryAgain,  TryAllAgain};
 
 }  // namespace
 

@@ -68,6 +68,9 @@ KnownHome HomeOf(const scenegraph::SceneGraph& graph,
   for (const auto& floor : graph.floors) home.floors.push_back({floor.height_m});
   for (const auto& room : graph.rooms)
     home.rooms.push_back({room.floor, {}, room.area_m2, room.looked_at, room.p_center_world});
+  for (const auto& stair : graph.stairs)
+    home.may_have_more_floors |=
+        !stair.lower_floor || !stair.upper_floor || stair.lower_floor == stair.upper_floor;
   std::set<std::string> asked;
   for (std::size_t i = 0; i < records.size(); ++i) {
     asked.insert(CanonicalName(records[i].category));

@@ -53,7 +53,9 @@ struct KnownHome {
   std::vector<KnownFloor> floors;  ///< lowest first
   std::vector<KnownRoom> rooms;
   std::vector<Thing> things;
-  std::vector<std::string> asked;         ///< categories that were looked for, found or not
+  std::vector<std::string> asked;  ///< categories that were looked for, found or not
+  /// Stairs lead where nobody was: floors may be missing below, above and between.
+  bool may_have_more_floors = false;
   int ground_floor = 0;                   ///< index; floors below it are basements
   std::optional<Vector3d> p_robot_world;  ///< foot point; empty = nobody stands anywhere
 };

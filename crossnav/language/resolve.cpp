@@ -16,8 +16,14 @@ constexpr double kClearlyLarger = 1.25;  // chosen: else nobody sees which one i
 Fit FloorFit(const FloorPhrase& phrase, const KnownHome& home, const Thing& thing) {
   if (!thing.floor) return Fit::kMaybe;
   const auto floors = FloorsOf(phrase, home);
-  return std::find(floors.begin(), floors.end(), *thing.floor) != floors.end() ? Fit::kYes
-                                                                               : Fit::kNo;
+  const bool fits = std::find(floors.begin(), floors.end(), *thing.floor) != floors.end();
+  if (!home.may_have_more_floors || phrase.word == FloorWord::kUpstairs ||
+      phrase.word == FloorWord::kDownstairs)
+    return fits ? Fit::kYes : Fit::kNo;
+  // With a floor more below, what is counted from the ground is one higher.
+  const bool could_fit = fits || (phrase.word == FloorWord::kNumber &&
+                                  *thing.floor < home.ground_floor + phrase.number);
+  return could_fit ? Fit::kMaybe : Fit::kNo;
 }
 
 bool IsSame(const Thing& a, const Thing& b) {

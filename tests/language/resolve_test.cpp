@@ -66,6 +66,13 @@ TEST_F(Resolving, AWallPartsWhatIsNear) {
   EXPECT_NE(One("the chair near the dining table"), near_chair);
 }
 
+TEST_F(Resolving, FloorsAreAGuessWhileStairsLeadOn) {
+  home.may_have_more_floors = true;
+  EXPECT_FALSE(Of("the sofa on the ground floor").is_sure);
+  EXPECT_NE(Of("the bed on the ground floor").outcome, Outcome::kFound);
+  EXPECT_TRUE(Of("the bed upstairs").is_sure);
+}
+
 TEST_F(Resolving, WhatWasNeverSeenInColourIsAGuess) {
   home.things[sofa].colour.reset();
   const Resolution guess = Of("the blue sofa");

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "crossnav/core/result.h"
+#include "crossnav/evaluation/generation/word_drawing.h"
 #include "crossnav/evaluation/settings/run_config.h"
-#include "crossnav/evaluation/trials/word_drawing.h"
 
 namespace crossnav::evaluation {
 

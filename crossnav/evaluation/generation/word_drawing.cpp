@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "crossnav/evaluation/trials/word_drawing.h"
+#include "crossnav/evaluation/generation/word_drawing.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,11 @@ std::optional<language::FloorPhrase> FloorOf(const KnownHome& home, const Thing&
       {FloorWord::kDownstairs, 0},
       {FloorWord::kTop, 0},
       {FloorWord::kNumber, thing.floor.value_or(0) - home.ground_floor}};
+  const bool is_relative_clear = home.p_robot_world || home.floors.size() == 2;
   std::erase_if(phrases, [&](const auto& phrase) {
+    if (!is_relative_clear &&
+        (phrase.word == FloorWord::kUpstairs || phrase.word == FloorWord::kDownstairs))
+      return true;
     const auto floors = FloorsOf(phrase, home);
     return phrase.number < 0 ||
            std::find(floors.begin(), floors.end(), thing.floor) == floors.end();
@@ -98,6 +102,7 @@ bool HasMargin(const Description& d, const KnownHome& home) {
 /// Neighbours in the order are clearly apart, and nobody stands between two floors.
 bool IsOrderClear(const Description& d, const KnownHome& home) {
   if (d.order == 0) return true;
+  if (!home.p_robot_world) return false;
   const auto all = AllThatFit(d, home, Fit::kYes);
   const auto away = [&](int i) {
     return (home.things[i].p_center_world - *home.p_robot_world).head<2>().norm();
