@@ -9,6 +9,7 @@
 #include "crossnav/evaluation/scoring/confirmation.h"
 #include "crossnav/evaluation/scoring/outcome.h"
 #include "crossnav/evaluation/scoring/viewpoint_cache.h"
+#include "crossnav/language/parse_description.h"
 
 namespace crossnav::evaluation {
 namespace {

@@ -27,19 +27,32 @@ constexpr int kPixelStep = 2;         // chosen: as the survey
 class Recorder {
  public:
   Recorder(const sim::Scene& scene, const RunConfig& config)
-      : scene_(scene), config_(config), book_(config.agent.map.voxel_m) {}
+      : scene_(scene), config_(config), book_(config.agent.map.voxel_m) {
+    for (const sim::SceneInstance& instance : scene.instances)
+      if (HasWord(instance)) spoken_of_.insert(instance.id);
+  }
 
   void Note(const Observation& obs, const InstanceImage& image) {
     std::map<int, Shown> shown;
+    int last_id = 0;
+    Shown* last = nullptr;
     for (int v = 0; v < image.height; ++v)
-      for (int u = 0; u < image.width; ++u)
-        if (const int id = image.At(u, v); id != 0) AddPixel(obs, u, v, shown[id]);
+      for (int u = 0; u < image.width; ++u) {
+        const int id = image.At(u, v);
+        if (id != last_id) {
+          last_id = id;
+          last = spoken_of_.contains(id) ? &shown[id] : nullptr;
+        }
+        if (last != nullptr) AddPixel(obs, u, v, *last);
+      }
     std::vector<objects::SeenObject> seen;
     std::vector<MaskImage> masks;
     masks.reserve(shown.size());
     for (auto& [id, what] : shown) {
       const sim::SceneInstance* instance = scene_.FindInstance(id);
-      if (instance == nullptr || !HasWord(*instance) || what.voxels.empty()) continue;
+      std::sort(what.voxels.begin(), what.voxels.end());
+      what.voxels.erase(std::unique(what.voxels.begin(), what.voxels.end()), what.voxels.end());
+      if (what.voxels.empty()) continue;
       const auto detection =
           sim::DetectionOf(what.view, config_.agent.sensor, config_.ground_truth);
       if (!detection) continue;
@@ -47,7 +60,7 @@ class Recorder {
       masks.push_back(MaskOf(image, id, what.view.box));
       const auto& box = what.view.box;
       seen.push_back({NameOf(*instance),
-                      {what.voxels.begin(), what.voxels.end()},
+                      std::move(what.voxels),
                       detection->confidence,
                       &masks.back(),
                       {box.u0, box.v0, box.u1, box.v1}});
@@ -61,7 +74,7 @@ class Recorder {
  private:
   struct Shown {
     sim::SeenInstance view;
-    std::set<geometry::VoxelKey> voxels;
+    std::vector<geometry::VoxelKey> voxels;
   };
 
   void AddPixel(const Observation& obs, int u, int v, Shown& shown) const {
@@ -70,7 +83,7 @@ class Recorder {
     if (!(depth_m >= map.depth_min_m && depth_m <= map.depth_max_m)) return;
     shown.view.Add(u, v, depth_m);
     if (u % kPixelStep != 0 || v % kPixelStep != 0) return;
-    shown.voxels.insert(geometry::KeyOf(
+    shown.voxels.push_back(geometry::KeyOf(
         obs.T_world_camera * BackProjectPixel(obs.camera, u, v, depth_m), map.voxel_m));
   }
 
@@ -84,7 +97,7 @@ class Recorder {
   const sim::Scene& scene_;
   const RunConfig& config_;
   objects::ObjectBook book_;
-  std::set<int> seen_;
+  std::set<int> spoken_of_, seen_;
   std::int64_t step_ = 0;
 };
 
@@ -126,11 +139,13 @@ void Score(const DrawnWords& drawn, const KnownHome& truth, const KnownHome& kno
   }
   const bool is_wrong = !is_right && resolved.outcome == Outcome::kFound;
   trial.by_kind[drawn.kind].Add(is_right, is_wrong);
+  if (!resolved.is_sure) ++trial.by_kind[drawn.kind].guesses;
   if (drawn.kind == WordKind::kClear)
     for (const std::string& word : WordsOf(drawn.description))
       trial.by_word[word].Add(is_right, is_wrong);
   if (is_right) return;
   std::string outcome(NameOf(resolved.outcome));
+  if (!resolved.is_sure) outcome += ", a guess";
   if (!resolved.reason.empty()) outcome += ": " + resolved.reason;
   trial.failures.push_back({drawn.kind, TextOf(drawn.description), std::move(outcome)});
 }
@@ -158,7 +173,7 @@ void WordScore::Add(bool is_right, bool is_wrong) {
 }
 
 WordScore& WordScore::operator+=(const WordScore& other) {
-  count += other.count, right += other.right, wrong += other.wrong;
+  count += other.count, right += other.right, wrong += other.wrong, guesses += other.guesses;
   return *this;
 }
 

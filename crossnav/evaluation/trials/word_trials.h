@@ -16,7 +16,8 @@ namespace crossnav::evaluation {
 
 struct WordScore {
   int count = 0, right = 0;
-  int wrong = 0;  ///< of clear ones: another thing was found; of others: one was found
+  int wrong = 0;    ///< of clear ones: another thing was found; of others: one was found
+  int guesses = 0;  ///< answers that were not sure
   void Add(bool is_right, bool is_wrong);
   WordScore& operator+=(const WordScore& other);
 };
