@@ -72,7 +72,7 @@ language::EncodeText EncoderOf(const nb::object& encode, const store::MapHeader&
       return std::vector<float>(array.data(), array.data() + array.size());
     };
   sim::GroundTruthConfig texts = config.ground_truth;
-  if (header.feature_dim > 0 && header.encoder_name != sim::EncoderName(texts))
+  if (!header.encoder_name.empty() && header.encoder_name != sim::EncoderName(texts))
     Raise(ErrorCode::kMismatch,
           "its features are of " + header.encoder_name + "; give encode=, a text's vector in them",
           "ask");

@@ -121,6 +121,34 @@ std::vector<std::string> WordsOf(const language::Description& d) {
   return words;
 }
 
+std::string ColourText(const std::optional<Rgb8>& rgb) {
+  if (!rgb) return "none";
+  return std::string(NameOf(language::NameColour(*rgb))) + " " + std::to_string(rgb->r) + " " +
+         std::to_string(rgb->g) + " " + std::to_string(rgb->b);
+}
+
+/// Which words the map's own record of the thing does not fit.
+std::string Misfits(const language::Description& d, const language::Thing& truth,
+                    const KnownHome& known) {
+  const auto found = std::find_if(known.things.begin(), known.things.end(),
+                                  [&](const auto& thing) { return IsSame(thing, truth); });
+  if (found == known.things.end()) return "no record";
+  std::string text;
+  const auto check = [&](const language::Description& part, const std::string& word) {
+    if (FitOf(part, known, *found) != language::Fit::kYes) text += " " + word;
+  };
+  language::Description part;
+  part.noun = d.noun;
+  if (d.floor) part.floor = d.floor, check(part, "floor"), part.floor.reset();
+  if (d.room) part.room = d.room, check(part, "room"), part.room.reset();
+  if (d.colour) part.colour = d.colour, check(part, "colour"), part.colour.reset();
+  if (d.colour)
+    text += " (true " + ColourText(truth.colour) + ", seen " + ColourText(found->colour) + ")";
+  part.relations = d.relations;
+  if (!d.relations.empty()) check(part, "relation");
+  return text.empty() ? "others fit, too" : "misfits:" + text;
+}
+
 void Score(const DrawnWords& drawn, const KnownHome& truth, const KnownHome& known,
            WordTrial& trial) {
   const auto resolved = Resolve(drawn.description, known);
@@ -147,6 +175,8 @@ void Score(const DrawnWords& drawn, const KnownHome& truth, const KnownHome& kno
   std::string outcome(NameOf(resolved.outcome));
   if (!resolved.is_sure) outcome += ", a guess";
   if (!resolved.reason.empty()) outcome += ": " + resolved.reason;
+  if (drawn.kind == WordKind::kClear)
+    outcome += "; " + Misfits(drawn.description, truth.things[drawn.thing], known);
   trial.failures.push_back({drawn.kind, TextOf(drawn.description), std::move(outcome)});
 }
 
@@ -214,6 +244,7 @@ Result<WordTrial> TryWords(const WordTrialOptions& options, const RunConfig& con
   trial.house = plan->id;
   trial.things = static_cast<int>(truth.home.things.size());
   trial.things_found = CountFound(truth, known);
+  if (std::getenv("DBG")) for (auto& t : truth.home.things) for (auto& k : known.things) if (IsSame(k,t) && t.colour) { std::fprintf(stderr, "COL %s true %s seen %s\n", t.category.c_str(), ColourText(t.colour).c_str(), ColourText(k.colour).c_str()); break; }  // DBG
   for (int kind = 0; kind < kWordKinds; ++kind)
     for (const DrawnWords& drawn :
          DrawWords(truth.home, static_cast<WordKind>(kind), options.each, GoalNames(), rng))
