@@ -55,7 +55,8 @@ language::Thing ThingAt(const World& world, const GoalState& goal,
   thing.box = BoxOf(voxels, world.map.config().voxel_m);
   if (const auto* record = RecordAt(world, thing.category, p_center_world)) {
     if (record->colour)
-      thing.colour = Rgb8{(*record->colour)[0], (*record->colour)[1], (*record->colour)[2]};
+      thing.colour = language::SurfaceColourOf(
+          {(*record->colour)[0], (*record->colour)[1], (*record->colour)[2]});
     thing.box = {record->box_world_m.min(), record->box_world_m.max()};
   }
   thing.floor = FloorOf(described.home, p_center_world);

@@ -55,6 +55,7 @@ constexpr std::array<Prototype, 34> kPrototypes = {{
     {Colour::kPink, {220, 130, 150}},  {Colour::kPink, {245, 180, 195}},
 }};
 
+constexpr double kShade = 0.76;       // chosen: things of house 301, seen against true
 constexpr double kLightWeight = 0.6;  // chosen: lamps change how light a colour is, hardly its hue
 constexpr double kClose = 14;         // chosen: farther from the name than from the first one
 
@@ -79,6 +80,13 @@ std::string_view NameOf(Colour colour) {
                                                  "brown", "red",  "orange", "yellow",
                                                  "green", "blue", "purple", "pink"};
   return kNames[static_cast<int>(colour)];
+}
+
+Rgb8 SurfaceColourOf(const Rgb8& seen) {
+  const auto lit = [](std::uint8_t s) {
+    return static_cast<std::uint8_t>(std::min(255.0, s / kShade + 0.5));
+  };
+  return {lit(seen.r), lit(seen.g), lit(seen.b)};
 }
 
 Colour NameColour(const Rgb8& rgb) {

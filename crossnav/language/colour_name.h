@@ -29,6 +29,9 @@ std::string_view NameOf(Colour colour);
 
 enum class Fit { kNo, kMaybe, kYes };
 
+/// Colour of a surface whose pixels are `seen` in a room under lamps, as people see past the shade.
+Rgb8 SurfaceColourOf(const Rgb8& seen);
+
 /// The name that people would give first.
 Colour NameColour(const Rgb8& rgb);
 

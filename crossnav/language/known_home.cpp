@@ -35,7 +35,7 @@ Thing ThingOf(const objects::ObjectRecord& record, const scenegraph::SceneGraph&
   thing.floor = scenegraph::FloorAt(graph, record.centre_world_m);
   if (thing.floor) thing.room = scenegraph::RoomAt(graph, *thing.floor, record.centre_world_m);
   if (record.colour)
-    thing.colour = Rgb8{(*record.colour)[0], (*record.colour)[1], (*record.colour)[2]};
+    thing.colour = SurfaceColourOf({(*record.colour)[0], (*record.colour)[1], (*record.colour)[2]});
   thing.confidence = record.confidence;
   thing.is_certain = true;
   thing.last_seen = LastSeen{record.last_seen_step, record.last_seen_day};

@@ -29,7 +29,7 @@ struct Thing {
   Vector3d p_center_world = Vector3d::Zero();
   Box3 box;
   std::optional<int> floor, room;
-  std::optional<Rgb8> colour;  ///< of its pixels; empty = never looked at in colour
+  std::optional<Rgb8> colour;  ///< of its surface; empty = never looked at in colour
   double confidence = 0;       ///< that it is there [0, 1]; of a place in the memory its match
   bool is_certain = false;     ///< the confidence is known to mean presence
   std::optional<LastSeen> last_seen;

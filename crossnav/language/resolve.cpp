@@ -108,6 +108,16 @@ Resolution Nth(int order, std::vector<int> pool, const KnownHome& home) {
   return {Outcome::kFound, {order < 0 ? pool.back() : pool[order - 1]}, true, ""};
 }
 
+/// Adds what fits but for a relation that it misses by little: boxes of what was seen are coarse.
+void AddNearMisses(const Description& description, const KnownHome& home, std::vector<int>& pool) {
+  Description unrelated = description;
+  unrelated.relations.clear();
+  for (const int i : AllThatFit(description, home, Fit::kMaybe))
+    if (std::find(pool.begin(), pool.end(), i) == pool.end() &&
+        FitOf(unrelated, home, home.things[i]) == Fit::kYes)
+      pool.push_back(i);
+}
+
 }  // namespace
 
 std::string_view NameOf(Outcome outcome) {
@@ -174,6 +184,9 @@ std::vector<int> UnseenRooms(const Description& description, const KnownHome& ho
 Resolution Resolve(const Description& description, const KnownHome& home) {
   std::vector<int> pool = AllThatFit(description, home, Fit::kYes);
   const bool is_sure = !pool.empty();
+  if (is_sure && description.is_definite && description.order == 0 && !description.size &&
+      !description.relations.empty())
+    AddNearMisses(description, home, pool);
   if (!is_sure) pool = AllThatFit(description, home, Fit::kMaybe);
   if (pool.empty()) return Nothing(description, home);
   if (description.size) pool = Extremes(pool, *description.size, home);

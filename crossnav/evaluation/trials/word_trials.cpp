@@ -244,7 +244,6 @@ Result<WordTrial> TryWords(const WordTrialOptions& options, const RunConfig& con
   trial.house = plan->id;
   trial.things = static_cast<int>(truth.home.things.size());
   trial.things_found = CountFound(truth, known);
-  if (std::getenv("DBG")) for (auto& t : truth.home.things) for (auto& k : known.things) if (IsSame(k,t) && t.colour) { std::fprintf(stderr, "COL %s true %s seen %s\n", t.category.c_str(), ColourText(t.colour).c_str(), ColourText(k.colour).c_str()); break; }  // DBG
   for (int kind = 0; kind < kWordKinds; ++kind)
     for (const DrawnWords& drawn :
          DrawWords(truth.home, static_cast<WordKind>(kind), options.each, GoalNames(), rng))
