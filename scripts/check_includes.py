@@ -12,7 +12,7 @@ import re
 import sys
 
 _LEFT = {"core", "geometry", "perception", "memory", "planner"}
-_AGENT = _LEFT | {"objects", "scenegraph", "policy", "trace", "agent"}
+_AGENT = _LEFT | {"objects", "scenegraph", "language", "policy", "trace", "agent"}
 
 # Rooms that each room may include besides itself. In `evaluation` the agent meets the simulator.
 ROOMS = {
@@ -35,7 +35,8 @@ ROOMS = {
     "homes": {"core", "sim", "world"},
     "store": {"core", "geometry", "memory", "objects"},
     "scenegraph": {"core", "geometry", "memory", "objects"},
-    "evaluation": _AGENT | {"localization", "scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
+    "language": {"core", "geometry", "memory", "objects", "localization", "scenegraph"},
+    "evaluation": _AGENT | {"inference", "serve", "sim", "world", "homes", "store"},
 }
 
 # Rooms with folders: folders of the same room that each folder may include besides itself.
@@ -55,7 +56,7 @@ FOLDERS = {
         "generation": {"episodes", "records", "scoring", "settings"},
         "running": {"episodes", "files", "records", "scoring", "settings"},
         "lifelong": {"episodes", "files", "records", "running", "scoring", "settings"},
-        "trials": {"episodes", "records", "running", "scoring", "settings"},
+        "trials": {"episodes", "generation", "records", "running", "scoring", "settings"},
         "reporting": {"records", "scoring", "settings"},
     },
     "world": {

@@ -132,6 +132,7 @@ struct EpisodesOptions {
   std::string scene_list;  ///< file of names, one a line; empty = every scene
   std::vector<int> first;  ///< episodes with their first transition at stage 1, 2, ...
   bool by_scene = false;   ///< one scene in memory at a time
+  std::string goals_as = "category";  ///< category, description, or mixed
 };
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
                               Console& console);

@@ -14,16 +14,13 @@
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
-#include "crossnav/sim/sensing/ground_truth_encoder.h"
-#include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
 #include "graph_file.h"
 #include "graph_picture.h"
 #include "graph_text.h"
 #include "map_build.h"
-#include "perception_source.h"
-#include "session.h"
+#include "map_texts.h"
 
 namespace crossnav::app {
 namespace {
@@ -36,82 +33,7 @@ Json PointJson(const Vector3d& p) {
 
 Result<store::LoadedMemory> Load(const MapOptions& options, const evaluation::RunConfig& config,
                                  Console& console) {
-  const auto header = store::ReadMapHeader(options.file);
-  if (!header) return tl::unexpected(header.error());
-  store::LoadOptions load;
-  load.map = config.agent.map;
-  load.map->voxel_m = header->voxel_m;
-  load.map->clearing = header->clearing;
-  load.fusion = config.agent.fusion;
-  load.skip_damaged = options.skip_damaged;
-  auto loaded = store::LoadMemory(options.file, load);
-  if (loaded) {
-    for (const std::string& damage : loaded->damaged) console.Log(options.file + ": " + damage);
-  }
-  return loaded;
-}
-
-/// A floor tile: the ground-truth encoder requires a simulator, although not for texts.
-sim::Scene TileScene() {
-  sim::Scene scene;
-  scene.id = "tile";
-  scene.materials.resize(1);
-  scene.mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
-  scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  sim::UpdateDerived(scene);
-  return scene;
-}
-
-/// The query, in the space of the map's features.
-struct TextVectors {
-  std::vector<float> text;
-  std::vector<std::vector<float>> background;  ///< for query.relevancy = contrastive
-};
-
-/// The text in the space of `encoder`, with the vectors that it competes with.
-Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::string& text,
-                               const evaluation::RunConfig& config) {
-  auto vector = encoder.EncodeText(text);
-  if (!vector) return tl::unexpected(vector.error());
-  if (config.agent.query.relevancy != "contrastive") return TextVectors{std::move(*vector), {}};
-  auto background = perception::EncodeTexts(encoder, memory::kBackgroundPrompts);
-  if (!background) return tl::unexpected(background.error());
-  return TextVectors{std::move(*vector), std::move(*background)};
-}
-
-/// The text by ground truth's encoder, for features of `dim` numbers.
-Result<TextVectors> EncodeTruth(const MapOptions& options, int dim,
-                                const evaluation::RunConfig& config) {
-  const sim::Scene scene = TileScene();
-  const auto navmesh = sim::NavMesh::Build(scene, config.navmesh);
-  if (!navmesh) return tl::unexpected(navmesh.error());
-  const sim::RayCaster caster(scene);
-  const sim::Simulator simulator(scene, *navmesh, caster, config.agent.sensor, config.agent.action);
-  sim::GroundTruthConfig texts = config.ground_truth;
-  texts.feature_dim = dim;  // given by the map
-  const auto encoder = sim::MakeGroundTruthEncoder(simulator, texts);
-  if (!encoder) return tl::unexpected(encoder.error());
-  if ((*encoder)->Dim() != dim) {
-    return Fail(ErrorCode::kMismatch,
-                fmt::format("its features have {} numbers, the vectors of ground_truth.clip_dir {}",
-                            dim, (*encoder)->Dim()),
-                options.file);
-  }
-  return EncodeWith(**encoder, options.text, config);
-}
-
-Result<TextVectors> EncodeText(const MapOptions& options, const store::MapHeader& header,
-                               const evaluation::RunConfig& config) {
-  if (header.feature_dim == 0)
-    return Fail(ErrorCode::kInvalid, "this map holds no features to query", options.file);
-  const auto source = PerceptionSource::Read(config);
-  if (!source) return tl::unexpected(source.error());
-  if (auto ok = CheckEncoder(header, source->EncoderName(), options.file); !ok)
-    return tl::unexpected(ok.error());
-  auto suite = source->MakeSuite();
-  if (!suite) return EncodeTruth(options, header.feature_dim, config);
-  if (!*suite) return tl::unexpected(suite->error());
-  return EncodeWith(*(*suite)->encoder, options.text, config);
+  return LoadMap(options.file, options.skip_damaged, config, console);
 }
 
 /// From `options.from`, else from the place of its best view, where the agent once stood.
@@ -179,12 +101,6 @@ Json FlightsJson(const std::vector<geometry::StairFlight>& flights) {
   return all;
 }
 
-/// From which match on a text is present in this map.
-std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
-  const auto from = memory::PresentFrom(encoder);
-  return from ? from : RetrievalOf(config).present_from;
-}
-
 /// The first line of an answer.
 std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
                         const std::string& encoder, std::optional<double> from, bool is_nowhere) {
@@ -204,44 +120,6 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
                      match.best, is_nowhere ? ", but so much of it that no place stands out" : "");
 }
 
-/// A record of the category lies there.
-bool IsRecorded(const scenegraph::SceneGraph& graph, const std::string& category, const Box3& box) {
-  return std::any_of(graph.objects.begin(), graph.objects.end(), [&](const auto& object) {
-    return object.record >= 0 && CanonicalName(object.category) == CanonicalName(category) &&
-           (object.box.min.array() <= box.max.array()).all() &&
-           (object.box.max.array() >= box.min.array()).all();
-  });
-}
-
-/// The places of `category` above the calibrated threshold; all places if the map's encoder has no
-/// threshold.
-Result<void> AddObjects(const MapOptions& options, const std::string& category,
-                        const store::LoadedMemory& loaded, const evaluation::RunConfig& config,
-                        scenegraph::SceneGraph& graph) {
-  MapOptions asked = options;
-  asked.text = category;
-  const auto vectors = EncodeText(asked, loaded.header, config);
-  if (!vectors) return tl::unexpected(vectors.error());
-  memory::QueryConfig query = config.agent.query;
-  query.top_k = 1000;  // all outstanding places
-  const auto found = memory::Query(loaded.memory, vectors->text, query, vectors->background);
-  const auto match = memory::MatchOf(loaded.memory, vectors->text, found);
-  const auto from = PresentFrom(loaded.header.encoder_name, config);
-  graph.asked.push_back(category);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (from && match.places[i] < *from) continue;
-    if (IsRecorded(graph, category, found[i].box)) continue;
-    scenegraph::GraphObject object;
-    object.category = category;
-    object.p_center_world = found[i].p_center_world;
-    object.box = found[i].box;
-    object.match = match.places[i];
-    object.is_certain = from.has_value();
-    AddObject(graph, std::move(object));
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Console& console) {
@@ -255,8 +133,7 @@ Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Co
   if (!loaded) return tl::unexpected(loaded.error());
   auto graph = scenegraph::BuildGraph(loaded->map, loaded->memory, loaded->flights);
   AddRecords(graph, loaded->objects);
-  for (const std::string& category : options.objects)
-    if (auto ok = AddObjects(options, category, *loaded, *config, graph); !ok) return ok;
+  if (auto ok = FindObjects(options.file, options.objects, *loaded, *config, graph); !ok) return ok;
   RelateObjects(graph);
   if (auto ok = WriteGraphFile(graph, options.out); !ok) return ok;
   if (!options.pictures.empty())
@@ -306,7 +183,7 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
                               Console& console) {
   const auto loaded = Load(options, config, console);
   if (!loaded) return tl::unexpected(loaded.error());
-  const auto vectors = EncodeText(options, loaded->header, config);
+  const auto vectors = EncodeText(options.file, options.text, loaded->header, config);
   if (!vectors) return tl::unexpected(vectors.error());
   memory::QueryConfig query = config.agent.query;
   query.top_k = options.top;
@@ -362,7 +239,7 @@ Result<void> MapExport(const MapOptions& options, const CommonOptions& common, C
   if (options.text.empty()) {
     points = store::StatePoints(loaded->map, options.surfaces_only);
   } else {
-    const auto vectors = EncodeText(options, loaded->header, *config);
+    const auto vectors = EncodeText(options.file, options.text, loaded->header, *config);
     if (!vectors) return tl::unexpected(vectors.error());
     points = store::FieldPoints(
         loaded->memory, memory::RelevancyField(loaded->memory, vectors->text, config->agent.query,

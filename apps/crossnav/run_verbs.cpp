@@ -351,6 +351,7 @@ void AddTools(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(NoiseKinds()));
   noise->add_option("--out", o.noise.out, "JSON to write, for scripts/plot_noise.py");
   AddSensorTrials(*bench, o);
+  AddWordTrials(*bench, o);
 }
 
 }  // namespace
@@ -361,6 +362,7 @@ void AddRunVerbs(CLI::App& app, Options& options) {
   AddSuites(app, options);
   AddResults(app, options);
   AddMap(app, options);
+  AddAsk(app, options);
   AddServe(app, options);
   AddNetworks(app, options);
   AddTools(app, options);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "ask_command.h"
 #include "commands.h"
 #include "map_build.h"
 #include "noise_command.h"
@@ -22,6 +23,7 @@ struct Options {
   CommonOptions common;
   WorldOptions world;
   ChangeOptions change;
+  AskOptions ask;
   AssetsOptions assets;
   SceneOptions scene;
   ViewsOptions views;
@@ -48,6 +50,7 @@ struct Options {
   GraphBenchOptions graph_bench;
   LocalizeBenchOptions localize_bench;
   SensorTrialOptions sensor_trials;
+  WordBenchOptions word_bench;
   ServeOptions serve;
   Command command;
 };
@@ -71,6 +74,10 @@ void AddNetworks(CLI::App& app, Options& options);
 void AddReplay(CLI::App& app, Options& options);
 /// `bench localize`.
 void AddLocalizeBench(CLI::App& bench, Options& options);
+/// `ask`.
+void AddAsk(CLI::App& app, Options& options);
+/// `bench words`.
+void AddWordTrials(CLI::App& bench, Options& options);
 /// `bench sensors`.
 void AddSensorTrials(CLI::App& bench, Options& options);
 

@@ -121,7 +121,10 @@ std::vector<geometry::SeenStair> Agent::seen_stairs() const {
   return impl_->world.stairs.Export();
 }
 
-Result<void> Agent::SetGoal(const std::string& name) {
+Result<void> Agent::SetGoal(const std::string& wish) {
+  auto described = DescribedGoalOf(wish, *impl_->perception.encoder);
+  if (!described) return tl::unexpected(described.error());
+  const std::string& name = *described ? (*described)->category : wish;
   auto text = impl_->perception.encoder->EncodeText(name);
   if (!text) return tl::unexpected(text.error());
   LearnNames(*impl_->perception.encoder, impl_->config, &impl_->world);
@@ -135,7 +138,9 @@ Result<void> Agent::SetGoal(const std::string& name) {
     if (!background) return tl::unexpected(background.error());
     fresh.background = std::move(*background);
   }
-  fresh.events.push_back("goal activated: " + name);
+  fresh.events.push_back("goal activated: " + wish);
+  fresh.described = std::move(*described);
+  LookAtHome(impl_->world, impl_->config, &fresh);
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
   impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;

@@ -45,7 +45,9 @@ class Agent {
   ~Agent();
   Agent(Agent&&) noexcept;
 
-  /// Activates a goal: text vector, similarity field, POIs, path and verification restart; map,
+  /// Activates a goal: the name of a category or an object, or a description of one ("the red chair
+  /// upstairs", language/parse_description.h), whose words that are not understood are kInvalid.
+  /// Text vector, similarity field, POIs, path and verification restart; map,
   /// stairs and features stay.
   Result<void> SetGoal(const std::string& goal);
 

@@ -65,6 +65,7 @@ bool TryAllAgain(StepState& now) {
   goal.full.attempts.clear();
   goal.full.looks.clear();
   goal.live.ForgiveDiscarded();
+  if (goal.described) goal.described->set_aside.clear();
   goal.tried_viewpoints.clear();
   goal.failed_views = 0;
   goal.full.failed.clear();
@@ -75,8 +76,8 @@ bool TryAllAgain(StepState& now) {
   return true;
 }
 
-constexpr std::array kResorts = {LookAroundAgain, ForgetBumps,    Squeeze,
-                                 StepOnSeats,     AskMemoryAgain, TryAllAgain};
+constexpr std::array kResorts = {TakeGuesses, LookAroundAgain, ForgetBumps, Squeeze,
+                                 StepOnSeats, AskMemoryAgain,  TryAllAgain};
 
 }  // namespace
 

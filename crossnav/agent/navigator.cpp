@@ -136,6 +136,7 @@ Decision Navigate(StepState& now) {
   now.world.full.looked_along.Add(now.eye, DegToRad(now.config.sensor.hfov_deg));
   MeasureProgress(now);
   UpdateSearch(now);
+  JudgeInstances(now);
   if (!TryConfirmGoal(now, decision)) ChooseAndAct(now, &decision);
   if (decision.action == Action::kMoveForward) now.world.full.before_forward = now.agent;
   decision.activity = NameOf(now.goal.full.activity);

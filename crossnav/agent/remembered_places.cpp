@@ -25,6 +25,7 @@ std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& go
     places.push_back(std::move(poi));
   }
   if (world.revision) places = Revised(std::move(places), world, goal);
+  if (goal.described) places = FittingPlaces(std::move(places), world, goal);
   return places;
 }
 

@@ -13,6 +13,7 @@
 
 #include "crossnav/agent/activity.h"
 #include "crossnav/agent/config.h"
+#include "crossnav/agent/described_goal.h"
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
@@ -217,7 +218,8 @@ struct OneMapGoalState {
 
 /// Reinitialised by every new goal.
 struct GoalState {
-  std::string goal;
+  std::string goal;                        ///< name of a category or an object
+  std::optional<DescribedGoal> described;  ///< more was said than the name
   int index = -1;
   std::vector<float> text;
   std::vector<std::vector<float>> background;  ///< text vectors for query.relevancy = contrastive

@@ -135,6 +135,7 @@ void BindHooks(nb::module_& m);
 void BindAgent(nb::module_& m);
 void BindSimulator(nb::module_& m);
 void BindStore(nb::module_& m);
+void BindLanguage(nb::module_& m);
 void BindRecordings(nb::module_& m);
 void BindBench(nb::module_& m);
 

@@ -34,6 +34,7 @@ NB_MODULE(_core, m) {
   BindPerception(m);
   BindSimulator(m);
   BindStore(m);
+  BindLanguage(m);
   BindRecordings(m);
   BindHooks(m);
   BindAgent(m);

@@ -12,6 +12,7 @@
 #include "crossnav/evaluation/running/walk_log.h"
 #include "crossnav/evaluation/scoring/cause.h"
 #include "crossnav/evaluation/scoring/outcome.h"
+#include "crossnav/language/parse_description.h"
 #include "crossnav/localization/awakening.h"
 #include "crossnav/sim/sensing/ground_truth.h"
 #include "crossnav/sim/sensing/simulator.h"
@@ -80,6 +81,7 @@ class EpisodeRun {
   void NotePassing(StageState& stage) const;
   void FinishStage(const StageEnd& end, StageState& stage) const;
   bool IsClaimNear(const std::string& goal, const Vector3d& p_claimed_world) const;
+  bool IsClaimOf(const std::string& goal, const Vector3d& p_claimed_world) const;
   bool HasBudget(int actions_before) const {
     const bool is_per_goal = config_.eval.budget_scope == "goal";
     return actions_ - (is_per_goal ? actions_before : 0) < config_.eval.action_budget;
@@ -103,10 +105,14 @@ class EpisodeRun {
 
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   observers_ = observers;
-  // Ground-truth perception reads the instance image and never the colours; networks the reverse.
-  simulator_.ShowColour(config_.eval.perception != "oracle" ||
-                        std::any_of(observers.begin(), observers.end(),
-                                    [](const RunObserver* o) { return o->NeedsColour(); }));
+  // Ground-truth perception reads the instance image, never the colours; networks the reverse.
+  // Descriptions may name colours.
+  simulator_.ShowColour(
+      config_.eval.perception != "oracle" ||
+      std::any_of(episode_.goals.begin(), episode_.goals.end(),
+                  [](const auto& goal) { return language::IsDescription(goal); }) ||
+      std::any_of(observers.begin(), observers.end(),
+                  [](const RunObserver* o) { return o->NeedsColour(); }));
   const double start_ms = WallMs();
   if (auto ok = CheckPlayable(context_, episode_); !ok) return tl::unexpected(ok.error());
   if (auto ok = simulator_.Reset(episode_.start); !ok) {
@@ -244,8 +250,14 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
     end.stopped = true;
     end.is_reached = IsGoalReached(context_, context_.TargetsOf(stage.record.goal),
                                    simulator_.agent().p_world, config_.eval);
-    end.is_claim_near = step->p_claimed_world &&
-                        IsClaimNear(stage.record.goal, T_world_claims_ * *step->p_claimed_world);
+    const std::optional<Vector3d> p_claimed =
+        step->p_claimed_world
+            ? std::optional<Vector3d>(T_world_claims_ * *step->p_claimed_world)
+            : std::nullopt;
+    if (language::IsDescription(stage.record.goal))
+      end.is_reached =
+          end.is_reached && p_claimed && IsClaimOf(stage.record.goal, *p_claimed);
+    end.is_claim_near = p_claimed && IsClaimNear(stage.record.goal, *p_claimed);
   } else {
     Move(step->action, stage);
   }
@@ -295,6 +307,17 @@ bool EpisodeRun::IsClaimNear(const std::string& goal, const Vector3d& p_claimed_
     if (IsWithinBoxRadius(target, p_claimed_world, floor, config_.eval)) return true;
   }
   return false;
+}
+
+/// Another object beside the one that was described is a wrong one.
+bool EpisodeRun::IsClaimOf(const std::string& goal, const Vector3d& p_claimed_world) const {
+  constexpr double kAtBox_m = 0.3;  // chosen: three voxels
+  const auto& targets = context_.TargetsOf(goal);
+  return std::any_of(targets.begin(), targets.end(), [&](const Target& target) {
+    return target.box.HorizontalDistance(p_claimed_world) <= kAtBox_m &&
+           p_claimed_world.z() >= target.box.min.z() - kAtBox_m &&
+           p_claimed_world.z() <= target.box.max.z() + kAtBox_m;
+  });
 }
 
 void EpisodeRun::FinishStage(const StageEnd& end, StageState& stage) const {

@@ -62,6 +62,11 @@ class SceneContext {
   void UseMarks(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
                 const std::string& scene_id);
 
+  /// Takes from an episode file which instances its described goals mean ("the red chair
+  /// upstairs"): keys "<scene file>_<description>". After UseGoals and UseMarks.
+  void UseDescriptions(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+                       const std::string& scene_id);
+
   const sim::Scene& scene() const { return *scene_; }
   const sim::NavMesh& navmesh() const { return *navmesh_; }
   const sim::RayCaster& caster() const { return *caster_; }
@@ -107,6 +112,8 @@ class SceneContext {
 
  private:
   SceneContext() = default;
+  /// Of an episode file's objects that have viewpoints.
+  std::vector<Target> TargetsIn(const std::vector<GoalObject>& goals) const;
   bool IsByDetection() const { return config_.dataset.certificate == "detection"; }
   /// Places where the detection rule confirms the instance: at most one viewpoint per floor and
   /// part.

@@ -98,21 +98,6 @@ void ScoreRooms(const std::vector<Cells>& truth, std::map<int, Cells> found, Gra
   score.rooms_wrong += static_cast<int>(found.size());
 }
 
-Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunConfig& config,
-                                    std::unique_ptr<SceneContext>& context) {
-  for (int attempt = 0; attempt < world::AttemptsFor(params); ++attempt) {
-    auto plan = world::DrawFurnishedPlan(params, attempt);
-    if (!plan) continue;
-    auto made = SceneContext::Of(world::BuildHouse(*plan), config);
-    if (!made) return tl::unexpected(made.error());
-    if (!world::CheckHouse(*plan, (*made)->scene(), (*made)->navmesh())) continue;
-    context = std::move(*made);
-    return plan;
-  }
-  return Fail(ErrorCode::kInvalid, "no plan passed the gate; try another seed",
-              world::SceneIdOf(params));
-}
-
 }  // namespace
 
 GraphScore& GraphScore::operator+=(const GraphScore& other) {
@@ -137,6 +122,21 @@ GraphScore ScoreGraph(const scenegraph::SceneGraph& graph, const world::HousePla
   score.floors_wrong = static_cast<int>(graph.floors.size() - used.size());
   for (const auto& room : graph.rooms) score.rooms_wrong += used.count(room.floor) == 0 ? 1 : 0;
   return score;
+}
+
+Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunConfig& config,
+                                    std::unique_ptr<SceneContext>& context) {
+  for (int attempt = 0; attempt < world::AttemptsFor(params); ++attempt) {
+    auto plan = world::DrawFurnishedPlan(params, attempt);
+    if (!plan) continue;
+    auto made = SceneContext::Of(world::BuildHouse(*plan), config);
+    if (!made) return tl::unexpected(made.error());
+    if (!world::CheckHouse(*plan, (*made)->scene(), (*made)->navmesh())) continue;
+    context = std::move(*made);
+    return plan;
+  }
+  return Fail(ErrorCode::kInvalid, "no plan passed the gate; try another seed",
+              world::SceneIdOf(params));
 }
 
 Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& config) {

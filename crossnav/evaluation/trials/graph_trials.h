@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "crossnav/core/result.h"
+#include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/evaluation/settings/run_config.h"
 #include "crossnav/evaluation/trials/graph_objects.h"
 #include "crossnav/scenegraph/scene_graph.h"
+#include "crossnav/world/layout/house_params.h"
 #include "crossnav/world/plan/plan.h"
 
 namespace crossnav::evaluation {
@@ -36,6 +39,10 @@ struct GraphTrial {
   double record_ms = 0;  ///< of the records of objects, for each view
   double relate_ms = 0;  ///< of AddRecords and RelateObjects
 };
+
+/// The first plan that passes the gate, and the scene built from it.
+Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunConfig& config,
+                                    std::unique_ptr<SceneContext>& context);
 
 /// House `seed` of edition 1 or 2 as the generator draws it, its survey
 /// (evaluation/running/survey.h), its graph.
