@@ -37,7 +37,7 @@ constexpr Row kRows[] = {
     {&NoiseConfig::blur_px, {4, 6, 10}},
     {&NoiseConfig::depth_step_per_m2, {0, 0.00287, 0}},
     {&NoiseConfig::depth_angle_sigma_m, {0.0001, 0.0001, 0.0001}},
-    {&NoiseConfig::depth_flying, {0.15, 0.05, 0.15}},
+    {&NoiseConfig::depth_flying, {0.15, 0.2, 0.15}},
     {&NoiseConfig::depth_grazing_hole, {0.8, 0.9, 0.9}},
     {&NoiseConfig::depth_dark_hole, {0.2, 0.5, 0.2}},
     {&NoiseConfig::depth_glass_hole, {0.7, 0.9, 0.8}},
