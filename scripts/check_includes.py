@@ -36,7 +36,7 @@ ROOMS = {
     "store": {"core", "geometry", "memory", "objects"},
     "scenegraph": {"core", "geometry", "memory", "objects"},
     "language": {"core", "geometry", "memory", "objects", "localization", "scenegraph"},
-    "evaluation": _AGENT | {"inference", "serve", "sim", "world", "homes", "store"},
+    "evaluation": _AGENT | {"localization", "inference", "serve", "sim", "world", "homes", "store"},
 }
 
 # Rooms with folders: folders of the same room that each folder may include besides itself.

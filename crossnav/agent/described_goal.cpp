@@ -9,6 +9,7 @@
 #include "crossnav/language/parse_description.h"
 #include "crossnav/language/question.h"
 #include "crossnav/language/resolve.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/scenegraph/find_objects.h"
 

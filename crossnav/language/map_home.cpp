@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/language/map_home.h"
 
+#include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/scenegraph/find_objects.h"
 
