@@ -12,7 +12,7 @@ import re
 import sys
 
 _LEFT = {"core", "geometry", "perception", "memory", "planner"}
-_AGENT = _LEFT | {"policy", "trace", "agent"}
+_AGENT = _LEFT | {"objects", "scenegraph", "policy", "trace", "agent"}
 
 # Rooms that each room may include besides itself. In `evaluation` the agent meets the simulator.
 ROOMS = {
@@ -21,6 +21,7 @@ ROOMS = {
     "perception": {"core"},
     "inference": {"core", "perception"},
     "memory": {"core", "geometry"},
+    "objects": {"core", "geometry", "memory"},
     "planner": {"core", "geometry"},
     "policy": _LEFT,
     "trace": {"core", "geometry", "policy"},
@@ -31,8 +32,8 @@ ROOMS = {
     "recordings": {"core", "sim", "trace"},
     "world": {"core", "sim"},
     "homes": {"core", "sim", "world"},
-    "store": {"core", "geometry", "memory"},
-    "scenegraph": {"core", "geometry", "memory"},
+    "store": {"core", "geometry", "memory", "objects"},
+    "scenegraph": {"core", "geometry", "memory", "objects"},
     "evaluation": _AGENT | {"scenegraph", "inference", "serve", "sim", "world", "homes", "store"},
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "crossnav/agent/observation_place.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/core/write_file.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/records/result_records.h"
@@ -15,6 +18,7 @@
 #include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "graph_file.h"
 #include "graph_picture.h"
 #include "graph_text.h"
 #include "map_build.h"
@@ -200,6 +204,15 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
                      match.best, is_nowhere ? ", but so much of it that no place stands out" : "");
 }
 
+/// A record of the category lies there.
+bool IsRecorded(const scenegraph::SceneGraph& graph, const std::string& category, const Box3& box) {
+  return std::any_of(graph.objects.begin(), graph.objects.end(), [&](const auto& object) {
+    return object.record >= 0 && CanonicalName(object.category) == CanonicalName(category) &&
+           (object.box.min.array() <= box.max.array()).all() &&
+           (object.box.max.array() >= box.min.array()).all();
+  });
+}
+
 /// The places of `category` above the calibrated threshold; all places if the map's encoder has no
 /// threshold.
 Result<void> AddObjects(const MapOptions& options, const std::string& category,
@@ -217,6 +230,7 @@ Result<void> AddObjects(const MapOptions& options, const std::string& category,
   graph.asked.push_back(category);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (from && match.places[i] < *from) continue;
+    if (IsRecorded(graph, category, found[i].box)) continue;
     scenegraph::GraphObject object;
     object.category = category;
     object.p_center_world = found[i].p_center_world;
@@ -231,9 +245,7 @@ Result<void> AddObjects(const MapOptions& options, const std::string& category,
 }  // namespace
 
 Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Console& console) {
-  const bool is_xml = options.out.ends_with(".graphml");
-  if (!is_xml && !options.out.ends_with(".json"))
-    return Fail(ErrorCode::kUnsupported, "a graph is written as .json or .graphml", "--to");
+  if (auto ok = CheckGraphFile(options.out); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFile(options.out, "--to"); !ok) return ok;
   if (auto ok = evaluation::CheckNotInput(options.out, "--to", options.file); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
@@ -242,15 +254,15 @@ Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Co
   const auto loaded = Load(options, *config, console);
   if (!loaded) return tl::unexpected(loaded.error());
   auto graph = scenegraph::BuildGraph(loaded->map, loaded->memory, loaded->flights);
+  AddRecords(graph, loaded->objects);
   for (const std::string& category : options.objects)
     if (auto ok = AddObjects(options, category, *loaded, *config, graph); !ok) return ok;
   RelateObjects(graph);
-  const std::string json = GraphJson(graph);
-  if (auto ok = WriteFileAtomically(options.out, is_xml ? GraphXml(graph) : json); !ok) return ok;
+  if (auto ok = WriteGraphFile(graph, options.out); !ok) return ok;
   if (!options.pictures.empty())
     if (auto ok = WriteFloorPictures(graph, options.pictures); !ok) return ok;
   console.Print(GraphSummary(graph));
-  console.Document(json);
+  console.Document(GraphJson(graph));
   return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/evaluation/settings/config_file.h"
+#include "crossnav/scenegraph/build_graph.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -16,11 +17,16 @@ Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::
   if (auto ok = CheckEncoder(*header, encoder, path.string()); !ok) return ok;
   store::LoadOptions options;
   options.map = config.agent.map;
+  // Agent::Restore gives the evidence counts where it has none.
+  if (config.agent.memory.mode == "revise") options.map->clearing = header->clearing;
   options.fusion = config.agent.fusion;
   auto loaded = store::LoadMemory(path, options);
   if (!loaded) return tl::unexpected(loaded.error());
-  return agent.Restore(std::move(loaded->map), std::move(loaded->memory),
-                       std::move(loaded->flights), loaded->seen_stairs);
+  auto restored = agent.Restore(std::move(loaded->map), std::move(loaded->memory),
+                                std::move(loaded->flights), loaded->seen_stairs);
+  if (!restored) return restored;
+  agent.RestoreObjects(std::move(loaded->objects), static_cast<int>(header->revision));
+  return {};
 }
 
 Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::filesystem::path& path,
@@ -30,6 +36,9 @@ Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::fil
   info.frame = frame;
   info.flights = agent.flights();
   info.seen_stairs = agent.seen_stairs();
+  info.objects = agent.objects();
+  if (!info.objects.empty())
+    LocateRecords(scenegraph::BuildGraph(agent.map(), agent.memory(), info.flights), info.objects);
   return store::SaveMemory(path, agent.map(), agent.memory(), info);
 }
 

@@ -268,7 +268,10 @@ void AddMap(CLI::App& app, Options& o) {
   CLI::App* graph = AddVerb(*map, o, "graph", "Floors, rooms and objects of a map as a graph",
                             "crossnav map graph home.map --to graph.json --objects chair,bed",
                             [&o](Console& c) { return MapGraph(o.map, o.common, c); });
-  graph->add_option("--to", o.map.out, "File to write: .json or .graphml")->required();
+  graph
+      ->add_option("--to", o.map.out,
+                   "File to write: .json, .graphml, .mcap, or .rrd by the Python package")
+      ->required();
   graph
       ->add_option("--objects", o.map.objects,
                    "Categories to look for in the memory; default: none")

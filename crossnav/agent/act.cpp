@@ -10,6 +10,7 @@
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/scan.h"
 #include "crossnav/agent/shared_parts.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/policy/ground_motion.h"
 #include "crossnav/policy/steering.h"
 
@@ -102,6 +103,9 @@ std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Ver
   if (const auto wobble = static_cast<std::size_t>(poi.looked); wobble < kWobble.size())
     return ++poi.looked, kWobble[wobble];
   poi.is_exhausted = true;
+  if (now.world.revision)
+    now.world.objects.Disprove(CanonicalName(now.goal.goal), poi.voxels,
+                               {now.world.day, now.world.step});
   now.goal.events.push_back("history POI without success, similarity " +
                             std::to_string(poi.similarity) + " score " + std::to_string(poi.score));
   End(now, Ending::kReached);

@@ -13,6 +13,7 @@
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/shared_parts.h"
+#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 
@@ -134,6 +135,7 @@ Decision Navigate(StepState& now) {
   NoteLevel(now);
   now.world.full.looked_along.Add(now.eye, DegToRad(now.config.sensor.hfov_deg));
   MeasureProgress(now);
+  UpdateSearch(now);
   if (!TryConfirmGoal(now, decision)) ChooseAndAct(now, &decision);
   if (decision.action == Action::kMoveForward) now.world.full.before_forward = now.agent;
   decision.activity = NameOf(now.goal.full.activity);

@@ -155,7 +155,7 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
     if (!is_claimed) continue;
     auto it = std::find_if(tracker->views.begin(), tracker->views.end(),
                            [&](const ClaimViews& v) { return v.poi_id == poi.id; });
-    if (it == book->views.end()) it = book->views.insert(it, ClaimViews{poi.id, {}, {}});
+    if (it == tracker->views.end()) it = tracker->views.insert(it, ClaimViews{poi.id, {}, {}});
     if (IsNewView(poi.p_center_world, p_camera_world, it->p_cameras_world, config))
       it->p_cameras_world.push_back(p_camera_world);
   }
@@ -163,16 +163,16 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
 
 void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                 const Vector3d& p_camera_world, const ObjectConfig& object,
-                const VerifyConfig& config, ClaimTracker* book) {
+                const VerifyConfig& config, ClaimTracker* tracker) {
   for (const LivePoi& poi : pois) {
     double best = 0;
     for (const Sighting& sighting : sightings)
       if (IsOf(sighting, poi.voxels, poi.p_center_world, object))
         best = std::max(best, sighting.confidence);
     if (best <= 0) continue;
-    auto it = std::find_if(book->views.begin(), book->views.end(),
+    auto it = std::find_if(tracker->views.begin(), tracker->views.end(),
                            [&](const ClaimViews& v) { return v.poi_id == poi.id; });
-    if (it == book->views.end()) it = book->views.insert(it, ClaimViews{poi.id, {}, {}});
+    if (it == tracker->views.end()) it = tracker->views.insert(it, ClaimViews{poi.id, {}, {}});
     auto view = std::find_if(it->scores.begin(), it->scores.end(), [&](const ViewScore& score) {
       return !IsOtherView(poi.p_center_world, p_camera_world, score.p_camera_world, config);
     });

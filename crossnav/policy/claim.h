@@ -122,7 +122,7 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
 /// Notes the score of each POI in this frame, weak ones too, at the view it belongs to.
 void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                 const Vector3d& p_camera_world, const ObjectConfig& object,
-                const VerifyConfig& config, ClaimTracker* book);
+                const VerifyConfig& config, ClaimTracker* tracker);
 
 enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 

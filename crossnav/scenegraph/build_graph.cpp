@@ -171,6 +171,31 @@ std::optional<int> RoomAt(const SceneGraph& graph, int floor, const Vector3d& p_
   return nearest;
 }
 
+void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& records) {
+  for (objects::ObjectRecord& record : records) {
+    record.floor = FloorAt(graph, record.centre_world_m).value_or(-1);
+    record.room =
+        record.floor < 0 ? -1 : RoomAt(graph, record.floor, record.centre_world_m).value_or(-1);
+  }
+}
+
+void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
+                double least) {
+  for (const objects::ObjectRecord& record : records) {
+    if (record.confidence < least || record.views == 0) continue;
+    GraphObject object;
+    object.category = record.category;
+    object.p_center_world = record.centre_world_m;
+    object.box.min = record.box_world_m.min();
+    object.box.max = record.box_world_m.max();
+    object.match = 1;
+    object.is_certain = true;
+    object.record = record.id;
+    object.confidence = record.confidence;
+    AddObject(graph, std::move(object));
+  }
+}
+
 void AddObject(SceneGraph& graph, GraphObject object) {
   object.id = static_cast<int>(graph.objects.size());
   object.floor = FloorAt(graph, object.p_center_world);

@@ -5,6 +5,7 @@
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/objects/object_record.h"
 #include "crossnav/scenegraph/scene_graph.h"
 
 namespace crossnav::scenegraph {
@@ -19,6 +20,13 @@ std::optional<int> FloorAt(const SceneGraph& graph, const Vector3d& p_world);
 
 /// Room of a point on a floor, within half a metre; empty without a room.
 std::optional<int> RoomAt(const SceneGraph& graph, int floor, const Vector3d& p_world);
+
+/// Floor and room of every record by the graph.
+void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& records);
+
+/// The records that are believed from `least` on, as objects of the graph.
+void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
+                double least = 0.5);
 
 /// Gives the object its id, floor and room, and appends it.
 void AddObject(SceneGraph& graph, GraphObject object);

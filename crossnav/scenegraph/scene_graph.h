@@ -35,9 +35,11 @@ struct GraphObject {
   std::string category;
   Vector3d p_center_world = Vector3d::Zero();
   Box3 box;
-  std::optional<int> floor, room;  ///< ids; empty = no floor or room found
-  double match = 0;                ///< 0 chance, 1 the name itself (memory/query_match.h)
-  bool is_certain = false;         ///< the match is above the calibrated threshold of presence
+  std::optional<int> floor, room;    ///< ids; empty = no floor or room found
+  double match = 0;                  ///< 0 chance, 1 the name itself (memory/query_match.h)
+  bool is_certain = false;           ///< the match is above the calibrated threshold of presence
+  int record = -1;                   ///< id of the record it is made of; -1 = the memory's features
+  std::optional<double> confidence;  ///< of the record: that it is still there [0, 1]
 };
 
 /// Two rooms that meet: a door, an archway.

@@ -27,6 +27,7 @@
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/objects/object_record.h"
 
 namespace crossnav::store {
 
@@ -41,6 +42,7 @@ struct SaveInfo {
   std::string frame = "episode";   ///< name of the world frame, free text
   std::vector<geometry::StairFlight> flights{};    ///< Agent::flights()
   std::vector<geometry::SeenStair> seen_stairs{};  ///< Agent::seen_stairs()
+  std::vector<objects::ObjectRecord> objects{};    ///< Agent::objects()
 };
 
 /// The file's header, as printed by `crossnav map info`.
@@ -92,6 +94,7 @@ struct LoadedMemory {
   memory::SemanticMemory memory;
   std::vector<geometry::StairFlight> flights;
   std::vector<geometry::SeenStair> seen_stairs;
+  std::vector<objects::ObjectRecord> objects;
   std::vector<std::string> damaged;  ///< e.g. "feature block 12 (3,-1,0): checksum differs"
 };
 

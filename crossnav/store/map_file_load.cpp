@@ -7,6 +7,7 @@
 #include "crossnav/store/block_codec.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
+#include "crossnav/store/object_table.h"
 #include "crossnav/store/sqlite_file.h"
 #include "crossnav/store/stair_tables.h"
 
@@ -189,6 +190,7 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
     return tl::unexpected(done.error());
   auto flights = ReadFlights(*db, damaged);
   auto seen_stairs = ReadSeenStairs(*db, damaged);
+  auto objects = ReadObjects(*db, damaged);
   if (!damaged.empty() && !options.skip_damaged)
     return tl::unexpected(DamageError(db->file(), damaged));
 
@@ -202,6 +204,7 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
                       std::move(memory),
                       std::move(flights),
                       std::move(seen_stairs),
+                      std::move(objects),
                       std::move(damaged)};
 }
 

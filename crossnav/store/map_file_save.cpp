@@ -8,6 +8,7 @@
 #include "crossnav/store/block_codec.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
+#include "crossnav/store/object_table.h"
 #include "crossnav/store/sqlite_file.h"
 #include "crossnav/store/stair_tables.h"
 
@@ -139,6 +140,7 @@ Result<SaveReport> SaveInTransaction(Database& db, const geometry::VoxelMap& map
 
   if (auto done = WriteFlights(db, info.flights); !done) return tl::unexpected(done.error());
   if (auto done = WriteSeenStairs(db, info.seen_stairs); !done) return tl::unexpected(done.error());
+  if (auto done = WriteObjects(db, info.objects); !done) return tl::unexpected(done.error());
 
   MapHeader header;
   header.revision = report.revision = *revision + 1;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "crossnav/store/sealed_blob.h"
+#include "crossnav/store/sealed_rows.h"
 
 namespace crossnav::store {
 namespace {
@@ -148,61 +148,15 @@ std::optional<std::vector<geometry::SeenStair>> DecodeSeen(const Bytes& bytes) {
   return seen;
 }
 
-Result<void> Replace(Database& db, const char* table, bool is_empty) {
-  auto done = db.Exec(std::string("DROP TABLE IF EXISTS ") + table);
-  if (!done || is_empty) return done;
-  return db.Exec(std::string("CREATE TABLE ") + table +
-                 "(id INTEGER PRIMARY KEY, hash INTEGER, data BLOB) STRICT");
-}
-
-Result<void> Insert(Database& db, const char* table, std::int64_t id, const Bytes& raw) {
-  auto insert = db.Prepare(std::string("INSERT INTO ") + table + " VALUES(?1,?2,?3)");
-  if (!insert) return tl::unexpected(insert.error());
-  const Bytes data = Compress(raw);
-  insert->Bind(1, id).Bind(2, HashBlock({table, id, {}, 0}, data)).Bind(3, ByteView(data));
-  return insert->Run();
-}
-
-}  // namespace
-
-namespace {
-
-/// Verified bytes of the row; nullopt where the checksum differs.
-std::optional<Bytes> Unsealed(Statement& row, const char* table, std::int64_t id) {
-  const ByteView data = row.Blob(2);
-  if (row.Int(1) != HashBlock({table, id, {}, 0}, data)) return std::nullopt;
-  return Decompress(data, kMaxBytes);
-}
-
-/// Calls `take(id, bytes)` for every row of `table` in order; false marks a damaged record. A
-/// missing table has no rows.
-template <class Take>
-void ForEachRow(Database& db, const char* table, std::vector<std::string>& damaged, Take take) {
-  auto select = db.Prepare(std::string("SELECT id, hash, data FROM ") + table + " ORDER BY id");
-  if (!select) return;
-  for (;;) {
-    const auto row = select->Step();
-    if (!row) {
-      damaged.push_back(std::string(table) + ": " + row.error().what);
-      return;
-    }
-    if (!*row) return;
-    const std::int64_t id = select->Int(0);
-    const auto bytes = Unsealed(*select, table, id);
-    if (!bytes || !take(id, *bytes))
-      damaged.push_back(std::string(table) + " " + std::to_string(id) + ": checksum differs");
-  }
-}
-
 }  // namespace
 
 Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>& flights) {
   for (const char* table : {kFlightTable, kPlacesTable})
-    if (auto done = Replace(db, table, flights.empty()); !done) return done;
+    if (auto done = ReplaceTable(db, table, flights.empty()); !done) return done;
   std::int64_t row = 0;
   for (const geometry::StairFlight& flight : flights) {
-    if (auto done = Insert(db, kFlightTable, row, Encode(flight)); !done) return done;
-    if (auto done = Insert(db, kPlacesTable, row, EncodePlaces(flight)); !done) return done;
+    if (auto done = InsertRow(db, kFlightTable, row, Encode(flight)); !done) return done;
+    if (auto done = InsertRow(db, kPlacesTable, row, EncodePlaces(flight)); !done) return done;
     ++row;
   }
   return {};
@@ -210,14 +164,14 @@ Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>
 
 std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::string>& damaged) {
   std::map<std::int64_t, geometry::StairFlight> flights;
-  ForEachRow(db, kFlightTable, damaged, [&](std::int64_t row, const Bytes& bytes) {
+  ForEachRow(db, kFlightTable, kMaxBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
     auto flight = DecodeFlight(bytes);
     if (!flight) return false;
     flight->id = static_cast<int>(row);  // older files lack ids
     flights.emplace(row, std::move(*flight));
     return true;
   });
-  ForEachRow(db, kPlacesTable, damaged, [&](std::int64_t row, const Bytes& bytes) {
+  ForEachRow(db, kPlacesTable, kMaxBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
     const auto it = flights.find(row);
     return it == flights.end() || DecodePlaces(bytes, &it->second);
   });
@@ -228,8 +182,8 @@ std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::st
 }
 
 Result<void> WriteSeenStairs(Database& db, const std::vector<geometry::SeenStair>& seen) {
-  auto done = Replace(db, kSeenTable, seen.empty());
-  return !done || seen.empty() ? done : Insert(db, kSeenTable, 0, Encode(seen));
+  auto done = ReplaceTable(db, kSeenTable, seen.empty());
+  return !done || seen.empty() ? done : InsertRow(db, kSeenTable, 0, Encode(seen));
 }
 
 std::vector<geometry::SeenStair> ReadSeenStairs(Database& db, std::vector<std::string>& damaged) {

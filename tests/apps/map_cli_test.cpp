@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "apps/cli_fixture.h"
 
@@ -61,6 +62,25 @@ TEST_F(MapCli, QueryTellsBestViewAndAReachablePlaceToStand) {
   EXPECT_LT(here[0]["observation"]["path_m"], 0.5);
   EXPECT_TRUE(Query("m.map sofa --from 90,90,0")["places"][0]["observation"].is_null());
   EXPECT_EQ(Run("map query m.map sofa --from 1,2").exit_code, 2);
+}
+
+TEST_F(MapCli, AGraphHasTheRunsObjectsAndIsWrittenAsItsNameSays) {
+  const std::string id = IdOfEpisodeFor("sofa");
+  ASSERT_EQ(Run("run --quiet --scenes scenes --episodes e.json --episode " + id + kSmall +
+                " --save-map m.map --set eval.action_budget=200")
+                .exit_code,
+            0);
+  for (const char* name : {"g.json", "g.graphml", "g.mcap"}) {
+    const Outcome outcome = Run(std::string("map graph --json m.map --to ") + name);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json graph = Json::parse(outcome.out);
+    EXPECT_FALSE(graph["rooms"].empty());
+    ASSERT_FALSE(graph["objects"].empty());
+    EXPECT_EQ(graph["objects"][0]["category"], "sofa");
+    EXPECT_GE(graph["objects"][0]["confidence"], 0.5);
+    EXPECT_TRUE(std::filesystem::exists(At(name)));
+  }
+  EXPECT_NE(Run("map graph m.map --to g.txt").exit_code, 0);
 }
 
 TEST_F(MapCli, ContrastiveRelevancyIsOffUnlessAskedFor) {

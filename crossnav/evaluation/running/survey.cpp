@@ -48,8 +48,9 @@ struct Shown {
 class Surveyor {
  public:
   Surveyor(const SceneContext& context, const RunConfig& config, perception::PerceptionSuite& suite,
-           sim::Simulator& simulator)
-      : context_(context),
+           sim::Simulator& simulator, const OnView& on_view)
+      : on_view_(on_view),
+        context_(context),
         config_(config),
         suite_(suite),
         simulator_(simulator),
@@ -71,6 +72,7 @@ class Surveyor {
   Result<void> Look(bool with_objects);
   void NoteObjects(const Observation& obs);
 
+  const OnView& on_view_;
   const SceneContext& context_;
   const RunConfig& config_;
   perception::PerceptionSuite& suite_;
@@ -106,6 +108,7 @@ Result<void> Surveyor::Look(bool with_objects) {
   flight_survey_.Update(stairs_, levels_m_, simulator_.agent().p_world, config_.agent.map.voxel_m,
                         &survey_.flights);
   if (with_objects) NoteObjects(obs);
+  if (on_view_) on_view_(obs, simulator_);
   return {};
 }
 
@@ -169,7 +172,8 @@ Known KnownOf(const std::string& variant) {
   return variant == "known-objects" ? Known::kObjects : Known::kNothing;
 }
 
-Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known) {
+Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
+                                const OnView& on_view) {
   const bool with_objects = known == Known::kObjects;
   if (with_objects && config.eval.perception != "oracle") {
     return Fail(ErrorCode::kUnsupported,
@@ -181,7 +185,7 @@ Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& co
   simulator.ShowColour(false);
   auto suite = sim::GroundTruthPerception(simulator, config.ground_truth);
   if (!suite) return tl::unexpected(suite.error());
-  Surveyor surveyor(context, config, *suite, simulator);
+  Surveyor surveyor(context, config, *suite, simulator, on_view);
   for (const Vector3d& p : PlacesOf(context)) {
     if (auto ok = surveyor.LookAround(p, with_objects); !ok) return tl::unexpected(ok.error());
   }

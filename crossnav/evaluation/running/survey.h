@@ -5,6 +5,7 @@
 // surface voxels. World frame, metres. Deterministic.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "crossnav/core/result.h"
@@ -13,6 +14,7 @@
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/sim/sensing/simulator.h"
 
 namespace crossnav::evaluation {
 
@@ -32,6 +34,9 @@ struct SceneSurvey {
 
 /// Costs some 6 ms a view of 640 x 640, about eight views a square metre. Error: known objects with
 /// an encoder other than ground truth's (eval.perception = networks).
-Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known);
+/// `on_view` sees every view besides.
+using OnView = std::function<void(const Observation&, const sim::Simulator&)>;
+Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
+                                const OnView& on_view = {});
 
 }  // namespace crossnav::evaluation

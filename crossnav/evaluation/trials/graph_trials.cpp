@@ -147,7 +147,10 @@ Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& co
   std::unique_ptr<SceneContext> context;
   const auto plan = PassedPlan(params, config, context);
   if (!plan) return tl::unexpected(plan.error());
-  const auto survey = SurveyScene(*context, config, Known::kMap);
+  ObjectSurvey objects(*context, config);
+  const auto survey = SurveyScene(
+      *context, config, Known::kMap,
+      [&](const Observation& obs, const sim::Simulator& sim) { objects.Look(obs, sim); });
   if (!survey) return tl::unexpected(survey.error());
   GraphTrial trial;
   trial.house = plan->id;
@@ -155,6 +158,13 @@ Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& co
   trial.graph = scenegraph::BuildGraph(survey->map, survey->memory, survey->flights);
   trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   trial.score = ScoreGraph(trial.graph, *plan);
+  trial.record_ms = 1e3 * objects.seconds() / std::max(1, objects.views());
+  const auto relate = std::chrono::steady_clock::now();
+  AddRecords(trial.graph, objects.book().Confirmed());
+  RelateObjects(trial.graph);
+  trial.relate_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - relate).count();
+  trial.objects = ScoreObjects(trial.graph, objects, context->scene(), *plan);
   return trial;
 }
 

@@ -6,6 +6,7 @@
 
 #include "crossnav/core/result.h"
 #include "crossnav/evaluation/settings/run_config.h"
+#include "crossnav/evaluation/trials/graph_objects.h"
 #include "crossnav/scenegraph/scene_graph.h"
 #include "crossnav/world/plan/plan.h"
 
@@ -30,7 +31,10 @@ struct GraphTrial {
   std::string house;
   GraphScore score;
   scenegraph::SceneGraph graph;
-  double seconds = 0;  ///< of BuildGraph, wall clock
+  ObjectScore objects;
+  double seconds = 0;    ///< of BuildGraph, wall clock
+  double record_ms = 0;  ///< of the records of objects, for each view
+  double relate_ms = 0;  ///< of AddRecords and RelateObjects
 };
 
 /// House `seed` of edition 1 or 2 as the generator draws it, its survey

@@ -206,3 +206,34 @@ def write_recording(replay: PathLike, out: PathLike, map_every: int = MAP_EVERY)
             stream.disconnect()
             part.unlink(missing_ok=True)
     return steps
+
+
+def write_graph(graph: PathLike, out: PathLike) -> int:
+    """Writes a map's graph (JSON of `crossnav map graph`) as a recording; the number of its objects.
+
+    The file is whole or not there. Raises crossnav.Error where the graph cannot be read, and where
+    `out` cannot be written or does not end in .rrd.
+    """
+    target = Path(out)
+    if target.suffix != ".rrd":
+        raise Error("must end in .rrd", f"--to {target}")
+    _needed()
+    import rerun as rr
+
+    from crossnav.rerun.graph import draw_graph, read_graph
+    found = read_graph(graph)
+    part = target.with_name(target.name + ".part")
+    stream = rr.RecordingStream("crossnav", recording_id="graph")
+    try:
+        part.touch()
+        stream.save(part)
+        draw_graph(stream, found)
+        stream.flush()
+        stream.disconnect()
+        part.replace(target)
+    except OSError as error:
+        raise Error(f"cannot be written: {error.strerror}", f"--to {target}", "io") from None
+    finally:
+        stream.disconnect()
+        part.unlink(missing_ok=True)
+    return len(found["objects"])
