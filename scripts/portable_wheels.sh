@@ -69,7 +69,7 @@ simulator = crossnav.Simulator(scene)
 simulator.reset(crossnav.AgentPose(scene.random_point(seed=1)))
 agent = crossnav.Agent(simulator.ground_truth(), scene.config)
 agent.set_goal("plant")
-print(f"portable_wheels: {sys.argv[1]}: {agent.step(simulator.observe()).action}")
+print(f"portable_wheels: {sys.argv[1]}: {agent.step(simulator.observe()).action.name}")
 EOP
   rm -rf "$venv"
 }
