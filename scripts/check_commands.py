@@ -29,7 +29,7 @@ def check_crossnav(command, root, program):
     if words[:1] == ["--version"] or "VERB" in words or re.fullmatch(r"[A-Z]+|\d.*", words[0]):
         return None
     done = subprocess.run([program, *words, "--set", PLANTED + "=1"], cwd=root, text=True, check=False,
-                          capture_output=True, stdin=subprocess.DEVNULL, timeout=20)
+                          capture_output=True, stdin=subprocess.DEVNULL, timeout=120)
     said = done.stderr.strip().splitlines()
     said = [line for line in said if "warning:" not in line] or [""]
     if said == [REFUSED]:

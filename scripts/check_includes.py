@@ -116,7 +116,7 @@ ADAPTERS = {
                                       "crossnav/homes/objects_file.cpp",
                                       "crossnav/world/furniture/furniture_pack.cpp",
                                       "crossnav/world/scene/glb_writer.cpp",
-                                      "crossnav/world/house/house_file.cpp", "apps/crossnav/*.cpp"]),
+                                      "crossnav/world/house/house_file.cpp", "apps/crossnav/*"]),
     "pugixml": (r"^pugixml", ["crossnav/homes/home_xml.cpp"]),
     "Assimp": (r"^assimp/", ["crossnav/homes/assimp_reader.cpp"]),
     "toml++": (r"^toml", ["crossnav/evaluation/settings/config_file.cpp",

@@ -77,7 +77,7 @@ def trace(script):
         records = pathlib.Path(folder, "records")
         done = subprocess.run(["/bin/bash", "-c", TRACER + functions + script], cwd=folder, text=True,
                               env={"RECORDS": str(records)}, capture_output=True, check=False,
-                              stdin=subprocess.DEVNULL, timeout=20)
+                              stdin=subprocess.DEVNULL, timeout=120)
         said = "\n".join(line for line in done.stderr.splitlines()
                          if line and not re.match(r"(real|user|sys)\t", line))
         text = records.read_text("utf-8") if records.exists() else ""

@@ -48,7 +48,7 @@ build_one() {
   pip wheel -q "$root" --no-build-isolation --no-deps --wheel-dir "$raw" \
     --config-settings=build-dir="$root/build/portable-$tag" \
     --config-settings=cmake.define.CROSSNAV_PREBUILT="$prebuilt"
-  PATH="$venv/bin:$PATH" "$venv/bin/auditwheel" -q repair --strip --exclude 'libopenvino.so.*' \
+  PATH="$venv/bin:$PATH" "$venv/bin/auditwheel" repair --strip --exclude 'libopenvino.so.*' \
     --wheel-dir "$out" "$raw"/crossnav-*.whl
 }
 

@@ -6,6 +6,7 @@
 
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/running/timing.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/store/map_file.h"
 #include "eval_progress.h"
 #include "goal_sightings.h"
@@ -147,6 +148,19 @@ std::string GoalText(const GoalSightings& sightings, const std::string& goal,
   return fmt::format("\"{}\": {} found by {}\n{}", goal, count, detector, sightings.PlacesText());
 }
 
+/// Whether the goal is there: by the memory where its encoder's matches tell, else by the detector.
+struct GoalVerdict {
+  std::string verdict, by;
+};
+
+GoalVerdict VerdictOf(const GoalSightings& sightings, const std::string& by_memory) {
+  if (by_memory != memory::NameOf(memory::Verdict::kUnknown)) return {by_memory, "memory"};
+  if (!sightings.is_known()) return {by_memory, "memory"};
+  const auto verdict =
+      sightings.Places().empty() ? memory::Verdict::kAbsent : memory::Verdict::kPresent;
+  return {std::string(memory::NameOf(verdict)), "detector"};
+}
+
 Json GoalJson(const GoalSightings& sightings, const std::string& detector) {
   return {{"detector", detector},
           {"is_class", sightings.is_known()},
@@ -229,9 +243,16 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
     query.top = options.top;
     const auto answer = AnswerQuery(query, *config, console);
     if (!answer) return tl::unexpected(answer.error());
-    console.Print(GoalText(*sightings, options.goal, config->networks.detector) + answer->text);
     document["detected"] = GoalJson(*sightings, config->networks.detector);
     document["answer"] = Json::parse(answer->json);
+    const auto by_memory = document["answer"].value("verdict", "unknown");
+    const GoalVerdict verdict = VerdictOf(*sightings, by_memory);
+    document["verdict"] = verdict.verdict;
+    document["verdict_by"] = verdict.by;
+    if (verdict.by == "detector")
+      console.Print(fmt::format("\"{}\" is {}, says the detector {}\n", options.goal,
+                                verdict.verdict, config->networks.detector));
+    console.Print(GoalText(*sightings, options.goal, config->networks.detector) + answer->text);
   }
   console.Document(document);
   return {};

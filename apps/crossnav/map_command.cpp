@@ -195,8 +195,7 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
           match.best, *from);
     case memory::Verdict::kUnknown:
       return fmt::format(
-          "\"{}\" matches {:.2f}; for features of {} it was never measured from where "
-          "on it is there\n",
+          "\"{}\" matches {:.2f}; features of {} do not tell what is there from what is not\n",
           text, match.best, encoder.empty() ? "an unknown encoder" : encoder);
     case memory::Verdict::kPresent:
       break;

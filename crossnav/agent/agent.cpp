@@ -204,16 +204,21 @@ std::vector<policy::Sighting> Agent::Impl::Lift(
 std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sighting> sightings,
                                                          const Observation& obs) {
   const policy::ObjectConfig& object = config.policy.object;
+  const Vector3d p_camera_world = obs.T_world_camera.translation();
   goal.full.hints.Update(sightings, HintConfig(config.policy), config.map.voxel_m, world.step);
+  const std::vector<policy::Sighting> all = sightings;
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;
   });
   // Paper, "Final Target-Object Approach": during the approach the detection is updated.
   const int approached = config.policy.profile == "paper" ? goal.active_live : -1;
   goal.live.Update(sightings, object, config.map.voxel_m, world.step, approached);
-  if (DoubtsClaims(config))
-    NoteViews(goal.live.all(), sightings, obs.T_world_camera.translation(), object, config.verify,
-              &goal.full.claims);
+  if (DoubtsClaims(config)) {
+    const policy::VerifyConfig& verify = config.verify;
+    NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);
+    if (verify.evidence == "views")
+      NoteScores(goal.live.all(), all, p_camera_world, object, verify, &goal.full.claims);
+  }
   return sightings;
 }
 

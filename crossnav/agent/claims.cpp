@@ -80,7 +80,10 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   const int views = seen ? static_cast<int>(seen->p_cameras_world.size()) : 0;
   const auto opinion =
       OpinionOf(now.world.memory, poi.voxels, goal.text, OthersThan(goal.goal, now.world));
-  ClaimVerdict verdict = Judge(opinion, verification.confidence, views, config);
+  const auto scores = seen ? seen->scores : std::vector<policy::ViewScore>{};
+  ClaimVerdict verdict = config.evidence == "views"
+                             ? Judge(opinion, scores, config)
+                             : Judge(opinion, verification.confidence, views, config);
   const bool was_asked = goal.full.claims.second_view_of == poi.id;
   if (verdict == ClaimVerdict::kWeak) {
     goal.full.claims.second_view_of = poi.id;

@@ -13,12 +13,15 @@
 #include "crossnav/core/setting.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/policy/live_poi.h"
+#include "crossnav/policy/view_evidence.h"
 
 namespace crossnav::policy {
 
 /// Settings `verify.*`; policy.profile = full.
 struct VerifyConfig {
   std::string memory = "on";        ///< on | off: off believes the frame before the agent
+  std::string evidence = "frame";   ///< frame | views: what a claim's confidence is
+  EvidenceConfig views;             ///< of evidence = views
   double refute_margin = 0.02;      // chosen: cosine by which another name must answer better
   double strong_margin = 0.02;      // chosen: cosine by which the goal must, or the claim is weak
   double strong_confidence = 0.80;  // chosen: of a frame; less is weak
@@ -29,13 +32,19 @@ struct VerifyConfig {
 
 template <class V>
 void Visit(V& visit, VerifyConfig& c) {
-  visit(CROSSNAV_SETTING(c, memory), {"on", "off"});
-  visit(CROSSNAV_SETTING(c, refute_margin), 0.0, 2.0);
-  visit(CROSSNAV_SETTING(c, strong_margin), -2.0, 2.0);
-  visit(CROSSNAV_SETTING(c, strong_confidence), 0.0, 1.0);
-  visit(CROSSNAV_SETTING(c, view_angle_deg), 0.0, 180.0);
-  visit(CROSSNAV_SETTING(c, view_baseline_m), 0.0, 10.0);
-  visit(CROSSNAV_SETTING(c, new_evidence), 0.0, 1.0);
+  visit("memory", c.memory, {"on", "off"});
+  visit("evidence", c.evidence, {"frame", "views"});
+  visit("score_offset", c.views.offset, -20.0, 20.0);
+  visit("score_slope", c.views.slope, 0.0, 20.0);
+  visit("view_discount", c.views.discount, 0.0, 1.0);
+  visit("decided", c.views.decided, 0.5, 1.0);
+  visit("refused", c.views.refused, 0.0, 0.5);
+  visit("refute_margin", c.refute_margin, 0.0, 2.0);
+  visit("strong_margin", c.strong_margin, -2.0, 2.0);
+  visit("strong_confidence", c.strong_confidence, 0.0, 1.0);
+  visit("view_angle_deg", c.view_angle_deg, 0.0, 180.0);
+  visit("view_baseline_m", c.view_baseline_m, 0.0, 10.0);
+  visit("new_evidence", c.new_evidence, 0.0, 1.0);
 }
 
 /// A name and its unit text vector.
@@ -68,6 +77,7 @@ std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
 struct ClaimViews {
   int poi_id = 0;
   std::vector<Vector3d> p_cameras_world;
+  std::vector<ViewScore> scores;  ///< of all sightings, weak ones too; pairwise other views
 };
 
 /// Whether `p_a` and `p_b` look at `p_object` from two sides: around the upright axis.
@@ -109,11 +119,22 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
                const Vector3d& p_camera_world, const ObjectConfig& object,
                const VerifyConfig& config, ClaimTracker* tracker);
 
+/// Notes the score of each POI in this frame, weak ones too, at the view it belongs to.
+void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
+                const Vector3d& p_camera_world, const ObjectConfig& object,
+                const VerifyConfig& config, ClaimTracker* tracker);
+
 enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 
 /// kWeak: another view is wanted. `confidence` is the frame's, `views` from how many sides the
-/// object was claimed.
+/// object was claimed. What is weak in the frame and in the memory takes three views, of which none
+/// helps where the memory answers better to another name.
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
+                   const VerifyConfig& config);
+
+/// The same of all sightings (verify.evidence = views). Where the memory is undecided, two views
+/// are wanted; where the sightings stay so from three, the claim is refuted.
+ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const std::vector<ViewScore>& views,
                    const VerifyConfig& config);
 
 }  // namespace crossnav::policy

@@ -60,6 +60,35 @@ def test_names_of_ours_are_there(text: str) -> None:
                 value = getattr(value, name)
 
 
+class NoDetector(crossnav.Detector):
+    def detect(self, observation: crossnav.Observation, goal: str) -> list[crossnav.Detection]:
+        return []
+
+
+class NoMasks(crossnav.Segmenter):
+    def segment(self, observation: crossnav.Observation, box: tuple[int, int, int, int]) -> tuple[Any, float]:
+        return np.zeros(observation.depth_m.shape, np.float32), 0.0
+
+
+class NoStairs(crossnav.StairSegmenter):
+    def segment_stairs(self, observation: crossnav.Observation) -> Any:
+        return np.zeros(observation.depth_m.shape, np.float32)
+
+
+class OneFeature(crossnav.DenseEncoder):
+    def dim(self) -> int:
+        return 4
+
+    def name(self) -> str:
+        return "one"
+
+    def encode_text(self, text: str) -> Any:
+        return np.array([1, 0, 0, 0], np.float32)
+
+    def encode_image(self, observation: crossnav.Observation) -> Any:
+        return np.tile(self.encode_text(""), (6, 8, 1))
+
+
 class OneStepEnvironment:
     """Of Habitat, as far as the page goes."""
 
@@ -86,7 +115,7 @@ def prepared(scene: crossnav.Scene, wall: Any) -> dict[str, Any]:
     vga = np.full((480, 640), 2.0, np.float32)
     return {
         "crossnav": crossnav, "np": np, "scene": scene, "simulator": simulator,
-        "perception": simulator.ground_truth(), "env": OneStepEnvironment(observations),
+        "perception": crossnav.Perception(NoDetector(), NoMasks(), NoStairs(), OneFeature()), "env": OneStepEnvironment(observations),
         "observations": observations, "depth_m": vga, "T_world_camera": wall.T_world_camera,
         "rgb": np.zeros((480, 640, 3), np.uint8), "T": np.eye(4), "mounting": np.eye(4),
         "camera": crossnav.CameraIntrinsics(640, 480, fx=525.0, fy=525.0, cx=319.5, cy=239.5),

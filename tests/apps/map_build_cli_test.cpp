@@ -127,10 +127,15 @@ TEST_F(MapBuildCli, ADetectorForPhotographsIsTheDefaultWhereItsFileIs) {
       << chairs.err;
   EXPECT_EQ(Json::parse(chairs.out)["detected"]["detector"], "deimv2_femto_coco");
   EXPECT_EQ(Json::parse(chairs.out)["detected"]["is_class"], true);
+  EXPECT_EQ(Json::parse(chairs.out)["verdict_by"], "detector");
+  EXPECT_EQ(Json::parse(chairs.out)["verdict"],
+            Json::parse(chairs.out)["detected"]["places"].empty() ? "absent" : "present");
   const Outcome own = RunIn(folder_, command + "wall --networks own", with);
   ASSERT_EQ(own.exit_code, 0) << own.err;
   EXPECT_NE(own.err.find("networks: own"), std::string::npos) << own.err;
   EXPECT_EQ(Json::parse(own.out)["detected"]["is_class"], false);
+  EXPECT_EQ(Json::parse(own.out)["verdict"], "unknown");  // nobody can tell
+  EXPECT_EQ(Json::parse(own.out)["verdict_by"], "memory");
 }
 
 }  // namespace

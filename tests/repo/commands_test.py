@@ -41,7 +41,7 @@ FEW = {"--count": "1", "--jobs": "1", "--tasks": "2", "--furniture": "none", "--
 def crossnav(folder, *words):
     """(exit status, output) of the program in a folder."""
     done = subprocess.run([PROGRAM, *words], cwd=folder, text=True, stdout=subprocess.PIPE, check=False,
-                          stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, timeout=60)
+                          stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, timeout=200)
     return done.returncode, done.stdout
 
 

@@ -32,6 +32,7 @@ TEST(Watch, AViewerIsToldTheHeadEachStepAndTheEnd) {
   AddSteps(*watch, 0, 5);
   Connection viewer(PortOf(*watch));
   viewer.Get("/events");
+  viewer.Until("event: head");  // the server knows of it
   AddSteps(*watch, 5, 8);
   ASSERT_TRUE(watch->AddStage(Episode().stages.front()));
   watch->Close(5);

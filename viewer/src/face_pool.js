@@ -61,8 +61,14 @@ export class FacePool {
     this.free.get(slot.capacity).push(slot.start);
   }
 
+  /// Changed slots are uploaded in one range: a driver may copy the whole buffer for each range.
   changed({ start, capacity }) {
-    this.attribute.addUpdateRange(16 * start, 16 * capacity);  // int16
+    const [range] = this.attribute.updateRanges;
+    const first = 16 * start, behind = first + 16 * capacity;  // int16
+    const from = range ? Math.min(range.start, first) : first;
+    const to = range ? Math.max(range.start + range.count, behind) : behind;
+    this.attribute.clearUpdateRanges();
+    this.attribute.addUpdateRange(from, to - from);
     this.attribute.needsUpdate = true;
   }
 

@@ -17,8 +17,9 @@ struct HeldOutResult {
   std::int64_t violations = 0;   ///< of `known`: they end where the map and all around is free
 };
 
-/// Every fourth pixel of a row and column. A ray predicts the middle of its segment through the
-/// first surface voxel; it predicts nothing if it meets unknown space first.
+/// Every fourth pixel of a row and column. A ray predicts where it meets the plane through the
+/// surface around its first surface voxel (geometry/surface_plane.h), or the middle of its way
+/// through that voxel where there is none; nothing where it meets what is unknown before one.
 void AddHeldOut(const geometry::VoxelMap& map, const Observation& obs, HeldOutResult* result);
 
 }  // namespace crossnav::evaluation

@@ -6,6 +6,7 @@
 #include "crossnav/evaluation/reporting/paper_numbers.h"
 #include "crossnav/evaluation/reporting/report.h"
 #include "crossnav/evaluation/scoring/cause.h"
+#include "crossnav/evaluation/scoring/pixel_cause.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -175,6 +176,21 @@ std::string CauseTableText(const ReportRun& run) {
   return text;
 }
 
+/// For runs from pixels: what would have to be better.
+std::string PixelCauseText(const ReportRun& run) {
+  const auto counts = CountPixelCauses(run.episodes);
+  if (run.perception.find("networks") == std::string::npos || counts.empty()) return {};
+  std::vector<std::string> head = {"goal"};
+  head.insert(head.end(), kPixelCauses.begin(), kPixelCauses.end());
+  std::string text = "\n### Failures from pixels\n\n" + Head(head);
+  for (const PixelCauseCount& count : counts) {
+    std::vector<std::string> cells = {std::string(count.goal)};
+    for (const int stages : count.stages) cells.push_back(std::to_string(stages));
+    text += Row(cells);
+  }
+  return text;
+}
+
 std::string CategoryTableText(const ReportRun& run) {
   std::string text = Head({"goal", "executed", "SR", "SPL"});
   for (const auto& [name, category] : PerCategory(run.episodes)) {
@@ -242,7 +258,8 @@ std::string RunSection(const ReportRun& run) {
          "\n### Floor requirement\n\n" + GroupTable(GroupByCrossFloor(run.episodes)) +
          "\n### Scenes\n\n" + GroupTable(GroupByScene(run.episodes)) + "\n### Categories\n\n" +
          CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run) +
-         FailedEpisodes(run) + "\n### Causes of failure\n\n" + CauseTableText(run);
+         FailedEpisodes(run) + "\n### Causes of failure\n\n" + CauseTableText(run) +
+         PixelCauseText(run);
 }
 
 }  // namespace

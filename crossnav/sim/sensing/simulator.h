@@ -58,6 +58,7 @@ class Simulator {
 
   AgentPose agent_;
   std::optional<SensorNoise> noise_;  // nothing = perfect
+  std::set<std::int32_t> glass_;      // instances of glass, and mirrors; empty while perfect
   Frame frame_;
   Channels channels_ = Channels::kAll;
 };
