@@ -182,7 +182,7 @@ Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& co
   }
   sim::Simulator simulator(context.scene(), context.navmesh(), context.caster(),
                            config.agent.sensor, config.agent.action);
-  simulator.ShowColour(static_cast<bool>(watcher));
+  simulator.ShowColour(static_cast<bool>(on_view));
   auto suite = sim::GroundTruthPerception(simulator, config.ground_truth);
   if (!suite) return tl::unexpected(suite.error());
   Surveyor surveyor(context, config, *suite, simulator, on_view);
