@@ -76,7 +76,7 @@ Result<evaluation::EpisodeFile> Draw(const EpisodesOptions& options,
   return evaluation::GenerateEpisodes(*scenes, config, wishes);
 }
 
-/// The most memory that this process has used.
+/// Peak memory of this process.
 double PeakMegabytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -165,7 +165,7 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
   }
   console.EndProgress();
   if (!failures.empty()) {
-    // One document only: the list, not the error.
+    // A single document: the list, without the error.
     if (console.json()) {
       return Fail(ErrorCode::kInvalid,
                   failures.dump(-1, ' ', false, Json::error_handler_t::replace), options.file);

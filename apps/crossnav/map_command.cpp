@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "crossnav/agent/observation_place.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/core/write_file.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/records/result_records.h"
@@ -15,6 +18,7 @@
 #include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "graph_file.h"
 #include "graph_picture.h"
 #include "graph_text.h"
 #include "map_build.h"
@@ -47,7 +51,7 @@ Result<store::LoadedMemory> Load(const MapOptions& options, const evaluation::Ru
   return loaded;
 }
 
-/// A floor tile: the ground-truth encoder wants a simulator, though not for texts.
+/// A floor tile: the ground-truth encoder requires a simulator, although not for texts.
 sim::Scene TileScene() {
   sim::Scene scene;
   scene.id = "tile";
@@ -58,13 +62,13 @@ sim::Scene TileScene() {
   return scene;
 }
 
-/// What is looked for, in the space of the map's features.
+/// The query, in the space of the map's features.
 struct TextVectors {
   std::vector<float> text;
   std::vector<std::vector<float>> background;  ///< for query.relevancy = contrastive
 };
 
-/// The text in the space of `encoder`, and what it may be held against.
+/// The text in the space of `encoder`, with the vectors that it competes with.
 Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::string& text,
                                const evaluation::RunConfig& config) {
   auto vector = encoder.EncodeText(text);
@@ -75,7 +79,7 @@ Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::str
   return TextVectors{std::move(*vector), std::move(*background)};
 }
 
-/// As ground truth would encode the text for features of `dim` numbers.
+/// The text by ground truth's encoder, for features of `dim` numbers.
 Result<TextVectors> EncodeTruth(const MapOptions& options, int dim,
                                 const evaluation::RunConfig& config) {
   const sim::Scene scene = TileScene();
@@ -84,7 +88,7 @@ Result<TextVectors> EncodeTruth(const MapOptions& options, int dim,
   const sim::RayCaster caster(scene);
   const sim::Simulator simulator(scene, *navmesh, caster, config.agent.sensor, config.agent.action);
   sim::GroundTruthConfig texts = config.ground_truth;
-  texts.feature_dim = dim;  // the map knows
+  texts.feature_dim = dim;  // given by the map
   const auto encoder = sim::MakeGroundTruthEncoder(simulator, texts);
   if (!encoder) return tl::unexpected(encoder.error());
   if ((*encoder)->Dim() != dim) {
@@ -110,7 +114,7 @@ Result<TextVectors> EncodeText(const MapOptions& options, const store::MapHeader
   return EncodeWith(*(*suite)->encoder, options.text, config);
 }
 
-/// From `options.from`, else from where the place was seen best: the agent stood there once.
+/// From `options.from`, else from the place of its best view, where the agent once stood.
 std::optional<agent::ObservationPlace> PlaceToStand(const MapOptions& options,
                                                     const geometry::VoxelMap& map,
                                                     const memory::MemoryCluster& cluster,
@@ -175,19 +179,23 @@ Json FlightsJson(const std::vector<geometry::StairFlight>& flights) {
   return all;
 }
 
+/// From which match on a text is present in this map.
+std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
+  const auto from = memory::PresentFrom(encoder);
+  return from ? from : RetrievalOf(config).present_from;
+}
+
 /// The first line of an answer.
 std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
-                        const std::string& encoder, bool is_nowhere) {
-  const auto from = memory::PresentFrom(encoder);
-  switch (memory::Judge(match, encoder)) {
+                        const std::string& encoder, std::optional<double> from, bool is_nowhere) {
+  switch (memory::Judge(match, from)) {
     case memory::Verdict::kAbsent:
       return fmt::format(
           "\"{}\" is absent: nothing matches better than {:.2f}, present is {:.2f}\n", text,
           match.best, *from);
     case memory::Verdict::kUnknown:
       return fmt::format(
-          "\"{}\" matches {:.2f}; for features of {} it was never measured from where "
-          "on it is there\n",
+          "\"{}\" matches {:.2f}; features of {} do not tell what is there from what is not\n",
           text, match.best, encoder.empty() ? "an unknown encoder" : encoder);
     case memory::Verdict::kPresent:
       break;
@@ -196,8 +204,17 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
                      match.best, is_nowhere ? ", but so much of it that no place stands out" : "");
 }
 
-/// The places of `category` that match as well as what is present; all of them where that was never
-/// measured for the map's encoder.
+/// A record of the category lies there.
+bool IsRecorded(const scenegraph::SceneGraph& graph, const std::string& category, const Box3& box) {
+  return std::any_of(graph.objects.begin(), graph.objects.end(), [&](const auto& object) {
+    return object.record >= 0 && CanonicalName(object.category) == CanonicalName(category) &&
+           (object.box.min.array() <= box.max.array()).all() &&
+           (object.box.max.array() >= box.min.array()).all();
+  });
+}
+
+/// The places of `category` above the calibrated threshold; all places if the map's encoder has no
+/// threshold.
 Result<void> AddObjects(const MapOptions& options, const std::string& category,
                         const store::LoadedMemory& loaded, const evaluation::RunConfig& config,
                         scenegraph::SceneGraph& graph) {
@@ -206,13 +223,14 @@ Result<void> AddObjects(const MapOptions& options, const std::string& category,
   const auto vectors = EncodeText(asked, loaded.header, config);
   if (!vectors) return tl::unexpected(vectors.error());
   memory::QueryConfig query = config.agent.query;
-  query.top_k = 1000;  // all that stand out
+  query.top_k = 1000;  // all outstanding places
   const auto found = memory::Query(loaded.memory, vectors->text, query, vectors->background);
   const auto match = memory::MatchOf(loaded.memory, vectors->text, found);
-  const auto from = memory::PresentFrom(loaded.header.encoder_name);
+  const auto from = PresentFrom(loaded.header.encoder_name, config);
   graph.asked.push_back(category);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (from && match.places[i] < *from) continue;
+    if (IsRecorded(graph, category, found[i].box)) continue;
     scenegraph::GraphObject object;
     object.category = category;
     object.p_center_world = found[i].p_center_world;
@@ -227,9 +245,7 @@ Result<void> AddObjects(const MapOptions& options, const std::string& category,
 }  // namespace
 
 Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Console& console) {
-  const bool is_xml = options.out.ends_with(".graphml");
-  if (!is_xml && !options.out.ends_with(".json"))
-    return Fail(ErrorCode::kUnsupported, "a graph is written as .json or .graphml", "--to");
+  if (auto ok = CheckGraphFile(options.out); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFile(options.out, "--to"); !ok) return ok;
   if (auto ok = evaluation::CheckNotInput(options.out, "--to", options.file); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
@@ -238,15 +254,15 @@ Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Co
   const auto loaded = Load(options, *config, console);
   if (!loaded) return tl::unexpected(loaded.error());
   auto graph = scenegraph::BuildGraph(loaded->map, loaded->memory, loaded->flights);
+  AddRecords(graph, loaded->objects);
   for (const std::string& category : options.objects)
     if (auto ok = AddObjects(options, category, *loaded, *config, graph); !ok) return ok;
   RelateObjects(graph);
-  const std::string json = GraphJson(graph);
-  if (auto ok = WriteFileAtomically(options.out, is_xml ? GraphXml(graph) : json); !ok) return ok;
+  if (auto ok = WriteGraphFile(graph, options.out); !ok) return ok;
   if (!options.pictures.empty())
     if (auto ok = WriteFloorPictures(graph, options.pictures); !ok) return ok;
   console.Print(GraphSummary(graph));
-  console.Document(json);
+  console.Document(GraphJson(graph));
   return {};
 }
 
@@ -297,10 +313,11 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
   const auto found = memory::Query(loaded->memory, vectors->text, query, vectors->background);
   const auto match = memory::MatchOf(loaded->memory, vectors->text, found);
   const std::string& encoder = loaded->header.encoder_name;
-  const memory::Verdict verdict = memory::Judge(match, encoder);
+  const auto from = PresentFrom(encoder, config);
+  const memory::Verdict verdict = memory::Judge(match, from);
   Json places = Json::array();
   MapAnswer answer;
-  answer.text = VerdictText(options.text, match, encoder, found.empty());
+  answer.text = VerdictText(options.text, match, encoder, from, found.empty());
   for (std::size_t i = 0; verdict != memory::Verdict::kAbsent && i < found.size(); ++i) {
     const memory::MemoryCluster& cluster = found[i];
     const Vector3d& p = cluster.p_center_world;
@@ -315,7 +332,6 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
     places.push_back(ClusterJson(cluster, match.places[i], place, loaded->map.config().voxel_m,
                                  options.with_voxels));
   }
-  const auto from = memory::PresentFrom(encoder);
   answer.json = Json({{"text", options.text},
                       {"verdict", memory::NameOf(verdict)},
                       {"match", match.best},

@@ -5,6 +5,7 @@
 
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/evaluation/settings/config_file.h"
+#include "crossnav/scenegraph/build_graph.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -18,6 +19,8 @@ Result<store::LoadedMemory> ReadMemory(const std::filesystem::path& path,
     return tl::unexpected(ok.error());
   store::LoadOptions options;
   options.map = config.agent.map;
+  // Agent::Restore gives the evidence counts where it has none.
+  if (config.agent.memory.mode == "revise") options.map->clearing = header->clearing;
   options.fusion = config.agent.fusion;
   return store::LoadMemory(path, options);
 }
@@ -26,8 +29,11 @@ Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::
                            const std::string& encoder, agent::Agent& agent) {
   auto loaded = ReadMemory(path, config, encoder);
   if (!loaded) return tl::unexpected(loaded.error());
-  return agent.Restore(std::move(loaded->map), std::move(loaded->memory),
-                       std::move(loaded->flights), loaded->seen_stairs);
+  auto restored = agent.Restore(std::move(loaded->map), std::move(loaded->memory),
+                                std::move(loaded->flights), loaded->seen_stairs);
+  if (!restored) return restored;
+  agent.RestoreObjects(std::move(loaded->objects), static_cast<int>(loaded->header.revision));
+  return {};
 }
 
 Result<std::optional<store::LoadedMemory>> MemoryLoader::LostIn() {
@@ -44,6 +50,9 @@ Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::fil
   info.frame = frame;
   info.flights = agent.flights();
   info.seen_stairs = agent.seen_stairs();
+  info.objects = agent.objects();
+  if (!info.objects.empty())
+    LocateRecords(scenegraph::BuildGraph(agent.map(), agent.memory(), info.flights), info.objects);
   return store::SaveMemory(path, agent.map(), agent.memory(), info);
 }
 
@@ -60,7 +69,8 @@ Result<std::unique_ptr<MemoryLoader>> KnownMemories::For(
     if (!survey) return tl::unexpected(survey.error());
     fs::create_directories(folder_, error);
     fs::path part = path;
-    part += "." + std::to_string(getpid());  // of this worker; another may make the same one
+    // of this worker; another worker may make the same file
+    part += "." + std::to_string(getpid());
     store::SaveInfo info;
     info.encoder_name = encoder_;
     info.frame = "ground truth of " + context.scene().id;

@@ -6,6 +6,7 @@
 #include "crossnav/agent/cut_off.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 namespace {
@@ -81,6 +82,10 @@ constexpr std::array kResorts = {LookAroundAgain, ForgetBumps,    Squeeze,
 
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;
+  if (IsSurelyAbsent(now)) {
+    goal.events.push_back("all explored; everywhere looked at, it is gone");
+    return false;
+  }
   while (goal.full.last_resorts < kResorts.size()) {
     if (!kResorts[goal.full.last_resorts++](now)) continue;
     for (HistoryPoi& poi : goal.history) poi.unreachable_step.reset();

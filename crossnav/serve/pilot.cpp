@@ -13,7 +13,7 @@ Refusal Refused(std::string text) {
   return {Fault::kRefused, std::move(text), 0};
 }
 
-/// The agent refused the frame itself, not what was made of it.
+/// The agent refused the frame itself, not a result of perception.
 bool IsOfObservation(const Error& error) {
   return error.where.rfind("observation.", 0) == 0;
 }
@@ -163,6 +163,7 @@ Result<void> Pilot::Step(Observation obs, Answer* answer) {
   auto result = agent_->Step(obs);
   if (!result) return tl::unexpected(result.error());
   ++state_.steps;
+  if (options_.on_step) options_.on_step(obs, *result, *agent_);
   answer->mode = result->trace.mode;
   answer->reason = result->trace.reason;
   if (result->all_explored) {
