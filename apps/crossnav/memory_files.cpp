@@ -32,7 +32,7 @@ Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::
   auto restored = agent.Restore(std::move(loaded->map), std::move(loaded->memory),
                                 std::move(loaded->flights), loaded->seen_stairs);
   if (!restored) return restored;
-  agent.RestoreObjects(std::move(loaded->objects), static_cast<int>(header->revision));
+  agent.RestoreObjects(std::move(loaded->objects), static_cast<int>(loaded->header.revision));
   return {};
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "localization/lost_robot.h"
 #include "serve/couch_pilot.h"
 #include "serve/live_client.h"
 
@@ -334,40 +333,6 @@ TEST_F(PilotTest, ARestoreNeedsASavedMemory) {
   Ask(ResetRequest(false));
   Ask(ResetRequest(true));
   EXPECT_EQ(starts, (std::vector<bool>{true, false, true}));
-}
-
-TEST_F(PilotTest, ALostRobotIsLocalisedBeforeItSearches) {
-  std::vector<bool> starts;  // with the saved memory, or without
-  PilotOptions options = CouchPilot();
-  options.has_saved_memory = true;
-  options.make_agent = [&](double camera_height_m, bool restore) {
-    starts.push_back(restore);
-    return test::MakeCouchAgent(camera_height_m);
-  };
-  options.wake_up = [&](double camera_height_m) {
-    return localization::Awakening::In(test::MapOf(walker_.rooms),
-                                       {camera_height_m, walker_.action, {}});
-  };
-  pilot_.emplace(options);
-  Start();
-  const Pose T_odom_world = localization::FootFrameOf(walker_.pose).inverse();
-  live::State state;
-  for (std::uint64_t sequence = 1; sequence <= 40; ++sequence) {
-    Observation obs = walker_.Look();
-    obs.T_world_camera = T_odom_world * obs.T_world_camera;
-    const live::Reply reply = Ask(ObservationRequest(obs, sequence, 0));
-    ASSERT_TRUE(reply.has_answer()) << reply.error().text();
-    state = reply.answer().state();
-    if (state.pose() != live::POSE_LOCALISING) break;
-    EXPECT_EQ(reply.answer().mode(), "localise");
-    ASSERT_EQ(reply.answer().action(), live::ACTION_TURN_LEFT);
-    walker_.Do(Action::kTurnLeft);
-  }
-  EXPECT_EQ(state.pose(), live::POSE_KNOWN);
-  EXPECT_EQ(starts, (std::vector<bool>{false, true}));
-  ASSERT_EQ(state.t_map_world_size(), 16);
-  EXPECT_NEAR(state.t_map_world(3), T_odom_world.inverse().translation().x(), 0.25);
-  EXPECT_NEAR(state.t_map_world(7), T_odom_world.inverse().translation().y(), 0.25);
 }
 
 TEST_F(PilotTest, AFailingNetworkIsAnErrorOfTheStepAlone) {

@@ -186,6 +186,7 @@ Result<void> EpisodeRun::Localise(store::LoadedMemory memory) {
     auto ok = agent_.Restore(std::move(memory.map), std::move(memory.memory),
                              std::move(memory.flights), memory.seen_stairs);
     if (!ok) return ok;
+    agent_.RestoreObjects(std::move(memory.objects), static_cast<int>(memory.header.revision));
   } else {
     T_world_claims_ = T_odom_world.inverse();
   }
