@@ -93,7 +93,7 @@ Result<int> Describe(const EpisodesOptions& options, const evaluation::RunConfig
   return count;
 }
 
-/// The most memory that this process has used.
+/// Peak memory of this process.
 double PeakMegabytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -186,7 +186,7 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
   }
   console.EndProgress();
   if (!failures.empty()) {
-    // One document only: the list, not the error.
+    // A single document: the list, without the error.
     if (console.json()) {
       return Fail(ErrorCode::kInvalid,
                   failures.dump(-1, ' ', false, Json::error_handler_t::replace), options.file);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "crossnav/agent/observation_place.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/core/write_file.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/records/result_records.h"
@@ -13,6 +16,7 @@
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "graph_file.h"
 #include "graph_picture.h"
 #include "graph_text.h"
 #include "map_build.h"
@@ -32,7 +36,7 @@ Result<store::LoadedMemory> Load(const MapOptions& options, const evaluation::Ru
   return LoadMap(options.file, options.skip_damaged, config, console);
 }
 
-/// From `options.from`, else from where the place was seen best: the agent stood there once.
+/// From `options.from`, else from the place of its best view, where the agent once stood.
 std::optional<agent::ObservationPlace> PlaceToStand(const MapOptions& options,
                                                     const geometry::VoxelMap& map,
                                                     const memory::MemoryCluster& cluster,
@@ -99,17 +103,15 @@ Json FlightsJson(const std::vector<geometry::StairFlight>& flights) {
 
 /// The first line of an answer.
 std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
-                        const std::string& encoder, bool is_nowhere) {
-  const auto from = memory::PresentFrom(encoder);
-  switch (memory::Judge(match, encoder)) {
+                        const std::string& encoder, std::optional<double> from, bool is_nowhere) {
+  switch (memory::Judge(match, from)) {
     case memory::Verdict::kAbsent:
       return fmt::format(
           "\"{}\" is absent: nothing matches better than {:.2f}, present is {:.2f}\n", text,
           match.best, *from);
     case memory::Verdict::kUnknown:
       return fmt::format(
-          "\"{}\" matches {:.2f}; for features of {} it was never measured from where "
-          "on it is there\n",
+          "\"{}\" matches {:.2f}; features of {} do not tell what is there from what is not\n",
           text, match.best, encoder.empty() ? "an unknown encoder" : encoder);
     case memory::Verdict::kPresent:
       break;
@@ -121,9 +123,7 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
 }  // namespace
 
 Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Console& console) {
-  const bool is_xml = options.out.ends_with(".graphml");
-  if (!is_xml && !options.out.ends_with(".json"))
-    return Fail(ErrorCode::kUnsupported, "a graph is written as .json or .graphml", "--to");
+  if (auto ok = CheckGraphFile(options.out); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFile(options.out, "--to"); !ok) return ok;
   if (auto ok = evaluation::CheckNotInput(options.out, "--to", options.file); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
@@ -132,14 +132,14 @@ Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Co
   const auto loaded = Load(options, *config, console);
   if (!loaded) return tl::unexpected(loaded.error());
   auto graph = scenegraph::BuildGraph(loaded->map, loaded->memory, loaded->flights);
+  AddRecords(graph, loaded->objects);
   if (auto ok = FindObjects(options.file, options.objects, *loaded, *config, graph); !ok) return ok;
   RelateObjects(graph);
-  const std::string json = GraphJson(graph);
-  if (auto ok = WriteFileAtomically(options.out, is_xml ? GraphXml(graph) : json); !ok) return ok;
+  if (auto ok = WriteGraphFile(graph, options.out); !ok) return ok;
   if (!options.pictures.empty())
     if (auto ok = WriteFloorPictures(graph, options.pictures); !ok) return ok;
   console.Print(GraphSummary(graph));
-  console.Document(json);
+  console.Document(GraphJson(graph));
   return {};
 }
 
@@ -190,10 +190,11 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
   const auto found = memory::Query(loaded->memory, vectors->text, query, vectors->background);
   const auto match = memory::MatchOf(loaded->memory, vectors->text, found);
   const std::string& encoder = loaded->header.encoder_name;
-  const memory::Verdict verdict = memory::Judge(match, encoder);
+  const auto from = PresentFrom(encoder, config);
+  const memory::Verdict verdict = memory::Judge(match, from);
   Json places = Json::array();
   MapAnswer answer;
-  answer.text = VerdictText(options.text, match, encoder, found.empty());
+  answer.text = VerdictText(options.text, match, encoder, from, found.empty());
   for (std::size_t i = 0; verdict != memory::Verdict::kAbsent && i < found.size(); ++i) {
     const memory::MemoryCluster& cluster = found[i];
     const Vector3d& p = cluster.p_center_world;
@@ -208,7 +209,6 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
     places.push_back(ClusterJson(cluster, match.places[i], place, loaded->map.config().voxel_m,
                                  options.with_voxels));
   }
-  const auto from = memory::PresentFrom(encoder);
   answer.json = Json({{"text", options.text},
                       {"verdict", memory::NameOf(verdict)},
                       {"match", match.best},

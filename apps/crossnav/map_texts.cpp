@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "crossnav/memory/history_poi.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/find_objects.h"
 #include "crossnav/sim/sensing/ground_truth_encoder.h"
 #include "perception_source.h"
@@ -40,6 +41,11 @@ Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::str
 }
 
 }  // namespace
+
+std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
+  const auto from = memory::PresentFrom(encoder);
+  return from ? from : RetrievalOf(config).present_from;
+}
 
 Result<store::LoadedMemory> LoadMap(const std::string& file, bool skip_damaged,
                                     const evaluation::RunConfig& config, Console& console) {
@@ -91,7 +97,7 @@ Result<void> FindObjects(const std::string& file, const std::vector<std::string>
     const auto vectors = EncodeWith(**encoder, category, config);
     if (!vectors) return tl::unexpected(vectors.error());
     scenegraph::FindObjects(graph, loaded.memory, {category, vectors->text, vectors->background},
-                            config.agent.query, loaded.header.encoder_name);
+                            config.agent.query, PresentFrom(loaded.header.encoder_name, config));
   }
   return {};
 }

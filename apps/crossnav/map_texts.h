@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ Result<std::unique_ptr<perception::DenseEncoder>> EncoderFor(const std::string& 
 
 Result<TextVectors> EncodeText(const std::string& file, const std::string& text,
                                const store::MapHeader& header, const evaluation::RunConfig& config);
+
+/// From which match on a text is present in this map.
+std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config);
 
 /// Looks for each of `categories` in the map's memory and adds what is found to the graph.
 Result<void> FindObjects(const std::string& file, const std::vector<std::string>& categories,

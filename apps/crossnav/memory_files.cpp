@@ -55,7 +55,8 @@ Result<std::unique_ptr<MemoryLoader>> KnownMemories::For(
     if (!survey) return tl::unexpected(survey.error());
     fs::create_directories(folder_, error);
     fs::path part = path;
-    part += "." + std::to_string(getpid());  // of this worker; another may make the same one
+    // of this worker; another worker may make the same file
+    part += "." + std::to_string(getpid());
     store::SaveInfo info;
     info.encoder_name = encoder_;
     info.frame = "ground truth of " + context.scene().id;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An agent's memory from and to a map file.
+// Loads and saves an agent's memory.
 #pragma once
 
 #include <filesystem>
@@ -15,16 +15,16 @@
 
 namespace crossnav::app {
 
-/// Gives an agent that has not stepped yet the memory saved at `path`. Errors: features of another
-/// encoder than `encoder`, what LoadMemory and Agent::Restore refuse.
+/// Loads the memory saved at `path` into an agent before its first step. Errors: features of
+/// another encoder than `encoder`, errors of LoadMemory and Agent::Restore.
 Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::RunConfig& config,
                            const std::string& encoder, agent::Agent& agent);
 
-/// `frame`: what the world frame is, in words.
+/// `frame`: name of the world frame, free text.
 Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::filesystem::path& path,
                                        const std::string& encoder, const std::string& frame);
 
-/// Gives an agent a saved memory before its first goal: the lifelong case.
+/// Loads a saved memory into an agent before its first goal: the lifelong case.
 class MemoryLoader : public evaluation::RunObserver {
  public:
   MemoryLoader(std::filesystem::path path, const evaluation::RunConfig& config, std::string encoder)
@@ -40,8 +40,8 @@ class MemoryLoader : public evaluation::RunObserver {
   std::string encoder_;
 };
 
-/// Memories that the variants known-map and known-objects start from: ground truth, a file for each
-/// scene in `folder`, made when it is first asked for (evaluation/running/survey.h).
+/// Memories of the variants known-map and known-objects: ground truth, a file for each scene in
+/// `folder`, made on first use (evaluation/running/survey.h).
 class KnownMemories {
  public:
   /// `config` must outlive it.
@@ -53,7 +53,7 @@ class KnownMemories {
         encoder_(std::move(encoder)) {}
 
   bool IsOn() const { return known_ != evaluation::Known::kNothing; }
-  /// Null where the variant is told nothing.
+  /// Null if the variant starts without knowledge.
   Result<std::unique_ptr<MemoryLoader>> For(const evaluation::SceneContext& context) const;
 
  private:

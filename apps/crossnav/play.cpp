@@ -15,13 +15,14 @@
 #include "memory_files.h"
 #include "progress.h"
 #include "replay_log.h"
+#include "watch_log.h"
 
 namespace crossnav::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Keeps the step records, one JSON line each; voxel changes are in the replay.
+/// Collects the step records, one JSON line each; voxel changes are in the replay.
 class TraceLog : public evaluation::RunObserver {
  public:
   Result<void> OnStep(const evaluation::StepView& step) override {
@@ -38,7 +39,7 @@ struct MemorySummary {
   std::int64_t rows = 0, compacted_rows = 0, dropped_rows = 0, bytes = 0;
 };
 
-/// Looks at the memory when the episode is over, and saves it where that was asked for.
+/// Reads the memory at the end of the episode, and saves it on request.
 class MapLog : public evaluation::RunObserver {
  public:
   MapLog(std::filesystem::path path, std::string frame, std::string encoder)
@@ -61,7 +62,7 @@ class MapLog : public evaluation::RunObserver {
   MemorySummary summary_;
 };
 
-/// Everything that was written, by what it is.
+/// Written files, by purpose.
 using Written = std::vector<std::pair<std::string, std::string>>;
 
 Result<Written> WriteFiles(const evaluation::EpisodeRecord& record,
@@ -120,7 +121,7 @@ void Announce(const evaluation::EpisodeRecord& record, const MemorySummary& memo
                          {"files", std::move(paths)}}));
 }
 
-/// Before the first step: every file that the episode will leave.
+/// Checks, before the first step, every output of the episode.
 Result<void> CheckFiles(const evaluation::SceneContext& context, const PlayFiles& files) {
   for (const sim::Floor& floor : context.navmesh().Floors()) {
     const auto picture = files.folder / fmt::format("floor_{}.png", floor.id);
@@ -167,10 +168,13 @@ Result<evaluation::EpisodeRecord> PlayEpisode(
   const auto told = known.For(context);
   if (!told) return tl::unexpected(told.error());
   if (*told) observers.push_back(told->get());
+  WatchLog watch(ReplayInfoOf(context, episode, config, header), files.watch, console);
+  if (files.watch) observers.push_back(&watch);
   MapLog map(files.map, context.scene().id, perception.EncoderName());
   observers.push_back(&map);
   auto record = evaluation::RunEpisode(context, episode, config, observers, perception.Maker());
   console.EndProgress();
+  watch.Close();
   if (!record) return record;
   if (replay) {
     if (auto ok = replay->Close(); !ok) return tl::unexpected(ok.error());

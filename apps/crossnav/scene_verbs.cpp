@@ -7,7 +7,7 @@
 namespace crossnav::app {
 namespace {
 
-/// What to draw houses from.
+/// Parameters of generated houses.
 void AddHouses(CLI::App* verb, WorldOptions& world) {
   verb->add_option("--seed", world.seed, "First seed");
   verb->add_option("--count", world.count, "Number of houses")->check(CLI::Range(1, 100000));
@@ -44,7 +44,7 @@ void AddWorld(CLI::App& app, Options& o) {
       ->type_name("FILE.png");
   verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
   CLI::App* stats =
-      AddVerb(*world, o, "stats", "What a set of generated houses amounts to; keeps none of them",
+      AddVerb(*world, o, "stats", "Statistics of a set of generated houses; keeps none of them",
               "crossnav world stats --seed 1 --count 200 --floors 0",
               [&o](Console& c) { return WorldStats(o.world, o.common, c); });
   AddHouses(stats, o.world);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program's verbs and their options, as CLI11 takes them.
+// The program's verbs and their options, for CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,7 @@ namespace crossnav::app {
 
 using Command = std::function<Result<void>(Console&)>;
 
-/// Holds the options of every verb while CLI11 fills them in.
+/// Options of every verb, filled in by CLI11.
 struct Options {
   CommonOptions common;
   WorldOptions world;
@@ -50,15 +50,19 @@ struct Options {
   Command command;
 };
 
-/// Adds a verb with the options that all of them take.
+/// Adds a verb with the common options.
 CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const char* what,
                   const char* example, Command command);
 
-/// Houses, scenes and episodes: what is run in.
+/// Houses, scenes and episodes.
 void AddSceneVerbs(CLI::App& app, Options& options);
 /// Runs, their results, maps, networks and tools.
 void AddRunVerbs(CLI::App& app, Options& options);
 
+/// `serve`.
+void AddServe(CLI::App& app, Options& options);
+/// --watch and --watch-port.
+void AddWatch(CLI::App* verb, WatchOptions& watch);
 /// `networks`.
 void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.

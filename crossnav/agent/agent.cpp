@@ -85,7 +85,9 @@ struct Agent::Impl {
       : given(c), config(c), perception(std::move(p)), hooks(h), world(c) {}
 
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
-  std::vector<policy::Sighting> NoteSightings(const std::vector<perception::Detection>& detections,
+  std::vector<policy::Sighting> Lift(const std::vector<perception::Detection>& detections,
+                                     const Observation& obs);
+  std::vector<policy::Sighting> NoteSightings(std::vector<policy::Sighting> sightings,
                                               const Observation& obs);
   void Record(StepResult& result, const Decision& decision);
 };
@@ -192,27 +194,36 @@ std::vector<objects::ObjectRecord> Agent::objects() const {
   return impl_->world.objects.Confirmed();
 }
 
-/// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; sightings below the
-/// confidence of a POI become hints and are not returned.
-std::vector<policy::Sighting> Agent::Impl::NoteSightings(
+/// The goal in 3D, without objects that were rejected; as weak as a hint may be.
+std::vector<policy::Sighting> Agent::Impl::Lift(
     const std::vector<perception::Detection>& detections, const Observation& obs) {
   const policy::ObjectConfig& object = config.policy.object;
-  const policy::ObjectConfig hint = HintConfig(config.policy);
+  const double least =
+      std::min(object.secondary_confidence, HintConfig(config.policy).detector_confidence);
+  return WithoutRejected(policy::LiftDetections(detections, obs, config.map, object, least),
+                         obs.T_world_camera.translation(), config, &goal);
+}
+
+/// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; sightings below the
+/// confidence of a POI become hints and are not returned.
+std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sighting> sightings,
+                                                         const Observation& obs) {
+  const policy::ObjectConfig& object = config.policy.object;
   const Vector3d p_camera_world = obs.T_world_camera.translation();
-  auto sightings =
-      policy::LiftDetections(detections, obs, config.map, object,
-                             std::min(object.secondary_confidence, hint.detector_confidence));
-  sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
-  NoteObjects(sightings, detections, obs, &world, &goal);
-  goal.full.hints.Update(sightings, hint, config.map.voxel_m, world.step);
+  goal.full.hints.Update(sightings, HintConfig(config.policy), config.map.voxel_m, world.step);
+  const std::vector<policy::Sighting> all = sightings;
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;
   });
   // Paper, "Final Target-Object Approach": during the approach the detection is updated.
   const int approached = config.policy.profile == "paper" ? goal.active_live : -1;
   goal.live.Update(sightings, object, config.map.voxel_m, world.step, approached);
-  if (DoubtsClaims(config))
-    NoteViews(goal.live.all(), sightings, p_camera_world, object, config.verify, &goal.full.claims);
+  if (DoubtsClaims(config)) {
+    const policy::VerifyConfig& verify = config.verify;
+    NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);
+    if (verify.evidence == "views")
+      NoteScores(goal.live.all(), all, p_camera_world, object, verify, &goal.full.claims);
+  }
   return sightings;
 }
 
@@ -252,11 +263,14 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
     world.flight_survey.Update(world.stairs, world.levels_m, agent.p_world, config.map.voxel_m,
                                &world.flights);
   }
-  auto sightings = NoteSightings(percept->detections, obs);
+  const auto lifted = Lift(percept->detections, obs);
+  auto sightings = NoteSightings(lifted, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
   world.coverage.Add(end_voxels, p_camera_world, goal.full.inspect_range_m, config.map.voxel_m);
   if (config.policy.profile == "onemap") world.onemap.map.Add(end_voxels, obs, config.fusion);
   clock.Stop("evidence");
+  NoteObjects(lifted, percept->detections, obs, &world, &goal);
+  clock.Stop("objects");
   return Seen{std::move(sightings), std::move(*percept)};
 }
 

@@ -39,7 +39,7 @@ class Agent {
   struct Impl;
 
  public:
-  /// `hooks` decide what the user wants to decide (agent/hooks.h, policy.profile = full); they must
+  /// `hooks` replace decisions of the policy (agent/hooks.h, policy.profile = full); they must
   /// outlive the agent.
   Agent(const Config& config, perception::PerceptionSuite perception, Hooks* hooks = nullptr);
   ~Agent();
@@ -47,8 +47,8 @@ class Agent {
 
   /// Activates a goal: the name of a category or an object, or a description of one ("the red chair
   /// upstairs", language/parse_description.h), whose words that are not understood are kInvalid.
-  /// Text vector, similarity field, POIs, path and verification start anew;
-  /// map, stairs and features stay as they are.
+  /// Text vector, similarity field, POIs, path and verification restart; map,
+  /// stairs and features stay.
   Result<void> SetGoal(const std::string& goal);
 
   /// Starts from a saved memory, the lifelong case: the map's states, stairs and features are known
@@ -62,9 +62,9 @@ class Agent {
   /// with this memory so far (store::MapHeader::revision).
   void RestoreObjects(std::vector<objects::ObjectRecord> records, int day);
 
-  /// One step. Colour with a grid of its own is brought onto that of depth first; where the
-  /// observation says how the camera is mounted, that goes before sensor.camera_height_m. Errors: a
-  /// malformed observation (sizes, NaN pose) or a failing network.
+  /// One step. Colour with its own grid is first registered to the grid of depth; a mounting in the
+  /// observation takes precedence over sensor.camera_height_m. Errors: a malformed observation
+  /// (sizes, NaN pose) or a failing network.
   Result<StepResult> Step(const Observation& obs);
 
   const Config& config() const;

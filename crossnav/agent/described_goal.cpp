@@ -9,6 +9,7 @@
 #include "crossnav/language/parse_description.h"
 #include "crossnav/language/question.h"
 #include "crossnav/language/resolve.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/scenegraph/find_objects.h"
 
@@ -106,7 +107,7 @@ void LookAtHome(const World& world, const Config& config, GoalState* goal) {
   auto graph = scenegraph::BuildGraph(world.map, world.memory, world.flights);
   for (const policy::NamedText& name : described.names)
     scenegraph::FindObjects(graph, world.memory, {name.name, name.vector, goal->background},
-                            config.query, described.encoder_name);
+                            config.query, memory::PresentFrom(described.encoder_name));
   described.home = language::HomeOf(graph, world.objects.Confirmed());
   described.home.p_robot_world = described.p_start_world;
   described.home.may_have_more_floors |= described.home.floors.size() < 2;

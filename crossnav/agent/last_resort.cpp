@@ -51,7 +51,6 @@ bool StepOnSeats(StepState& now) {
 }
 
 bool AskMemoryAgain(StepState& now) {
-  if (IsSurelyAbsent(now)) return false;
   Config relaxed = now.config;
   relaxed.query.min_similarity *= 0.8;  // chosen: looser, still a response
   relaxed.query.min_z_score *= 0.6;
@@ -62,7 +61,6 @@ bool AskMemoryAgain(StepState& now) {
 }
 
 bool TryAllAgain(StepState& now) {
-  if (IsSurelyAbsent(now)) return false;
   GoalState& goal = now.goal;
   goal.full.attempts.clear();
   goal.full.looks.clear();
@@ -85,6 +83,10 @@ constexpr std::array kResorts = {TakeGuesses, LookAroundAgain, ForgetBumps, Sque
 
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;
+  if (IsSurelyAbsent(now)) {
+    goal.events.push_back("all explored; everywhere looked at, it is gone");
+    return false;
+  }
   while (goal.full.last_resorts < kResorts.size()) {
     if (!kResorts[goal.full.last_resorts++](now)) continue;
     for (HistoryPoi& poi : goal.history) poi.unreachable_step.reset();

@@ -122,8 +122,8 @@ struct HistoryPoi {
   int looked = 0;                       ///< frames spent looking at it on arrival
 };
 
-/// Views of a hint or live POI with too low confidence: the next one is nearer while the confidence
-/// rises, then from another side.
+/// Views of a hint or live POI with too low confidence: the next view is nearer while the
+/// confidence rises, then from another side.
 struct CloseLooks {
   int poi_id = -1;
   std::vector<Vector3d> p_from_world;  ///< foot positions of the views so far
@@ -143,9 +143,9 @@ struct FailedViews {
 /// Odds of the rooms for a goal that is at no place that the memory believes.
 struct RoomSearch {
   std::map<int, double> odds;  ///< by room of the graph
-  double best = 0;             ///< of the rooms with ground that was not inspected
+  double mean = 0;             ///< over the rooms with ground that was not inspected
   double unseen = 1;           ///< mass of the ground that was not inspected
-  int step = 0;                ///< of the last refresh of `best` and `unseen`
+  int step = 0;                ///< of the last refresh of `mean` and `unseen`
 };
 
 /// Goal state of policy.profile = full.

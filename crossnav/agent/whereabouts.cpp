@@ -2,6 +2,7 @@
 #include "crossnav/agent/whereabouts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "crossnav/core/category_table.h"
@@ -15,10 +16,10 @@ using objects::ObjectRecord;
 
 namespace {
 
-constexpr double kStillThere = 0.5;   // chosen: share of a place's voxels that are surfaces
-constexpr double kSamePlace = 0.3;    // chosen: share of a place's voxels in a record's box
-constexpr int kSampled_vox = 4;       // chosen: cells of the plan that are asked, a chair apart
-constexpr double kUnknownRoom = 0.5;  // chosen: worth of ground that belongs to no room
+constexpr double kStillThere = 0.5;  // chosen: share of a place's voxels that are surfaces
+constexpr double kSamePlace = 0.3;   // chosen: share of a place's voxels in a record's box
+constexpr int kSampled_vox = 4;      // chosen: cells of the plan that are asked, a chair apart
+constexpr double kOpenShare = 0.1;   // chosen: of a room's ground, that is worth going there
 
 double ShareOfSurfaces(const World& world, const std::vector<VoxelKey>& voxels) {
   const auto count = std::count_if(voxels.begin(), voxels.end(), [&](const VoxelKey& key) {
@@ -89,11 +90,10 @@ bool IsRevising(const Config& config) {
 }
 
 Result<void> CountEvidence(geometry::VoxelMap* map) {
-  if (map->config().clearing == "evidence") return {};
   geometry::MapConfig config = map->config();
   config.clearing = "evidence";
   auto blocks = geometry::ExportBlocks(*map);
-  for (geometry::MapBlock& block : blocks) geometry::CountOnce(config, &block);
+  for (geometry::MapBlock& block : blocks) geometry::CountAsOld(config, &block);
   auto counted = geometry::ImportBlocks(blocks, config);
   if (!counted) return tl::unexpected(counted.error());
   *map = std::move(*counted);
@@ -149,26 +149,33 @@ void UpdateSearch(StepState& now) {
                             CanonicalName(now.goal.goal));
   }
   search->step = now.world.step;
-  search->best = search->unseen = 0;
+  search->mean = search->unseen = 0;
+  int open = 0;
   const auto shares = UnseenShares(now.world);
   for (const auto& [room, odds] : search->odds) {
     const auto it = shares.find(room);
     const double share = it == shares.end() ? 0 : it->second;
     search->unseen += odds * share;
-    if (share > 0.1) search->best = std::max(search->best, odds);
+    if (share < kOpenShare) continue;
+    search->mean += odds;
+    ++open;
   }
+  if (open > 0) search->mean /= open;
 }
 
-double SearchWorth(const Situation& now, const Vector3d& p_world) {
+double SearchBonus(const Situation& now, const Vector3d& p_world) {
   const auto& search = now.goal.full.search;
-  if (!search || search->best <= 0) return 1;
+  if (!search || search->mean <= 0) return 0;
   const auto& graph = now.world.revision->graph;
   const auto floor = FloorAt(graph, p_world);
   const auto room = floor ? RoomAt(graph, *floor, p_world) : std::nullopt;
-  if (!room) return kUnknownRoom;
+  if (!room) return 0;
   const auto it = search->odds.find(*room);
-  const double odds = it == search->odds.end() ? 0 : it->second;
-  return std::clamp(odds / search->best, now.config.memory.least_worth, 1.0);
+  if (it == search->odds.end()) return 0;
+  const MemoryConfig& config = now.config.memory;
+  const double bits = std::log2(it->second / search->mean);
+  return config.search_m_per_bit *
+         std::clamp(bits, -config.search_most_bits, config.search_most_bits);
 }
 
 bool IsSurelyAbsent(const Situation& now) {

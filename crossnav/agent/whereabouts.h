@@ -13,7 +13,7 @@ namespace crossnav::agent {
 /// memory.mode = revise, and a profile that follows it.
 bool IsRevising(const Config& config);
 
-/// The map's evidence with counts, as far as it has none, so that what is seen through is cleared
+/// The map's evidence with the counts of an old map, so that what is seen through is cleared soon
 /// (map.clearing = evidence).
 Result<void> CountEvidence(geometry::VoxelMap* map);
 
@@ -30,8 +30,9 @@ std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& wor
 /// Brings `goal.full.search` up to date.
 void UpdateSearch(StepState& now);
 
-/// Share of the best room's odds that the room about `p_world` has; 1 without a search.
-double SearchWorth(const Situation& now, const Vector3d& p_world);
+/// Path that ground in the room about `p_world` is worth more than in a room of mean odds [m]; 0
+/// without a search.
+double SearchBonus(const Situation& now, const Vector3d& p_world);
 
 /// Nothing was found where nearly everything was looked at: the goal is gone.
 bool IsSurelyAbsent(const Situation& now);

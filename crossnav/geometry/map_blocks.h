@@ -25,8 +25,9 @@ struct MapBlock {
 /// All blocks, in order of first observation. Cost O(blocks).
 std::vector<MapBlock> ExportBlocks(const VoxelMap& map);
 
-/// Gives a block of `clearing = never` the counts of evidence that is as strong as counts can be.
-void CountOnce(const MapConfig& config, MapBlock* block);
+/// Counts of evidence that is of yesterday: one frame that looks through a surface does not remove
+/// it, a second one does. A block of `clearing = never` gets counts.
+void CountAsOld(const MapConfig& config, MapBlock* block);
 
 /// A map with this evidence and its states up to date. `where` of an error names the block.
 Result<VoxelMap> ImportBlocks(const std::vector<MapBlock>& blocks, const MapConfig& config);

@@ -2,9 +2,9 @@
 // Objects of a graph as the memory answers for them: places at which it matches a name.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "crossnav/memory/history_poi.h"
@@ -20,10 +20,10 @@ struct AskedCategory {
   std::span<const std::vector<float>> background;  ///< for query.relevancy = contrastive
 };
 
-/// Adds the places that match as well as what is present; all of them where that was never measured
-/// for the encoder of this name (memory/query_match.h). Their relations are not made yet.
+/// Adds the places that match by `present_from` at least (memory/query_match.h), all of them where
+/// it is empty, but for those where a record of the category lies. Relations are not made yet.
 void FindObjects(SceneGraph& graph, const memory::SemanticMemory& memory,
                  const AskedCategory& category, memory::QueryConfig query,
-                 std::string_view encoder_name);
+                 std::optional<double> present_from);
 
 }  // namespace crossnav::scenegraph

@@ -15,7 +15,7 @@
 namespace crossnav::serve {
 namespace {
 
-/// 0 for what no image is as wide as.
+/// 0 for sizes that no image has.
 int SizeOf(std::uint32_t value) {
   return value <= static_cast<std::uint32_t>(std::numeric_limits<int>::max())
              ? static_cast<int>(value)
@@ -79,7 +79,7 @@ void Fill(const State& state, live::State* m) {
   m->set_last_sequence(state.last_sequence);
 }
 
-/// Fills the reply's member of the kind that it is given.
+/// Fills the reply's member for the given kind.
 struct Writer {
   live::Reply& reply;
 
@@ -143,7 +143,7 @@ struct Writer {
 
 Result<Request> ParseRequest(std::string_view bytes) {
 #ifdef CROSSNAV_PROTOBUF_LOGS
-  google::protobuf::SetLogHandler(nullptr);  // it prints what is returned here
+  google::protobuf::SetLogHandler(nullptr);  // it would print the errors that are returned here
 #endif
   live::Request m;
   if (!m.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))

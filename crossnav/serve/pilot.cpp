@@ -12,7 +12,7 @@ Refusal Refused(std::string text) {
   return {Fault::kRefused, std::move(text), 0};
 }
 
-/// The agent refused the frame itself, not what was made of it.
+/// The agent refused the frame itself, not a result of perception.
 bool IsOfObservation(const Error& error) {
   return error.where.rfind("observation.", 0) == 0;
 }
@@ -137,7 +137,7 @@ Reply Pilot::Do(const RawObservation& raw) {
   return answer;
 }
 
-/// Without a goal to look for the agent is left alone, and the robot stays where it is.
+/// Without a goal the agent is not stepped, and the robot stays where it is.
 Result<void> Pilot::Step(const Observation& obs, Answer* answer) {
   if (state_.phase == Phase::kClaimed && last_) {
     answer->action = Action::kStop;
@@ -147,6 +147,7 @@ Result<void> Pilot::Step(const Observation& obs, Answer* answer) {
   auto result = agent_->Step(obs);
   if (!result) return tl::unexpected(result.error());
   ++state_.steps;
+  if (options_.on_step) options_.on_step(obs, *result, *agent_);
   answer->mode = result->trace.mode;
   answer->reason = result->trace.reason;
   if (result->all_explored) {

@@ -29,7 +29,7 @@ Bytes Encode(const std::vector<double>& numbers) {
   return bytes;
 }
 
-/// Back; nullopt where that is no list of sane numbers.
+/// Inverse of Encode; nullopt where the bytes are no list of sane numbers.
 std::optional<std::vector<double>> DecodeNumbers(const Bytes& bytes) {
   if (bytes.size() % sizeof(double) != 0) return std::nullopt;
   std::vector<double> numbers(bytes.size() / sizeof(double));
@@ -70,7 +70,7 @@ std::optional<geometry::StairFlight> DecodeFlight(const Bytes& bytes) {
   return flight;
 }
 
-/// Id, number of places from which it was seen, these, then per try place, 1 for up, ending.
+/// Id, number of viewing places, the places, then per try: place, 1 for up, ending.
 Bytes EncodePlaces(const geometry::StairFlight& flight) {
   std::vector<double> numbers{static_cast<double>(flight.id),
                               static_cast<double>(flight.seen_from_world.size())};
@@ -83,7 +83,7 @@ Bytes EncodePlaces(const geometry::StairFlight& flight) {
   return Encode(numbers);
 }
 
-/// False, and `flight` as it was, where that is no such list.
+/// On malformed bytes returns false and leaves `flight` unchanged.
 bool DecodePlaces(const Bytes& bytes, geometry::StairFlight* flight) {
   const auto numbers = DecodeNumbers(bytes);
   if (!numbers || numbers->size() < 2) return false;
@@ -99,7 +99,7 @@ bool DecodePlaces(const Bytes& bytes, geometry::StairFlight* flight) {
   const double places = next();
   if (read.id < 0 || !(places >= 0 && 3 * places <= static_cast<double>(left()))) return false;
   for (int i = 0; i < static_cast<int>(places); ++i) read.seen_from_world.push_back(point());
-  constexpr std::size_t kTry = 5;  // numbers of one
+  constexpr std::size_t kTry = 5;  // numbers per try
   if (left() % kTry != 0) return false;
   while (left() > 0) {
     geometry::FlightTry attempt;
@@ -167,7 +167,7 @@ std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::st
   ForEachRow(db, kFlightTable, kMaxBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
     auto flight = DecodeFlight(bytes);
     if (!flight) return false;
-    flight->id = static_cast<int>(row);  // files of before have no other
+    flight->id = static_cast<int>(row);  // older files lack ids
     flights.emplace(row, std::move(*flight));
     return true;
   });

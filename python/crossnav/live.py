@@ -37,7 +37,7 @@ _ACTIONS = (None, Action.MOVE_FORWARD, Action.TURN_LEFT, Action.TURN_RIGHT, Acti
 
 
 class Phase(enum.IntEnum):
-    """Where the search for the current goal stands."""
+    """State of the search for the current goal."""
 
     NO_GOAL = 0
     SEARCHING = 1
@@ -74,7 +74,7 @@ class Command:
 
 @dataclass(frozen=True)
 class Answer:
-    """What to do after one observation."""
+    """Answer to one observation."""
 
     sequence: int
     time_ns: int
@@ -90,7 +90,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Welcome:
-    """What the server says of itself."""
+    """Description of the server."""
 
     version: str
     perception: str
@@ -103,11 +103,11 @@ class Welcome:
     watchdog_s: float
     max_frame_bytes: int
     state: State
-    """What an earlier client left."""
+    """State left by an earlier client."""
 
 
 class Refused(Error):
-    """The server answered with an error; the connection goes on unless `fault` is busy or replaced."""
+    """The server answered with an error; the connection stays open unless `fault` is busy or replaced."""
 
     fault: str
     """malformed, late, busy, replaced, refused, failed or unknown."""
@@ -174,7 +174,7 @@ class Client:
             self.close()
             raise
         self.sequence = self.welcome.state.last_sequence
-        """Of the last observation that was answered; raise it for one that was lost on the way."""
+        """Number of the last answered observation; raise it for a lost observation."""
 
     def _connect(self, timeout_s: float) -> socket.socket:
         try:
@@ -195,7 +195,7 @@ class Client:
         self.close()
 
     def close(self) -> None:
-        """The agent stays as it is, for the next client."""
+        """The agent is unchanged, for the next client."""
         self._socket.close()
 
     def set_goal(self, goal: str) -> State:
@@ -261,7 +261,7 @@ class Client:
                        _state_of(w.state))
 
     def _ask(self, request: Any) -> Any:
-        """The one reply to a request; a stop that comes before it is noted."""
+        """The reply to a request; a stop that arrives before it is noted."""
         payload = request.SerializeToString()
         try:
             self._socket.sendall(_LENGTH.pack(len(payload)) + payload)
@@ -307,4 +307,4 @@ class Client:
 
     def _lost(self, error: Exception) -> Error:
         self.close()
-        return Error(f"{error}; connect again, the agent goes on", str(self.address), "io")
+        return Error(f"{error}; connect again, the agent continues", str(self.address), "io")

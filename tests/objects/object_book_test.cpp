@@ -209,6 +209,27 @@ TEST(ObjectBook, AThingThatCameBackIsBelievedAgain) {
   EXPECT_GT(book.records().front().confidence, 0.9);
 }
 
+TEST(ObjectBook, APlaceLookedAtInVainIsRemembered) {
+  ObjectBook book;
+  book.Disprove("chair", {{10, 10, 3}, {10, 11, 3}}, {2, 7});
+  ASSERT_EQ(book.Confirmed().size(), 1U);
+  const ObjectRecord record = book.Confirmed().front();
+  EXPECT_EQ(record.views, 0);
+  EXPECT_TRUE(book.IsGone(record));
+  EXPECT_EQ(record.last_seen_day, 2);
+  book.Disprove("chair", {{10, 10, 3}, {10, 11, 3}}, {3, 1});
+  EXPECT_EQ(book.Confirmed().size(), 1U);
+}
+
+TEST(ObjectBook, WhatIsSeenAtTheMomentIsNotDisproved) {
+  World world;
+  world.rooms.solids = {kChair};
+  ObjectBook book;
+  SeeIt(world, kChair, 3, book);
+  book.Disprove("chair", book.records().front().voxels, {0, 5});
+  EXPECT_FALSE(book.IsGone(book.records().front()));
+}
+
 TEST(ObjectBook, BlackPicturesHaveNoColour) {
   World world;
   world.rooms.solids = {kChair};

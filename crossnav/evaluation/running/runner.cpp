@@ -19,7 +19,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-/// The floor the agent stands on; on a flight, the last one it stood on.
+/// The floor under the agent; on a flight, the last floor.
 class FloorWatch {
  public:
   FloorWatch(const sim::NavMesh& navmesh, const Vector3d& p_world)
@@ -46,7 +46,7 @@ class FloorWatch {
   int transitions_ = 0;
 };
 
-/// Everything that lives as long as one episode.
+/// State of one episode.
 class EpisodeRun {
  public:
   EpisodeRun(const SceneContext& context, const Episode& episode, const RunConfig& config,
@@ -97,7 +97,7 @@ class EpisodeRun {
 
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   observers_ = observers;
-  // Ground-truth perception reads the instance image, never the colours; networks the reverse.
+  // Ground-truth perception reads the instance image and never the colours; networks the reverse.
   // Descriptions may name colours.
   simulator_.ShowColour(
       config_.eval.perception != "oracle" ||
@@ -122,7 +122,7 @@ Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
     if (auto ok = observer->OnStart(agent_); !ok) return tl::unexpected(ok.error());
   }
   for (const std::string& goal : episode_.goals) {
-    if (!HasBudget(actions_)) break;  // a stage that was not executed leaves no row
+    if (!HasBudget(actions_)) break;  // a stage without an action leaves no row
     auto stage = RunStage(goal);
     if (!stage) return tl::unexpected(stage.error());
     record.stages.push_back(std::move(*stage));
@@ -228,7 +228,7 @@ void EpisodeRun::Move(Action action, StageState& stage) {
   if (floors_->floor() != floor_before) stage.cause.Arrive(floor_before, floors_->floor());
 }
 
-/// Was a true instance in view and within the success radius?
+/// Notes whether a true instance was in view and within the success radius.
 void EpisodeRun::NotePassing(StageState& stage) const {
   if (stage.was_in_view) return;
   const Vector3d& p_world = simulator_.agent().p_world;

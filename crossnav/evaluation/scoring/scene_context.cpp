@@ -22,7 +22,7 @@ bool EndsWith(const std::string& text, std::string_view end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// The scene's instance that a file's goal means: of its id, or else one at its place.
+/// The scene's instance for a goal of a file: by its id, else by its place.
 const sim::SceneInstance* InstanceOf(const sim::Scene& scene, const GoalObject& goal) {
   constexpr double kAt_m = 0.3;  // chosen: files give centres, with a few decimals
   const auto holds = [&](const sim::SceneInstance& instance) {
@@ -54,7 +54,7 @@ Result<std::unique_ptr<SceneContext>> SceneContext::Load(const std::filesystem::
   auto scene = sim::LoadScene(*folder);
   if (!scene) return tl::unexpected(scene.error());
   auto owned = std::make_unique<sim::Scene>(std::move(*scene));
-  auto navmesh = sim::NavMesh::BuildCached(*owned, config.navmesh);
+  auto navmesh = sim::NavMesh::Open(*owned, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
   return Assemble(std::move(owned), std::move(*navmesh), config);
 }
@@ -334,7 +334,7 @@ Result<void> CheckPlayable(const SceneContext& context, const Episode& episode) 
   }
   const auto start = context.navmesh().Snap(p);
   if (!start) {
-    return Fail(ErrorCode::kMismatch, "the start lies off the navmesh of " + context.scene().id,
+    return Fail(ErrorCode::kMismatch, "the start is off the navmesh of " + context.scene().id,
                 episode.where + ": start_position");
   }
   for (const std::string& goal : episode.goals) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The graph of a generated house's map against the plan that the house was built from.
+// Scores the scene graph of a generated house's map against the house's plan.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include "crossnav/core/result.h"
 #include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/evaluation/settings/run_config.h"
+#include "crossnav/evaluation/trials/graph_objects.h"
 #include "crossnav/scenegraph/scene_graph.h"
 #include "crossnav/world/layout/house_params.h"
 #include "crossnav/world/plan/plan.h"
@@ -15,7 +16,7 @@
 namespace crossnav::evaluation {
 
 struct GraphScore {
-  int floors = 0, floors_found = 0, floors_wrong = 0;  ///< of the plan; of those; besides them
+  int floors = 0, floors_found = 0, floors_wrong = 0;  ///< of the plan; found; in addition
   int rooms = 0, rooms_found = 0, rooms_wrong = 0;     ///< likewise, by IoU of at least 0.5
 
   double RoomsF1() const {
@@ -25,15 +26,18 @@ struct GraphScore {
   GraphScore& operator+=(const GraphScore& other);
 };
 
-/// Rooms of the plan with no wall between them count as one; voids are none. Pieces of a room that
-/// have no floor are left out of it.
+/// Rooms of the plan without a wall between them count as one; voids are none. Parts of a room
+/// without floor are left out.
 GraphScore ScoreGraph(const scenegraph::SceneGraph& graph, const world::HousePlan& plan);
 
 struct GraphTrial {
   std::string house;
   GraphScore score;
   scenegraph::SceneGraph graph;
-  double seconds = 0;  ///< of BuildGraph, wall clock
+  ObjectScore objects;
+  double seconds = 0;    ///< of BuildGraph, wall clock
+  double record_ms = 0;  ///< of the records of objects, for each view
+  double relate_ms = 0;  ///< of AddRecords and RelateObjects
 };
 
 /// The first plan that passes the gate, and the scene built from it.

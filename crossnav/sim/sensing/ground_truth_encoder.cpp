@@ -22,7 +22,7 @@ using perception::NamedVectors;
 constexpr double kCommonShare = 0.5;  // chosen: cosine of unrelated names, below CLIP's 0.7
 constexpr double kBiasShare = 0.5;    // chosen: of feature_noise, fixed per instance
 constexpr double kPatchShare = 0.8;   // chosen: of the frame's noise, alike in a patch of cells
-constexpr int kPatchCells = 3;        // chosen: side of such a patch
+constexpr int kPatchCells = 3;        // chosen: side of a noise patch
 constexpr int kNoiseVectors = 64;     // chosen: enough that repeats do not add up
 constexpr int kPixelStride = 2;       // chosen: a quarter of the pixels tells a cell's content
 
@@ -116,7 +116,7 @@ class TextSpace {
     return category;
   }
 
-  /// What an object is called: its raw name where that has a vector, else its category.
+  /// Name of an object: its raw name if that has a vector, else its category.
   std::string NameOf(const SceneInstance& instance) const {
     std::string raw = SpacedName(instance.name);
     if (has_known_ && vectors_.count(raw) > 0) return raw;
@@ -129,7 +129,7 @@ class TextSpace {
     if (found != vectors_.end()) return found->second;
     Feature own = Own(name);
     const double c = confusion_;
-    // Two that mix in each other meet at the cosine c with this much; one that leans, with c.
+    // Weights for a cosine of c: `mutual` if both vectors mix in each other, `lean` if one does.
     const double mutual = c > 0 ? (1 - std::sqrt(1 - c * c)) / c : 0;
     const double lean = c / std::sqrt(1 - c * c);
     for (const std::string& other : LookAlikesOf(name))
