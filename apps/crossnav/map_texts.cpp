@@ -42,6 +42,11 @@ Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::str
 
 }  // namespace
 
+std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
+  const auto from = memory::PresentFrom(encoder);
+  return from ? from : RetrievalOf(config).present_from;
+}
+
 Result<store::LoadedMemory> LoadMap(const std::string& file, bool skip_damaged,
                                     const evaluation::RunConfig& config, Console& console) {
   const auto header = store::ReadMapHeader(file);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,7 +27,7 @@ struct MapParts {
   const memory::SemanticMemory& memory;
   const std::vector<geometry::StairFlight>& flights;
   const std::vector<objects::ObjectRecord>& records;
-  std::string encoder_name;  ///< of the features (memory/query_match.h)
+  std::optional<double> present_from;  ///< of matches (memory/query_match.h); empty = not measured
 };
 
 /// Looks for each of `names`; a memory without features is not asked. Errors are the encoder's.

@@ -4,6 +4,7 @@
 
 #include "crossnav/language/answer.h"
 #include "crossnav/language/map_home.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/sim/sensing/ground_truth_encoder.h"
 #include "crossnav/store/map_file.h"
 #include "map_handle.h"
@@ -96,9 +97,10 @@ nb::dict Ask(const PathIn& path, const std::string& question_text, const Setting
   const auto loaded = Unwrap(store::LoadMemory(path.path, load));
   std::unique_ptr<perception::DenseEncoder> truth;
   const auto encoder = EncoderOf(encode, header, config, truth);
-  KnownHome home = Unwrap(language::HomeOf(
-      {loaded.map, loaded.memory, loaded.flights, loaded.objects, header.encoder_name},
-      language::NamesFor(question), encoder, config.agent.query));
+  KnownHome home =
+      Unwrap(language::HomeOf({loaded.map, loaded.memory, loaded.flights, loaded.objects,
+                               memory::PresentFrom(header.encoder_name)},
+                              language::NamesFor(question), encoder, config.agent.query));
   if (ground_floor < 0 || ground_floor >= std::max<int>(1, static_cast<int>(home.floors.size())))
     Raise(ErrorCode::kInvalid, "the map has no such floor", "ground_floor");
   home.ground_floor = ground_floor;

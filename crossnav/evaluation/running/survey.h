@@ -34,7 +34,7 @@ struct SceneSurvey {
 
 /// Costs some 6 ms a view of 640 x 640, about eight views a square metre. Error: known objects with
 /// an encoder other than ground truth's (eval.perception = networks).
-/// `on_view` sees every view besides.
+/// `on_view` sees every view besides, in colour.
 using OnView = std::function<void(const Observation&, const sim::Simulator&)>;
 Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
                                 const OnView& on_view = {});
