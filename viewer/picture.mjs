@@ -12,7 +12,8 @@ if (noBrowser || !picture) {
 const browser = await launch();
 const { page } = await open(browser, pathToFileURL(pagePath).href + hash);
 await page.setViewportSize({ width: 1400, height: 900 });
+page.setDefaultTimeout(300000);  // software drawing on a busy machine
 await untilDrawn(page);
-await page.waitForFunction(() => document.getElementById("camera-depth").width > 0);
+await page.waitForFunction(() => document.getElementById("camera-image").complete);
 await page.screenshot({ path: picture });
 await browser.close();
