@@ -14,6 +14,7 @@ const { page } = await open(browser, pathToFileURL(pagePath).href + hash);
 await page.setViewportSize({ width: 1400, height: 900 });
 page.setDefaultTimeout(300000);  // software drawing on a busy machine
 await untilDrawn(page);
-await page.waitForFunction(() => document.getElementById("camera-image").complete);
-await page.screenshot({ path: picture });
+await page.waitForFunction(() => document.getElementById("camera-image").complete, null,
+  { timeout: 300000 });
+await page.screenshot({ path: picture, timeout: 300000 });
 await browser.close();
