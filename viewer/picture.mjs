@@ -12,7 +12,9 @@ if (noBrowser || !picture) {
 const browser = await launch();
 const { page } = await open(browser, pathToFileURL(pagePath).href + hash);
 await page.setViewportSize({ width: 1400, height: 900 });
+page.setDefaultTimeout(300000);  // software drawing on a busy machine
 await untilDrawn(page);
-await page.waitForFunction(() => document.getElementById("camera-depth").width > 0);
-await page.screenshot({ path: picture });
+await page.waitForFunction(() => document.getElementById("camera-image").complete, null,
+  { timeout: 300000 });
+await page.screenshot({ path: picture, timeout: 300000 });
 await browser.close();

@@ -46,11 +46,11 @@ TEST_F(WatchCli, AViewerGetsEveryStepOfTheEpisode) {
   Outcome outcome;
   std::thread run([&] { outcome = Run(RunOf(" --out w --watch-port " + std::to_string(port))); });
   std::string got;
-  for (int i = 0; i < 600 && got.empty(); ++i) {  // until the program listens
+  for (int i = 0; i < 2400 && got.empty(); ++i) {  // until the program listens
     watch::Connection viewer(port);
     if (viewer.is_open()) {
       viewer.Get("/events");
-      got = viewer.Until("event: end", 60);
+      got = viewer.Until("event: end", 240);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

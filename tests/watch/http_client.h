@@ -40,7 +40,7 @@ class Connection {
   }
 
   /// Everything so far, once it holds `text`, or the server has hung up, or the time is over.
-  const std::string& Until(const std::string& text, int limit_s = 5) {
+  const std::string& Until(const std::string& text, int limit_s = 30) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(limit_s);
     std::size_t from = 0;
     while (got_.find(text, from) == std::string::npos && std::chrono::steady_clock::now() < end) {

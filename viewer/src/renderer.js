@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws with three.js: voxel faces, wide lines, the robot. The number of draw calls is constant.
 import {
-  Color, ColorManagement, GLSL3, GreaterDepth, InstancedBufferGeometry, InstancedInterleavedBuffer,
+  Color, ColorManagement, DoubleSide, GLSL3, GreaterDepth, InstancedBufferGeometry, InstancedInterleavedBuffer,
   InterleavedBufferAttribute, LinearSRGBColorSpace, Mesh, RawShaderMaterial, Scene, Vector2,
   WebGLRenderer,
 } from "three";
@@ -33,7 +33,7 @@ export class Renderer {
     };
     this.add(new Mesh(this.faces.geometry, new RawShaderMaterial({
       glslVersion: GLSL3, uniforms: this.faceUniforms, vertexShader: FACE_VERTEX,
-      fragmentShader: FACE_FRAGMENT,
+      fragmentShader: FACE_FRAGMENT, side: DoubleSide,  // corners go round either way
     })), 0);
     this.size = new Vector2(1, 1);
     // Lines behind voxels show faintly.
@@ -58,7 +58,7 @@ export class Renderer {
     return new Mesh(new InstancedBufferGeometry(), new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader: LINE_VERTEX, fragmentShader: LINE_FRAGMENT,
       uniforms: { u_size: { value: this.size }, u_alpha: { value: alpha } },
-      transparent: true, depthWrite: false, ...options,
+      transparent: true, depthWrite: false, side: DoubleSide, ...options,
     }));
   }
 

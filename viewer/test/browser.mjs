@@ -40,7 +40,7 @@ export async function open(browser, url, own = "file:") {
 
 export async function untilDrawn(page) {
   await page.waitForFunction(() => document.body.dataset.drawn !== undefined, null,
-    { timeout: 90000 });
+    { timeout: 300000 });
 }
 
 export async function keep(page, name) {
