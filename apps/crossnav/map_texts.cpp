@@ -87,11 +87,6 @@ Result<TextVectors> EncodeText(const std::string& file, const std::string& text,
   return EncodeWith(**encoder, text, config);
 }
 
-std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
-  const auto from = memory::PresentFrom(encoder);
-  return from ? from : RetrievalOf(config).present_from;
-}
-
 Result<void> FindObjects(const std::string& file, const std::vector<std::string>& categories,
                          const store::LoadedMemory& loaded, const evaluation::RunConfig& config,
                          scenegraph::SceneGraph& graph) {

@@ -21,7 +21,7 @@ Result<KnownHome> HomeOf(const MapParts& parts, std::span<const std::string> nam
     const auto vector = encode(name);
     if (!vector) return tl::unexpected(vector.error());
     scenegraph::FindObjects(graph, parts.memory, {name, *vector, background}, query,
-                            memory::PresentFrom(parts.present_from));
+                            parts.present_from);
   }
   return HomeOf(graph, parts.records);
 }
