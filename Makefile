@@ -12,7 +12,8 @@ PERCEPTION ?= oracle
 SECONDS ?= 60
 SUITE ?= crossnav-mfmon-1-mini
 TARGET ?=
-PYTHONS ?= python3
+PYTHONS ?=
+ROOTS ?= bookworm trixie noble
 # One compiler per core, as far as 1.5 GB of free memory each goes.
 JOBS ?= $(shell awk -v cores="$$(nproc)" '/MemAvailable/ {n = int($$2 / 1500000)} \
   END {if (n > cores) n = cores; print n < 1 ? 1 : n}' /proc/meminfo 2>/dev/null || echo 1)
@@ -21,11 +22,11 @@ TIDY := $(or $(XDG_DATA_HOME),$(HOME)/.local/share)/crossnav/clang-tidy-$(shell 
 SOURCES := $(shell find crossnav apps tests benchmarks python examples -name '*.h' -o -name '*.cpp' | sort)
 FILES ?= $(SOURCES)
 
-.PHONY: help setup demo test test-long golden bench networks results wheel packages format lint asan tsan fuzz docs clean \
+.PHONY: help setup demo test test-long golden bench networks results viewer wheel packages format lint asan tsan fuzz docs clean \
   program everything
 
 help:  ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' Makefile
 	@echo "  Settings: DEMO=1|2  PERCEPTION=oracle|networks  SUITE=$(SUITE)  PRESET=release|dev|ci  JOBS=$(JOBS)"
 	@echo "            FILES='a.cpp b.h' for format and lint (default: all)"
 
@@ -67,14 +68,22 @@ results: program  ## a suite in every variant, into docs/results.md (the full on
 networks: program  ## render frames, train, export and evaluate the networks (hours on a CPU)
 	@networks/make.sh
 
+viewer:  ## the replay page of viewer/src as one file, viewer/dist/replay.html
+	@scripts/setup.sh viewer
+	@cd viewer && node build.mjs
+
 wheel: setup $(BUILD)/build.ninja  ## the Python package as a wheel under build/wheel
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms crossnav
 	@scripts/build_wheel.sh $(BUILD)
 
-packages: setup $(BUILD)/build.ninja  ## portable wheels (PYTHONS="python3.11 ...") and a .deb
+packages: setup $(BUILD)/build.ninja  ## portable wheels for each Python here (or PYTHONS="...") and a .deb
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target rooms crossnav
 	@scripts/portable_wheels.sh $(BUILD) $(PYTHONS)
 	@cd $(BUILD) && cpack && ls -l *.deb
+
+try-packages:  ## both in bare ROOTS="bookworm trixie noble" of other distributions (as root)
+	@scripts/setup.sh roots
+	@scripts/try_packages.sh $(ROOTS)
 
 format:  ## clang-format, in place
 	@scripts/setup.sh lint

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The camera against Embree's rays: streams of them, with nothing done about the hits. 640 x 640,
-// 90 degrees, one thread, CPU time; all in one run, on displaced surfaces of about 100,000 and a
-// million triangles around the camera, on the shared home if it is there, and on a scene of yours,
-// as it is and with its triangles cut into a million, seen from places all over its floors.
-// Usage: camera_benchmark [SCENE_FOLDER] [options of Google Benchmark]
+// The camera against Embree's ray streams without any processing of hits. 640 x 640, 90 degrees,
+// one thread, CPU time; all in one run, on displaced surfaces of about 100,000 and a million
+// triangles around the camera, on the shared home if present, and on a scene of yours, unchanged
+// and with its triangles cut into a million, seen from places all over its floors. Usage:
+//
+//   camera_benchmark [SCENE_FOLDER] [options of Google Benchmark]
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -83,8 +84,8 @@ Subject Displaced(std::size_t triangles) {
   return subject;
 }
 
-/// Cuts triangles in two at the middle of their longest side, the largest first, until there are
-/// `count`: what is seen stays the same.
+/// Halves triangles at the middle of their longest side, the largest first, until there are
+/// `count`: the picture stays the same.
 void CutInto(std::size_t count, TriangleMesh* mesh) {
   const auto area = [mesh](std::size_t t) {
     const auto& [a, b, c] = mesh->triangles[t];
@@ -151,7 +152,8 @@ void Camera(benchmark::State& state, const Subject& subject, Channels channels) 
   }
 }
 
-/// What each process does before the first picture of a scene: reads its files, makes itself ready.
+/// Preparation of each process before the first picture of a scene: reads its files, builds its
+/// structures.
 void Preparation(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) {
     const auto scene = LoadScene(subject.folder);
@@ -161,7 +163,8 @@ void Preparation(benchmark::State& state, const Subject& subject) {
   }
 }
 
-/// Counts the pixels whose depth is another by more than a millimetre where Embree casts their ray.
+/// Counts pixels with a depth that differs by more than a millimetre from the ray that Embree
+/// casts.
 void AgainstRays(benchmark::State& state, const Subject& subject) {
   const RayCaster caster(subject.scene);
   const CameraIntrinsics K = SensorConfig{}.Intrinsics();
@@ -202,8 +205,8 @@ struct RawScene {
   }
 };
 
-/// Closest hits of `packets` of 8 rays from one place in about the same direction. Embree 3 takes
-/// up to 32 rays of a stream through its tree together; Embree 4 has no streams any more.
+/// Closest hits of `packets` of 8 rays from one place in similar directions. Embree 3 takes up to
+/// 32 rays of a stream through its tree together; Embree 4 has no streams.
 void IntersectStream(RTCScene scene, std::span<RTCRayHit8> packets) {
 #if RTC_VERSION_MAJOR >= 4
   alignas(32) static constexpr std::array<int, 8> kAll{-1, -1, -1, -1, -1, -1, -1, -1};
@@ -254,7 +257,7 @@ void RawStreams(benchmark::State& state, const Subject& subject) {
   }
 }
 
-/// Runs `work` over all views of `subject`; the time said is that of one picture.
+/// Runs `work` over all views of `subject`; reports the time of one picture.
 template <class Work>
 benchmark::internal::Benchmark* Register(const char* what, const Subject& subject, Work work) {
   const std::string name = std::string(what) + "/" + subject.name;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Every allocation of a program that links counted_memory.cpp is counted, so that "transient" is
-// measured, not claimed.
+// Counts every allocation of a program that links counted_memory.cpp, to measure transient memory.
 #pragma once
 
 namespace crossnav {
 
-/// Bytes held now; PeakBytes() starts from here.
+/// Returns the bytes held now, and restarts PeakBytes() from here.
 long long MarkHeldBytes();
-/// The most held since the last mark.
+/// Peak since the last mark.
 long long PeakBytes();
 
 }  // namespace crossnav

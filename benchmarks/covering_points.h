@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places from which a scene is seen whole, for programs that explore without a policy.
+// Places from which a whole scene is seen, for programs that explore without a policy.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace crossnav {
 
-/// Points that cover the navmesh, no two nearer than `spacing_m`; it ends when `misses` points in a
-/// row lie nearer than that to one there is.
+/// Points that cover the navmesh, no two nearer than `spacing_m`; ends after `misses` consecutive
+/// points that are nearer than that to an accepted point.
 inline std::vector<Vector3d> CoveringPoints(const sim::NavMesh& navmesh, double spacing_m,
                                             int misses) {
   Rng rng(5);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How far `map.rays = exact` and `fast` are from the literal reference (every pixel's ray, one
+// Deviation of `map.rays = exact` and `fast` from the literal reference (every pixel's ray, one
 // voxel at a time), per frame and per sequence.
+//
 //   map_accuracy [--frames N] [--side PIXELS] [--every-frame] [SCENE_FOLDER ...]
-// Sequences: an analytic house of boxes, random poses and depths, the real depth frames where the
-// shared data is there, the embedded house, and each scene folder given (or the shared homes).
+//
+// Sequences: an analytic house of boxes, random poses and depths, the real depth frames if the
+// shared data is present, the embedded house, and each given scene folder (or the shared homes).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,7 +40,7 @@ struct Options {
   std::vector<std::string> scenes;
 };
 
-/// Evidence as masks: what the reference saw.
+/// Evidence of the reference, as masks.
 class Reference {
  public:
   explicit Reference(const MapConfig& config) : config_(config) {}
@@ -108,8 +110,7 @@ Figures Compare(const VoxelMap& map, const Reference& reference) {
   return f;
 }
 
-/// Voxels that are TRAVERSABLE in one of the two and something else, or inflated otherwise, in the
-/// other.
+/// Counts voxels that are TRAVERSABLE in one map only, or differ in inflation.
 void CompareStates(const VoxelMap& map, const VoxelMap& reference, Figures* f) {
   const auto one_way = [&](const VoxelMap& a, const VoxelMap& b, bool is_counting) {
     VoxelMap::Cursor other(b);
@@ -189,7 +190,7 @@ void RunScene(const std::filesystem::path& folder, const Options& options) {
   Box3 box;
   for (const Vector3f& vertex : scene->mesh.vertices) box.Add(vertex.cast<double>());
   const CameraIntrinsics K = IntrinsicsFromHfov(options.side_px, options.side_px, DegToRad(90));
-  // Stands: points of the scene with a floor 0.88 m below and 1.5 m of room above it.
+  // Standing places: points of the scene with a floor 0.88 m below and 1.5 m of room above.
   std::vector<AgentPose> stands;
   for (int tries = 0; static_cast<int>(stands.size()) < options.frames && tries < 200000; ++tries) {
     Vector3d p;

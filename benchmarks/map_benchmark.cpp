@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The geometric map against OctoMap, and against Bonxai where it was given (-DBONXAI_ROOT), on the
-// same frames in one run, alternating frame by frame, by process CPU time of one thread. Prints
+// The geometric map against OctoMap, and against Bonxai if given (-DBONXAI_ROOT), on the same
+// frames in one run, alternating frame by frame, by process CPU time of one thread. Prints
 // milliseconds per frame and ratios. Insertion includes back-projection here and for OctoMap;
-// Bonxai gets its points for nothing.
+// Bonxai gets its points without cost.
+//
 //   map_benchmark [compare] [frames]     insertion and classification, house of boxes
 //   map_benchmark scene FOLDER [frames]  the same on a walk through a scene with a noisy sensor,
 //                                        depth up to 5 m and up to 10 m
@@ -72,9 +73,9 @@ std::vector<Frame> RenderWalk(const BoxRooms& rooms, const CameraIntrinsics& K, 
   return frames;
 }
 
-/// Pixels beside a jump in depth show something between the two, as stereo and time of flight do.
+/// Mixes depths at jumps, as stereo and time-of-flight sensors do.
 DepthImage WithMixedEdges(const DepthImage& depth_m, Rng& rng) {
-  constexpr float kJump_m = 0.15F;  // chosen: more than any surface slopes within a pixel, nearby
+  constexpr float kJump_m = 0.15F;  // chosen: above the slope of any near surface within a pixel
   DepthImage mixed = depth_m;
   for (int v = 0; v < depth_m.height; ++v) {
     for (int u = 0; u + 1 < depth_m.width; ++u) {
@@ -87,8 +88,8 @@ DepthImage WithMixedEdges(const DepthImage& depth_m, Rng& rng) {
   return mixed;
 }
 
-/// A walk from place to place along shortest ways, a frame each quarter metre and each 30 degrees
-/// of a turn, with a depth noise of 1 mm per square metre and mixed edges.
+/// A walk between places along shortest paths, a frame each quarter metre and each 30 degrees of a
+/// turn, with a depth noise of 1 mm per square metre and mixed edges.
 std::vector<Frame> WalkScene(const std::string& folder, const CameraIntrinsics& K, int count) {
   const auto scene = sim::LoadScene(folder);
   if (!scene) {
@@ -113,9 +114,9 @@ std::vector<Frame> WalkScene(const std::string& folder, const CameraIntrinsics& 
   AgentPose agent;
   agent.p_world = navmesh->RandomPoint(rng).value();
   while (static_cast<int>(frames.size()) < count) {
-    const auto way = navmesh->ShortestPath(agent.p_world, navmesh->RandomPoint(rng).value());
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      const Vector3d leg = way[i] - agent.p_world;
+    const auto path = navmesh->ShortestPath(agent.p_world, navmesh->RandomPoint(rng).value());
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Vector3d leg = path[i] - agent.p_world;
       const double heading_rad = std::atan2(leg.y(), leg.x());
       while (std::abs(WrapAngle(heading_rad - agent.yaw_rad)) > DegToRad(15)) {
         const double left_rad = WrapAngle(heading_rad - agent.yaw_rad);
@@ -141,7 +142,7 @@ MapConfig ConfigOf(const char* rays, const char* clearing, double depth_max_m) {
   return config;
 }
 
-/// Calls `use` with each point of a frame that the map would take; world [m].
+/// Calls `use` with each point of a frame that the map would use; world [m].
 template <class F>
 void BackProject(const CameraIntrinsics& K, const Frame& frame, double depth_max_m, F&& use) {
   const double depth_min_m = MapConfig().depth_min_m;
@@ -156,7 +157,7 @@ void BackProject(const CameraIntrinsics& K, const Frame& frame, double depth_max
 }
 
 #ifdef CROSSNAV_HAVE_OCTOMAP
-/// What a user of OctoMap writes: back-project, then insert the cloud.
+/// Typical code of an OctoMap user: back-project, then insert the cloud.
 void InsertIntoOctomap(octomap::OcTree& tree, const CameraIntrinsics& K, const Frame& frame,
                        double depth_max_m, bool is_discretized) {
   octomap::Pointcloud cloud;
@@ -175,7 +176,7 @@ void InsertIntoOctomap(octomap::OcTree& tree, const CameraIntrinsics& K, const F
 #ifdef CROSSNAV_HAVE_BONXAI
 using BonxaiMap = std::unique_ptr<Bonxai::ProbabilisticMap>;
 
-/// `is_exact`: rays pass every voxel that they cross, as in Bonxai's newer versions by default.
+/// `is_exact`: rays pass every voxel that they cross, the default of Bonxai's newer versions.
 BonxaiMap MakeBonxai(bool is_exact) {
   using Options = Bonxai::ProbabilisticMap::Options;
   auto map = std::make_unique<Bonxai::ProbabilisticMap>(0.1);
@@ -217,7 +218,7 @@ struct Column {
   }
 };
 
-/// Every contestant sees every frame; `fresh`: into an empty map each time.
+/// Every map gets every frame; `fresh`: into an empty map each time.
 void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool fresh,
              double depth_max_m = MapConfig().depth_max_m) {
   Column fast{"insertion fast"}, exact{"insertion exact"}, counted{"insertion fast, evidence"},
@@ -237,7 +238,7 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
   BonxaiMap bonxai_map = MakeBonxai(true), bonxai_skipping_map = MakeBonxai(false);
 #endif
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    // A copy: as if a camera had just made it.
+    // A copy, as fresh in the cache as a camera's frame.
     const Frame frame = frames[i];  // NOLINT(performance-unnecessary-copy-initialization)
     if (fresh) {
       fast_map = make("fast", "never");
@@ -313,8 +314,8 @@ void Compare(const std::vector<Frame>& frames, const CameraIntrinsics& K, bool f
 #endif
 }
 
-/// A long walk through a two-floor house of 400 m2. Only the frames before each line are full-size
-/// and timed; those between are small, so that rendering them does not take hours.
+/// A long walk through a two-floor house of 400 m2. Only the timed frames before each line are
+/// full-size; the frames between are small, which saves hours of rendering.
 void Growth(const CameraIntrinsics& K, int count) {
   constexpr int kTimed = 20, kSmall_px = 128;
   const BoxRooms rooms = crossnav::testing::MakeBoxHouse(3, 20, 10, 2);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The semantic memory's two costs, on one thread, each beside what it should be held against in the
-// same run: lifting a frame against upsample-and-scatter written plainly, a query against the
-// bandwidth with which this machine reads the same bytes. Process CPU time, runs alternating.
-// The same query of int8 rows, what compacting costs, and what saving and loading takes. Usage:
-// memory_benchmark [frames] [rows]
+// Costs of the semantic memory on one thread, each beside its baseline in the same run: lifting a
+// frame against a plain upsample-and-scatter, a query against the machine's read bandwidth for the
+// same bytes. Process CPU time, runs alternating. Also the same query of int8 rows, the cost of
+// compaction, and the cost of saving and loading. Usage:
+//
+//   memory_benchmark [frames] [rows]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -200,7 +201,7 @@ void BenchLifting(int frame_count) {
     const double grown = static_cast<double>(memory.Size() - rows_before) * RowStride(kDim) * 2;
     transient_mb = std::max(transient_mb, (static_cast<double>(PeakBytes() - held) - grown) / 1e6);
 
-    if (i % 40 != 0) continue;  // the plain one is slow
+    if (i % 40 != 0) continue;  // the plain code is slow
     exact = SemanticMemory(FusionConfig{.storage = "float"});
     plain = PlainMemory();
     exact.Fuse(f.pixels, f.depth, camera, f.T_world_camera, grid);
@@ -235,7 +236,7 @@ ReadAll(const std::uint64_t* p, std::size_t n) {
   return x;
 }
 
-// CPU time; the disk's share is not in it.
+// CPU time, without the disk's share.
 void BenchFile(const memory::SemanticMemory& memory) {
   const auto path = std::filesystem::temp_directory_path() / "crossnav_memory_benchmark.map";
   std::filesystem::remove(path);
@@ -259,7 +260,7 @@ void BenchFile(const memory::SemanticMemory& memory) {
   std::filesystem::remove(path);
 }
 
-// The same rows under half the budget, so that all of them become int8.
+// The same rows under half the budget, so that all become int8.
 void BenchCompact(const SemanticMemory& full, const std::vector<float>& text, double read_ms) {
   FusionConfig config;
   config.max_rows = static_cast<int>((full.Size() + 1) * 10 / 18);

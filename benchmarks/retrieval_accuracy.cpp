@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How often the memory, fully explored, knows where things are: every category of every scene is
-// queried with the noisy ground-truth encoder, and the Top-4 clusters are held against the true
-// instances. Usage: retrieval_accuracy [--seeds N] [--noise X] [--confusion X] [--clip DIR]
-// [--max-rows N] [SCENE_FOLDER...]
-// Without folders: the embedded house and the two homes that lie beside the project, if they do.
+// Retrieval accuracy of a fully explored memory: queries every category of every scene with the
+// noisy ground-truth encoder, and compares the Top-4 clusters with the true instances. Usage:
+//
+//   retrieval_accuracy [--seeds N] [--noise X] [--confusion X] [--clip DIR] [--max-rows N]
+//     [SCENE_FOLDER...]
+//
+// Without folders: the embedded house and the two homes beside the project, if present.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -28,7 +30,7 @@ namespace {
 
 using namespace crossnav;  // NOLINT: a program, not a header
 
-constexpr double kSpacing_m = 1.2;  // between the places from which the scene is seen
+constexpr double kSpacing_m = 1.2;  // between the places of exploration
 constexpr int kYaws = 6;
 
 struct Totals {
@@ -50,7 +52,7 @@ bool IsAt(const memory::MemoryCluster& cluster, const sim::SceneInstance& instan
          (p.array() <= (instance.box.max + margin).array()).all();
 }
 
-// Instances of which at least a few voxels carry a feature.
+// Instances with features on at least a few voxels.
 std::vector<const sim::SceneInstance*> SeenInstances(const sim::Scene& scene,
                                                      const memory::SemanticMemory& memory,
                                                      std::string_view category) {

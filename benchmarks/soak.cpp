@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A day of steps in one process: one agent in a house looks for one goal after the other, as a
-// robot that lives there does. Prints memory and time at intervals, and at the end what each stage
-// of a step cost at step 100, 1000, 5000 and 50000 side by side, which is to grow with nothing but
-// what there is to see. Exit status 1 if more than 5 % of memory was added after the first fifth.
-// Usage:
+// A day of steps in one process: one agent in a house searches one goal after the other. Prints
+// memory and time at intervals, and at the end the cost of each stage of a step at step 100, 1000,
+// 5000 and 50000 side by side; the cost must not grow with the number of steps. Exit status 1 if
+// more than 5 % of memory was added after the first fifth. Usage:
+//
 //   soak [--steps N] [--every N] [--px N] [--dim N] [--scene FOLDER]
+//
 // Defaults: 200000, 5000, 64 pixels a side, 32 features, the embedded house.
 #include <unistd.h>
 
@@ -32,7 +33,7 @@ namespace {
 
 using namespace crossnav;  // NOLINT: a program, not a header
 
-constexpr int kStepsPerGoal = 500;  // then the next goal's turn, found or not
+constexpr int kStepsPerGoal = 500;  // then the next goal, found or not
 constexpr double kMostGrowth = 1.05;
 
 struct Options {
@@ -53,7 +54,7 @@ double CpuMs() {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-/// What a step's stages cost over the hundred steps up to some ages.
+/// Cost of a step's stages over the hundred steps before some ages.
 class Ages {
  public:
   void Add(long step, const std::vector<trace::StageTime>& stages) {
@@ -88,7 +89,7 @@ class Ages {
   std::size_t columns_ = 0;
 };
 
-/// Steps on until all are done; the memory in use at each interval's end, or what failed.
+/// Steps on until all are done; the memory in use at each interval's end, or the error.
 Result<std::vector<double>> Live(agent::Agent& agent, sim::Simulator& simulator,
                                  const Options& options) {
   std::vector<double> resident_mb;

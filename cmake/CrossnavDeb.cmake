@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# `cpack` in the build folder (`make deb`): the program as a Debian package with the libraries that it
+# `cpack` in the build folder (`make packages`): the program as a Debian package with the libraries that it
 # needs, for this distribution and newer ones (docs/install.md).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME crossnav)
@@ -13,7 +13,7 @@ set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# Its libraries are bundled, but for those of the C and C++ compilers.
+# Bundles its libraries, except for the libraries of the C and C++ compilers.
 execute_process(COMMAND getconf GNU_LIBC_VERSION OUTPUT_VARIABLE glibc OUTPUT_STRIP_TRAILING_WHITESPACE)
 string(REGEX REPLACE "[^0-9.]" "" glibc "${glibc}")
 string(REGEX MATCH "^[0-9]+" gcc "${CMAKE_CXX_COMPILER_VERSION}")

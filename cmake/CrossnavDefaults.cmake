@@ -9,8 +9,8 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
-# Objects hold no path of this checkout, so that the compiler cache hits from another one too and a
-# wheel made of them is the same everywhere. ccache does it by naming sources relatively.
+# Objects contain no path of this checkout, so that the compiler cache hits from other checkouts and
+# a wheel of them is the same everywhere. ccache achieves it by naming sources relatively.
 find_program(CROSSNAV_CCACHE ccache)
 if(CROSSNAV_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
@@ -19,7 +19,7 @@ else()
   add_compile_options("-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
 endif()
 
-# FMA contraction would make the same seed give other bytes on another CPU.
+# FMA contraction would change results from CPU to CPU.
 add_compile_options(-ffp-contract=off)
 
 if(CROSSNAV_SANITIZE)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Every third-party library, from distribution packages (scripts/setup.sh installs them).
 include(CrossnavLibraries)
-# Those of the program, and of rooms that are not installed.
+# Libraries of the program, and of rooms that are not installed.
 crossnav_find(CLI11 CLI11::CLI11 HEADER CLI/CLI.hpp)
 crossnav_find(pugixml pugixml::pugixml HEADER pugixml.hpp LIBRARY pugixml)
 find_package(Protobuf REQUIRED)
+find_package(LibEvent REQUIRED)
 find_package(OpenVinoWheel)
 find_package(OnnxRuntime 1.18)
 find_package(BasisUniversal)
@@ -17,5 +18,4 @@ if(NOT OpenVinoWheel_FOUND AND NOT OnnxRuntime_FOUND)
 endif()
 if(CROSSNAV_BUILD_TESTS)
   crossnav_find(GTest GTest::gtest_main)
-  include(GoogleTest)
 endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# `cmake --install`: archives, headers and a CMake package (docs/cpp.md), component `development`. The
-# rooms of the program alone are not installed. The program is component `program`.
+# `cmake --install`: archives, headers and a CMake package (docs/cpp.md), component `development`.
+# Rooms used by the program only are not installed. The program is component `program`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/crossnav")
@@ -13,7 +13,7 @@ foreach(room IN LISTS rooms)
   install(DIRECTORY crossnav/${room} DESTINATION include/crossnav COMPONENT development
     FILES_MATCHING PATTERN "*.h" PATTERN proto EXCLUDE PATTERN schema EXCLUDE)
 endforeach()
-# Settings that `evaluation` has of rooms that are not installed.
+# Settings of rooms that are not installed, needed by `evaluation`.
 install(FILES crossnav/inference/networks_config.h
   DESTINATION include/crossnav/inference COMPONENT development)
 install(FILES crossnav/serve/serve_config.h

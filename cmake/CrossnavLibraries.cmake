@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# The third-party libraries that the installed rooms are linked to. The build includes this file, and so
-# does the installed package, which sets CROSSNAV_IN_PACKAGE: missing libraries are then listed in
-# crossnav_missing and end nothing.
+# Third-party libraries of the installed rooms. Included by the build, and by the installed package,
+# which sets CROSSNAV_IN_PACKAGE: missing libraries are then collected in crossnav_missing and are
+# no error.
 
 # crossnav_find(<package> <target> [HEADER <file>] [LIBRARY <name>] [VERSIONS <v>...])
-# The package's own CMake config, in the first of the versions that is there; else the header and the
-# library as they lie on the system (some distributions leave the config files out).
+# The package's own CMake config, in the first available version; else the header and the library on
+# the system (some distributions omit the config files).
 function(crossnav_find package target)
   cmake_parse_arguments(ARG "" "HEADER;LIBRARY" "VERSIONS" ${ARGN})
   if(ARG_VERSIONS)

@@ -2,7 +2,7 @@
 # crossnav_library(<room> SOURCES ... [DEPS <rooms>] [PUBLIC <targets>] [PRIVATE <targets>])
 # A room is a static library crossnav::<room>. DEPS are the only other rooms it may include.
 function(crossnav_warnings target)
-  # GCC 12 warns of overlap inside std::string (its bug 105329).
+  # GCC 12 warns falsely of overlap inside std::string (its bug 105329).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
@@ -28,14 +28,14 @@ function(crossnav_library room)
 endfunction()
 
 # crossnav_test(<room> SOURCES ... [DEPS <rooms>] [LIBS <targets>] [TIMEOUT <s>]): one program
-# test_<room>.
+# test_<room>; TIMEOUT is that of a suite.
 function(crossnav_test room)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPS;LIBS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
   if(CROSSNAV_SANITIZE)
-    math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")  # which make programs many times slower
+    math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")  # which slow programs down many times
   endif()
   add_executable(test_${room} ${ARG_SOURCES})
   foreach(dep IN LISTS ARG_DEPS)
@@ -43,11 +43,26 @@ function(crossnav_test room)
   endforeach()
   target_link_libraries(test_${room} PRIVATE ${ARG_LIBS} GTest::gtest_main)
   target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
-  # Data handed to the project from outside; tests that need it are skipped where it is absent.
+  # Data supplied from outside the project; tests that need it are skipped if it is absent.
   target_compile_definitions(test_${room} PRIVATE
     CROSSNAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
     CROSSNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   crossnav_warnings(test_${room})
-  gtest_discover_tests(test_${room} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  crossnav_suites(test_${room} ${ARG_TIMEOUT})
+endfunction()
+
+# crossnav_suites(<target> <seconds>): the suites of a gtest program as tests of ctest.
+function(crossnav_suites target timeout)
+  set(script "${PROJECT_SOURCE_DIR}/cmake/CrossnavSuites.cmake")
+  set(suites "${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake")
+  set(include "${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake")
+  add_custom_command(TARGET ${target} POST_BUILD
+    COMMAND "${CMAKE_COMMAND}" "-DPROGRAM=$<TARGET_FILE:${target}>" -DTIMEOUT=${timeout} "-DOUT=${suites}"
+            -P "${script}"
+    BYPRODUCTS "${suites}"
+    VERBATIM)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${script}")
+  file(WRITE "${include}" "if(EXISTS [=[${suites}]=])\n  include([=[${suites}]=])\nelse()\n"
+    "  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${include}")
 endfunction()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Basis Universal as scripts/setup.sh hm3d compiles it: BasisUniversal::Transcoder, and
-# BasisUniversal::Encoder, which tests use. Looks where setup.sh puts the pinned version, or in
+# Basis Universal as compiled by scripts/setup.sh hm3d: BasisUniversal::Transcoder, and
+# BasisUniversal::Encoder for tests. Searches the folder of setup.sh for the pinned version, or
 # BASIS_UNIVERSAL_ROOT.
 file(STRINGS "${PROJECT_SOURCE_DIR}/scripts/basis/Cargo.toml" basis_pin REGEX "^basis-universal-sys")
 string(REGEX REPLACE ".*=([0-9.]+).*" "\\1" BasisUniversal_VERSION "${basis_pin}")
@@ -14,7 +14,7 @@ if(NOT basis_root)
   set(basis_root "${basis_data}/crossnav/basis-universal-${BasisUniversal_VERSION}")
 endif()
 
-# Not cached: what is compiled later is found by the next configuration.
+# Not cached: the next configuration finds a later build.
 set(BasisUniversal_LIBRARY "")
 if(EXISTS "${basis_root}/libbasisu_transcoder.a")
   set(BasisUniversal_LIBRARY "${basis_root}/libbasisu_transcoder.a")

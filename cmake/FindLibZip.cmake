@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# libzip as packaged: LibZip::LibZip. Its own CMake config asks for programs of other packages.
+# libzip as packaged: LibZip::LibZip. Its own CMake config requires programs of other packages.
 find_path(LibZip_INCLUDE_DIR zip.h)
 find_library(LibZip_LIBRARY zip)
 include(FindPackageHandleStandardArgs)

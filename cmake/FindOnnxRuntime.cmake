@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# ONNX Runtime's C++ header and library: OnnxRuntime::OnnxRuntime. They are those of the distribution
-# (libonnxruntime-dev of Debian 13), or those of ONNXRUNTIME_ROOT, a CMake or an environment variable:
-# a folder with include/ and lib/, as ONNX Runtime's own releases unpack to.
+# ONNX Runtime's C++ header and library: OnnxRuntime::OnnxRuntime. From the distribution
+# (libonnxruntime-dev of Debian 13), or from ONNXRUNTIME_ROOT, a CMake or an environment variable: a
+# folder with include/ and lib/, the layout of ONNX Runtime's own releases.
 set(ONNXRUNTIME_ROOT "" CACHE PATH "Folder with ONNX Runtime's include and lib; empty = the system's")
 set(onnxruntime_root "${ONNXRUNTIME_ROOT}")
 if(NOT onnxruntime_root)
@@ -12,7 +12,7 @@ if(onnxruntime_root)
   set(onnxruntime_only PATHS "${onnxruntime_root}" NO_DEFAULT_PATH)
 endif()
 
-# Not cached: what is installed later, or named anew, is found by the next configuration.
+# Not cached: the next configuration finds a later installation or another root.
 unset(OnnxRuntime_INCLUDE_DIR)
 unset(OnnxRuntime_LIBRARY)
 find_path(OnnxRuntime_INCLUDE_DIR onnxruntime_cxx_api.h NO_CACHE ${onnxruntime_only}

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# OpenVINO's headers and libraries as its Python wheel carries them: OpenVinoWheel::OpenVinoWheel.
-# Looks where scripts/setup.sh puts the pinned version, or in OPENVINO_ROOT (the folder that holds
-# openvino/include and openvino/libs). The wheel's own CMake config is not used: it insists on being
-# the only one to find TBB.
+# OpenVINO's headers and libraries from its Python wheel: OpenVinoWheel::OpenVinoWheel. Searches the
+# folder of scripts/setup.sh for the pinned version, or OPENVINO_ROOT (the folder with
+# openvino/include and openvino/libs). The wheel's own CMake config is not used, because it must be
+# the only package that finds TBB.
 file(STRINGS "${PROJECT_SOURCE_DIR}/scripts/openvino.txt" openvino_pin REGEX "^openvino==")
 string(REGEX REPLACE "^openvino==([0-9.]+).*" "\\1" OpenVinoWheel_VERSION "${openvino_pin}")
 set(openvino_data "$ENV{XDG_DATA_HOME}")
@@ -15,7 +15,7 @@ if(NOT openvino_root)
   set(openvino_root "${openvino_data}/crossnav/openvino-${OpenVinoWheel_VERSION}")
 endif()
 
-# Not cached: a wheel that is installed later is found by the next configuration.
+# Not cached: the next configuration finds a later installation.
 set(OpenVinoWheel_INCLUDE_DIR "")
 if(EXISTS "${openvino_root}/openvino/include/openvino/openvino.hpp")
   set(OpenVinoWheel_INCLUDE_DIR "${openvino_root}/openvino/include")

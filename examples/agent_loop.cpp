@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The agent in a loop of one's own: goals one after the other, an observation in, an action out,
-// and the memory saved at the end. The robot is simulated, in the house that comes with crossnav.
-//   agent_loop FOLDER [MAP]     FOLDER: where the house is written
+// The agent in a custom loop: goals in order, an observation in, an action out, and the memory
+// saved at the end. The robot is simulated, in the house that ships with crossnav.
+//   agent_loop FOLDER [MAP]     FOLDER: receives the house
 #include <cstdio>
 
 #include "crossnav/agent/agent.h"
@@ -19,7 +19,7 @@ int Complain(const crossnav::Error& error) {
   return 1;
 }
 
-/// Searches until the agent stops; false where it gave up.
+/// Searches until the agent stops; false if it gave up.
 crossnav::Result<bool> Search(crossnav::agent::Agent& agent, sim::Simulator& robot,
                               const std::string& goal) {
   if (auto ok = agent.SetGoal(goal); !ok) return tl::unexpected(ok.error());
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   if (auto ok = robot.Reset(start); !ok) return Complain(ok.error());
 
   const sim::GroundTruthConfig truth;
-  auto perception = sim::GroundTruthPerception(robot, truth);  // or yours: own_perception.cpp
+  auto perception = sim::GroundTruthPerception(robot, truth);  // or your own: own_perception.cpp
   if (!perception) return Complain(perception.error());
   crossnav::agent::Agent agent(config, std::move(*perception));
   for (const char* goal : {"chair", "bed"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A saved map asked: where is what this vector means? The vector is a text's, from your encoder (a
-// NumPy file of one float32 row), or that of the map at a point: "where is more of this?".
+// Queries a saved map: where is the object of this vector? The vector is a text's, from your
+// encoder (a NumPy file of one float32 row), or the map's own at a point: "where is more of this?".
 //   ask_map MAP TEXT.npy
 //   ask_map MAP X Y Z           metres, world frame
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands for your robot and its camera: an empty room with one red box in it, as depth and colour.
+// Stand-in for your robot and its camera: an empty room with a red box in it, as depth and colour.
 // World frame, metres.
 #pragma once
 
@@ -15,8 +15,8 @@ struct BoxRoom {
   crossnav::Vector3d box_lo{1.5, -0.3, 0}, box_hi{2.0, 0.4, 0.9};
 };
 
-/// Where a ray that starts at `p` inside the room meets the box, in lengths of `d`; infinity =
-/// never.
+/// Intersection of the ray from `p` inside the room with the box, in lengths of `d`; infinity =
+/// none.
 inline double HitOfBox(const BoxRoom& room, const crossnav::Vector3d& p,
                        const crossnav::Vector3d& d) {
   double enter = 0, leave = std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ inline double HitOfBox(const BoxRoom& room, const crossnav::Vector3d& p,
   return enter < leave ? enter : std::numeric_limits<double>::infinity();
 }
 
-/// Where it meets a wall, the floor or the ceiling.
+/// Intersection with a wall, the floor or the ceiling.
 inline double HitOfWall(const BoxRoom& room, const crossnav::Vector3d& p,
                         const crossnav::Vector3d& d) {
   double hit = std::numeric_limits<double>::infinity();
@@ -40,7 +40,7 @@ inline double HitOfWall(const BoxRoom& room, const crossnav::Vector3d& p,
   return hit;
 }
 
-/// What the camera sees from `robot`. A ray of length 1 along z has planar depth as its parameter.
+/// Camera image from `robot`. A ray of length 1 along z has planar depth as its parameter.
 inline crossnav::Observation Look(const BoxRoom& room, const crossnav::AgentPose& robot,
                                   const crossnav::SensorConfig& sensor) {
   crossnav::Observation seen;
@@ -61,7 +61,7 @@ inline crossnav::Observation Look(const BoxRoom& room, const crossnav::AgentPose
   return seen;
 }
 
-/// Carries out an action; a step that meets something does not move the robot.
+/// Carries out an action; a step into an obstacle does not move the robot.
 inline void Move(const BoxRoom& room, crossnav::AgentPose& robot, crossnav::Action action) {
   const crossnav::ActionConfig size;
   switch (action) {

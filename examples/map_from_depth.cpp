@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A map from depth images and camera poses: what is free, what is a surface, what can be seen from
-// where. Writes the surfaces as a point cloud.
+// A map from depth images and camera poses: free space, surfaces, lines of sight. Writes the
+// surfaces as a point cloud.
 //   map_from_depth [OUT.ply]
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Perception of one's own: four small interfaces, here answered by "is it red?". The agent searches
-// a room for "red box" with them, in a loop that moves a robot of its own.
+// Custom perception: the four interfaces, here answered by "is it red?". With them the agent
+// searches a room for "red box", in a loop that moves a custom robot.
 //   own_perception
 #include <cstdio>
 #include <memory>

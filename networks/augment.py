@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What is done to a sample before it is trained on: where it looks, its light and colours, its sensors' faults.
+"""Augmentation of a training sample: camera direction, light and colours, faults of the sensors.
 
-Everything is drawn from the given generator; a sample is changed in place.
+All draws come from the given generator; a sample is changed in place.
 """
 
 import cv2
@@ -71,7 +71,7 @@ def camera(image, rng):
     share = rng.random()
     if share < 0.15:
         image = cv2.GaussianBlur(image, (0, 0), rng.uniform(0.4, 1.6))
-    elif share < 0.22:  # moved while exposed
+    elif share < 0.22:  # motion blur
         length = int(rng.integers(3, 8))
         kernel = np.zeros((length, length), np.float32)
         kernel[length // 2] = 1 / length
@@ -98,7 +98,7 @@ def depth_sensor(depth, rng):
         jump[1:] |= np.abs(np.diff(depth, axis=0)) > 0.15
         jump = cv2.dilate(jump.astype(np.uint8), np.ones((2, 2), np.uint8)) > 0
         depth = np.where(jump & (rng.random(depth.shape, np.float32) < 0.7), 0, depth)
-    if rng.random() < 0.3:  # holes in what shines
+    if rng.random() < 0.3:  # holes in shiny surfaces
         small = rng.random((14, 14)) < rng.uniform(0, 0.15)
         mask = cv2.resize(small.astype(np.float32), depth.shape[::-1], interpolation=cv2.INTER_LINEAR)
         depth = np.where(mask > 0.5, 0, depth)
@@ -116,5 +116,5 @@ def augment(sample, size, rng):
         image = light(image, rng)
     sample.rgb = camera(image, rng)
     sample.depth = depth_sensor(sample.depth, rng)
-    sample.camera_height_m += rng.normal(0, 0.02)  # what odometry gets wrong
+    sample.camera_height_m += rng.normal(0, 0.02)  # error of odometry
     sample.pitch_rad += np.radians(rng.normal(0, 0.7))

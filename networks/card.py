@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the card beside the exported networks: what they are, how they were made, what they can and cannot do.
+"""Writes the card beside the exported networks: description, training, figures and limits.
 
 Without --figures the figures of an earlier card of the same file are kept, and so are its thresholds.
 """

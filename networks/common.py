@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every part of the pipeline agrees on: folders, sets of houses, goals, classes."""
+"""Constants common to the pipeline: folders, sets of houses, goals, classes."""
 
 import pathlib
 
@@ -7,15 +7,15 @@ REPO = pathlib.Path(__file__).resolve().parent.parent
 DATA = REPO / "build/networks"  # ignored by git
 SHARED = REPO.parent / "shared"
 
-INPUT_PX = 224  # chosen: the largest whose heads together stay below 25 ms on one core
+INPUT_PX = 224  # chosen: the largest size with all heads below 25 ms on one core
 STORED_PX = 256  # of rendered frames
 HFOV_DEG = 90.0
 
 # In the order of kCategories (crossnav/core/categories.h).
 GOALS = ["chair", "bed", "plant", "toilet", "tv_monitor", "sofa"]
 
-# Seeds of houses and the part of the furniture that they are furnished from. Held-out seeds begin
-# at 5001 and held-out furniture appears in `test` alone.
+# Seeds of houses and their part of the furniture. Held-out seeds begin at 5001; held-out furniture
+# appears in `test` only.
 SETS = {
     "train": {"seeds": range(2001, 2105), "furniture": "train", "frames": 150},
     "dev": {"seeds": range(2901, 2907), "furniture": "train", "frames": 60},
@@ -24,8 +24,8 @@ SETS = {
 
 STAIR_NAMES = {"stairs", "staircase", "stair"}
 
-# Classes of the dense head: their name (goals in the benchmark's spelling), the name whose CLIP text
-# vector they have (None: no word of the lists fits, the vector is made up), the raw names that
+# Classes of the dense head: their name (goals in the benchmark's spelling), the name with their
+# CLIP text vector (None: no word of the lists fits, the vector is synthetic), the raw names that
 # mean them.
 CLASSES = [
     ("chair", "chair", ["chair", "dining chair", "office chair", "armchair"]),

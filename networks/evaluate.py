@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What the exported network gets right on a set of houses: the figures of its card.
+"""Accuracy of the exported network on a set of houses: the figures of its card.
 
 `--set test` is held-out houses with held-out furniture; `--set dev` are the houses on which `thresholds.py`
-chose. With --worst DIR the pictures where it is most wrong are drawn.
+chose. --worst DIR draws the pictures with the largest errors.
 """
 
 import argparse

@@ -35,7 +35,7 @@ def fold_norms(network):
 
 
 def trained(checkpoint):
-    """The mean of the weights, with the text table in the graph, and what the run says of itself."""
+    """The mean of the weights, with the text table in the graph, and the run's metadata."""
     text = torch.from_numpy(np.load(common.REPO / "networks/text_vectors.npy").astype(np.float32))
     return averaged(model.Network(text=text / text.norm(dim=1, keepdim=True)), checkpoint)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Frames of a set of houses as memory-mapped arrays, and what a picture of them becomes as network input."""
+"""Frames of a set of houses as memory-mapped arrays, and their conversion to network input."""
 
 import json
 import math
@@ -64,5 +64,5 @@ class Sample:
 
     def inputs(self):
         height = height_above_foot(self.depth, self.rows, self.focal, self.pitch_rad, self.camera_height_m)
-        return {"image": self.rgb.transpose(2, 0, 1),  # u8: divided by 255 on the way in
+        return {"image": self.rgb.transpose(2, 0, 1),  # u8: divided by 255 on input
                 "depth": self.depth[None], "height": height[None]}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Splits a furniture pack in two by the models' names: what is trained on, and what never is.
+"""Splits a furniture pack in two by the models' names: a training part and a held-out part.
 
 Of every kind of furniture a third of the models is held out (rounded; of two models one, of a
 single one none), those with the smallest hash of their id. A part is a pack of its own: the same

@@ -9,7 +9,7 @@ MIN_VALUES = 256  # chosen: smaller constants stay in float32
 
 
 def halve(model):
-    """Float constants of some size become float16 with a cast; every use stays what it was."""
+    """Converts large float constants to float16 with a cast; their uses are unchanged."""
     graph, casts = model.graph, []
     for constant in graph.initializer:
         values = numpy_helper.to_array(constant)

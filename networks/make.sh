@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# `make networks`: frames, training, export, thresholds and figures. What is there is kept: a run that was
-# stopped goes on. NETWORKS_DATA (default build/networks) takes 10 GB, NETWORKS_PYTHON is a Python that
-# has networks/requirements.txt; without it a virtual environment is made in the data folder.
+# `make networks`: frames, training, export, thresholds and figures. Existing results are kept: an
+# interrupted run resumes. NETWORKS_DATA (default build/networks) takes 10 GB. NETWORKS_PYTHON is a
+# Python with networks/requirements.txt; without it a virtual environment is made in the data
+# folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

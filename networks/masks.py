@@ -11,11 +11,11 @@ from model import Plain, conv
 from torch import nn
 
 SIZE = 96  # of a window
-SIDE = 2  # pixels of a window that are computed as one
-MARGIN = 0.06  # chosen: of the box's sides, that the window shows beyond each edge; boxes are about as exact
+SIDE = 2  # pixels of a window that share one computation
+MARGIN = 0.06  # chosen: margin of the window beyond each edge, as a share of the box
 NEAREST_M = 0.05  # chosen: nearer readings count as this near
 SPREAD = 0.2  # chosen: of the logarithm of range within one object
-LEAST_SHARE = 0.5  # chosen: of the goal in a cell or one beside it; elsewhere a table before a sofa was drawn as one
+LEAST_SHARE = 0.5  # chosen: minimum share of the goal in a cell or its neighbours
 OUTPUTS = ["mask", "window"]
 
 
@@ -31,8 +31,8 @@ def sampler(box, size):
 
 
 def window(image, depth, height, share, box):
-    """What is seen in and around `box` [n, 4] (left, top, right, bottom, input px): [n, 7, 96, 96] of colour, range
-    beside that of the object, whether it was read, height, and the first network's share of the goal."""
+    """Window around `box` [n, 4] (left, top, right, bottom, input px): [n, 7, 96, 96] of colour, range
+    relative to the object's, validity of the range, height, and the first network's share of the goal."""
     take = sampler(box, image.shape[-1])
     image, depth, height = torch.split(take(torch.cat([image, depth, height], 1), "nearest"), [3, 1, 1], 1)
     share = take(share, "bilinear")
@@ -53,7 +53,7 @@ class Masks(nn.Module):
         self.out = nn.Sequential(nn.ReLU(), Plain(fine), nn.Conv2d(fine, SIDE**2, 1))
 
     def forward(self, seen):
-        """Logits [n, 1, 96, 96] of what `window` gives."""
+        """Logits [n, 1, 96, 96] for the output of `window`."""
         colour, far, rest = torch.split(seen, [3, 1, 3], 1)
         pixels = F.pixel_unshuffle(torch.cat([colour, torch.tanh(far * 4), torch.tanh(far * 20), rest], 1), SIDE)
         line = torch.linspace(-1, 1, SIZE // SIDE, device=seen.device).expand(len(seen), 1, SIZE // SIDE, -1)
@@ -65,7 +65,7 @@ class Masks(nn.Module):
 
 
 class MaskOfBox(nn.Module):
-    """What the exported file answers (docs/networks-training.md)."""
+    """Output of the exported file (docs/networks-training.md)."""
 
     def __init__(self, masks):
         super().__init__()

@@ -16,7 +16,7 @@ NMS_IOU = 0.5
 LOWEST_SCORE = 0.02
 FALSE_PER_FRAME = 0.1
 MASK_SHARE = 0.5
-STAIR_SHARE = 0.01  # of the picture, for it to be a picture of stairs
+STAIR_SHARE = 0.01  # minimum share of a picture of stairs
 
 
 def overlap(a, b):
@@ -57,7 +57,7 @@ def decode(heat, box, size):
 
 def upsample(planes, size, window=None):
     """Bilinear, cell centres as in the network's own resizing: [c,h,w] -> [c,size,size]. The planes cover the
-    picture, or `window` (left, top, right, bottom) of it; beyond it their edge goes on."""
+    picture, or `window` (left, top, right, bottom) of it; beyond it the edge repeats."""
     left, top, right, bottom = (0, 0, size, size) if window is None else window
     rows, down = between(size, planes.shape[1], top, bottom)
     columns, across = between(size, planes.shape[2], left, right)
@@ -104,8 +104,8 @@ def judge_claims(sample, answer):
 
 
 def claim_mask(answer, goal, box, size):
-    """What the program makes of a claim (crossnav/inference/crossnav_network.cpp): the pixels of its box where the
-    second network's share of the object, or else the first one's share of the goal, is one half or more."""
+    """The program's mask of a claim (crossnav/inference/crossnav_network.cpp): the pixels of its box where the
+    second network's share of the object, or else the first network's share of the goal, is at least a half."""
     left, top, right, bottom = np.floor(np.asarray(box) + 0.5).astype(int)
     mask = np.zeros((size, size), bool)
     if right <= left or bottom <= top:

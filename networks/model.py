@@ -2,7 +2,7 @@
 """The network: one encoder over colour, depth and height, a decoder to a quarter of the input, five heads.
 
 Plain convolutions throughout: on the matrix units that train it (bfloat16) and on the core that runs it
-they are faster than depthwise ones of as many parameters.
+they are faster than depthwise convolutions with as many parameters.
 """
 
 import common
@@ -43,7 +43,7 @@ class Narrow(nn.Module):
 
 
 class Context(nn.Module):
-    """Adds what the whole picture holds to every place."""
+    """Adds a summary of the whole picture to every place."""
 
     def __init__(self, width):
         super().__init__()
@@ -102,7 +102,7 @@ class Network(nn.Module):
                 "stairs": labels[:, GOALS + 1 :], "dense": names}
 
     def forward(self, image, depth, height):
-        """What the exported file answers; see docs/networks-training.md."""
+        """Output of the exported file; see docs/networks-training.md."""
         raw = self.raw(image, depth, height)
         share = torch.softmax(raw["dense"], 1)
         dense = share.permute(0, 2, 3, 1) @ self.text

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Draws what the network answers beside what is true, and finds the pictures where it is most wrong."""
+"""Draws the network's output beside the truth, and finds the pictures with the largest errors."""
 
 import augment
 import common
@@ -22,7 +22,7 @@ def write(image, text, at):
     cv2.putText(image, text, at, cv2.FONT_HERSHEY_SIMPLEX, 0.35, (255, 255, 255), 1, cv2.LINE_AA)
 
 
-LOWEST = 0.2  # chosen: scores below it are not drawn
+LOWEST = 0.2  # chosen: lower scores are not drawn
 
 
 def claims_picture(rgb, answer, lowest=LOWEST):

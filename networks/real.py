@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What the network sees in five real frames of a depth camera: a panel to look at, not a figure.
+"""Output of the network for five real frames of a depth camera: a panel to look at, not a figure.
 
-Of each frame the left and the right square. The floor is found as a plane, since the poses do not say where
+Of each frame the left and the right square. The floor is found as a plane, because the poses do not give
 it is; heights are distances to it.
 """
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Makes houses and renders their frames: one process a house and verb, arrays on disk.
 
-Houses that are there are kept, so that a run that was stopped goes on.
+Existing houses are kept, so that an interrupted run resumes.
 """
 
 import argparse
@@ -35,7 +35,7 @@ def render_house(program, name, seed, parts, out):
     generate = [program, "world", "generate", "--seed", seed, "--count", 1, "--floors", 0,
                 "--out", made, *house_options(name, seed, parts)]
     run = subprocess.run([str(a) for a in generate], capture_output=True, text=True, check=False)
-    if run.returncode != 0:  # a few seeds give no house that passes the generator's gate
+    if run.returncode != 0:  # a few seeds fail the generator's gate
         print(f"{name} {seed}: {run.stderr.strip().splitlines()[-1]}")
         return
     scene = next(p for p in made.iterdir() if p.is_dir())

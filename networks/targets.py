@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""What the network should answer, made from a sample's instance ids at input size."""
+"""Training targets, computed from a sample's instance ids at input size."""
 
 import common
 import numpy as np
 
 STRIDE = 4
 GRID = 24  # of the dense head
-MIN_PX = 40  # chosen: of an instance; fewer at input size are neither asked for nor punished
-NAMED_SHARE = 0.5  # of a dense cell's pixels, for it to have a name
+MIN_PX = 40  # chosen: of an instance; smaller instances at input size are ignored in training
+NAMED_SHARE = 0.5  # minimum share of a dense cell's pixels for a name
 
 
 def instances(sample, min_px=1):

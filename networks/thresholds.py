@@ -16,7 +16,7 @@ import numpy as np
 from export import FILE
 from runtime import Runtime
 
-FALSE_PER_FRAME = 0.01  # chosen: a search looks at a hundred frames and more, and one claim ends it
+FALSE_PER_FRAME = 0.01  # chosen: a search has a hundred frames or more, and a single claim ends it
 
 
 def main():

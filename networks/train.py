@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trains the network on a number of frames or for a number of minutes, or goes on with what an earlier run left.
+"""Trains the network on a number of frames or for a number of minutes, or resumes an earlier run.
 
 The learning rate follows the share of the frames or minutes that is used up, whichever is more, so that a run
 is whole however fast the machine is. Every few minutes the state goes to `checkpoint.pt`; the mean of the
@@ -196,7 +196,7 @@ def train(args):
     last, saved, told, means = time.time(), time.time(), time.time(), {}
     pool = concurrent.futures.ThreadPoolExecutor(1)
     draw = lambda: pool.submit(batch_of, places, weights, args.batch, size_at(share_of(run, args), args), rng)
-    coming = draw()  # the next batch, while the network learns from the last
+    coming = draw()  # the next batch, prepared during the step
     while (share := share_of(run, args)) < 1:
         for group in run.optimizer.param_groups:
             group["lr"] = rate_at(share, args.rate)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Trains the second network (`masks.py`) on windows around goal objects; the first stays as it is.
+"""Trains the second network (`masks.py`) on windows around goal objects; the first is unchanged.
 
-The windows, with what the first network says of them, are kept in `windows/`, a file for each part, so that only the
+The windows, with the first network's output, are kept in `windows/`, a file for each part, so that only the
 small network is run again and again. The mean of its weights goes to `masks.pt`.
 """
 
@@ -22,9 +22,9 @@ import torch
 import train
 from model import GOALS, Network
 
-MIN_SHARE = 1 / 100  # chosen: of the picture, that an object's box fills
+MIN_SHARE = 1 / 100  # chosen: minimum share of the picture in an object's box
 MIN_PX = 40  # chosen: of an object in its window
-BOX_ERROR = 0.05  # chosen: of a box's sides, about as in claims
+BOX_ERROR = 0.05  # chosen: of a box's sides, similar to claims
 TELL_EVERY_S = 60
 
 
@@ -58,7 +58,7 @@ def boxes_of(sample, rng):
 
 
 def windows_of(sample, inputs, share, rng):
-    """What the second network is given of a frame, and which pixels are the object."""
+    """Inputs of the second network for a frame, and the object's pixels."""
     tensor = lambda x: torch.from_numpy(np.ascontiguousarray(x))[None]
     image, depth, height = tensor(inputs["image"]).float() / 255, tensor(inputs["depth"]), tensor(inputs["height"])
     for one, goal, box in boxes_of(sample, rng):
@@ -92,7 +92,7 @@ def frames_with_goals(data):
 
 
 def read_windows(args, network):
-    """The parts, collected where they are not there yet, as one."""
+    """All parts together; missing parts are collected first."""
     parts, drawn = [], None
     for part in args.parts:
         path = args.data / "windows" / f"{args.seed}-{part}.npz"

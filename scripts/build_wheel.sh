@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the Python wheel out of the rooms that a CMake build folder already has.
+# Builds the Python wheel from the rooms of an existing CMake build folder.
+#
 #   scripts/build_wheel.sh [BUILD_DIR]      default: build/release; its target `rooms` must be built
-# Leaves the wheel in build/wheel and a virtual environment with the pinned tools in build/python-venv, which
-# is made anew when the pins, this script or the interpreter change. Exit status 77: pip reaches no package registry. PYTHON chooses the interpreter.
+#
+# Leaves the wheel in build/wheel and a virtual environment with the pinned tools in
+# build/python-venv, which is remade when the pins, this script or the interpreter change. Exit
+# status 77: pip reaches no package registry. PYTHON chooses the interpreter.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -16,7 +19,7 @@ unreachable+='|Max retries exceeded|Temporary failure in name|\(from versions: n
 
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
 
-# Tools and packages of the tests. Modules are compiled as they are imported: few of all are.
+# Tools and packages of the tests. Modules are compiled on import: few of all are imported.
 make_environment() {
   rm -rf "$venv"
   if ! "${PYTHON:-python3}" -m venv "$venv"; then

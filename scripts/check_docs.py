@@ -4,7 +4,7 @@
 
     scripts/check_docs.py [ROOT]
 
-Relative links in Markdown files and documents named in the code lead somewhere; every label of the
+Relative links in Markdown files, paths in inline code and documents named in the code lead somewhere; every label of the
 paper that the code cites has a row in docs/paper_map.md; every file and name in such a row exists; README.md has 90 lines at most.
 Exit status 1 if anything fails.
 """
@@ -14,6 +14,8 @@ import sys
 
 LABEL = re.compile(r"\b(?:eq|tab|alg|sec|fig):[a-z][a-z0-9_]*")
 CODE_FOLDERS = ("crossnav", "apps", "tests", "benchmarks")
+OUR_PATH = re.compile(r"`((?:crossnav|apps|scripts|python|tests|config|cmake|examples|benchmarks|networks|viewer)"
+                      r"/[\w./*-]+)`")
 MAX_README_LINES = 90
 SKIPPED = {"build", "out", "node_modules", ".git"}
 
@@ -43,6 +45,16 @@ def check_citations(root):
     for path in files(root, ("crossnav", "apps"), {".h", ".cpp"}):
         for name in sorted(set(re.findall(r"\bdocs/[\w/]+\.md\b", path.read_text("utf-8")))):
             if not (root / name).exists():
+                yield f"{path.relative_to(root)}: names {name}, which is not there"
+
+
+def check_paths(root):
+    """Paths of ours in inline code that are not there. Programs of benchmarks/ are named after their source."""
+    pages = [root / name for name in ("README.md", "CONTRIBUTING.md", "BENCHMARKS.md")]
+    for path in [*pages, *files(root, ["docs"], {".md"})]:
+        for name in OUR_PATH.findall(path.read_text("utf-8")) if path.exists() else []:
+            places = (name.rstrip("/"), name + ".cpp", "python/" + name)
+            if not any(any(root.glob(place)) for place in places):
                 yield f"{path.relative_to(root)}: names {name}, which is not there"
 
 
@@ -91,7 +103,7 @@ def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
     if root.is_file():
         root = root.parent.parent
-    problems = [*check_links(root), *check_citations(root), *check_paper_map(root),
+    problems = [*check_links(root), *check_citations(root), *check_paths(root), *check_paper_map(root),
                 *check_readme(root)]
     print("\n".join(problems) if problems else "docs: links and paper map hold")
     return 1 if problems else 0

@@ -25,7 +25,7 @@ try:
     import onnxruntime
     from PIL import Image, ImageDraw
 except ImportError as error:
-    np, MISSING = None, error.name  # the judging below works without
+    np, MISSING = None, error.name  # the scoring below works without it
 else:
     MISSING = None
 
@@ -56,7 +56,7 @@ def iou(a, b):
 
 
 def suppress(detections):
-    """Without those that overlap a better one of their class; best first."""
+    """Non-maximum suppression per class; best first."""
     kept = []
     for category, score, box in sorted(detections, key=lambda d: -d[1]):
         if all(category != other or iou(box, better) < NMS_IOU for other, _, better in kept):
@@ -93,7 +93,7 @@ def judge(view, detections):
 
 
 def false_alarms(view, detections):
-    """[(category, raw name of what the box is on)]."""
+    """[(category, raw name of the object in the box)]."""
     alarms = []
     for category, _, box in detections:
         truths = [o["box"] for o in view["objects"] if o["category"] == category]
@@ -163,7 +163,7 @@ def table(counts, alarms):
 
 
 def details(counts, alarms):
-    """Lines on the objects' raw names, and on what misses and false alarms were taken for."""
+    """Lines on the objects' raw names, and on the confusions of misses and false alarms."""
     for category, count in counts.items():
         names = sorted(key[1] for key in count if key[0] == "views")
         yield f"{category}: " + ", ".join(

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A moving picture of an episode over two floors: camera, and what was seen of both floors from above.
+"""A moving picture of an episode over two floors: camera, and the seen part of both floors from above.
 
     scripts/episode_picture.py [OUT.webp]      default: docs/images/episode.webp
 
@@ -39,7 +39,7 @@ def points_of(seen):
 
 
 def play(folder):
-    """One record per step: picture, points, foot, goal, what it does."""
+    """One record per step: picture, points, foot, goal, activity."""
     crossnav.write_embedded_house(folder)
     scene = crossnav.Scene(folder, config=CONFIG)
     simulator = crossnav.Simulator(scene)

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs the fuzz targets of tests/fuzz one after the other, each for so many seconds.
+# Runs the fuzz targets of tests/fuzz in sequence, each for the given seconds.
+#
 #   scripts/fuzz.sh SECONDS [TARGET...]      default: all targets
-# Inputs that were worth keeping go to build/fuzz/corpus, statistics to build/fuzz/logs
-# (scripts/fuzz_table.sh sums them up), inputs that crash, hang (2 s) or take 2 GB to
-# build/fuzz/findings. Exit 1 where there is any. One process at a time. The 2 s are by the clock:
-# on a busy machine, FUZZ_TIMEOUT=60.
+#
+# Interesting inputs go to build/fuzz/corpus, statistics to build/fuzz/logs (scripts/fuzz_table.sh
+# sums them up), inputs that crash, hang (2 s) or take 2 GB to build/fuzz/findings. Exit 1 if there
+# are findings. One process at a time. The 2 s are wall time: on a busy machine, FUZZ_TIMEOUT=60.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

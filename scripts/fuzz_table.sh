@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Prints the table of docs/robustness.md from the statistics that scripts/fuzz.sh left.
+# Prints the table of docs/robustness.md from the statistics of scripts/fuzz.sh.
+#
 #   scripts/fuzz_table.sh            the table
 #   scripts/fuzz_table.sh --write    puts it into docs/robustness.md, between its two marks
 set -euo pipefail

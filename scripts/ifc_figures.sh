@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The figure of docs/homes.md: an IFC building furnished with five seeds, 40 episodes, 320 px.
+#
 #   scripts/ifc_figures.sh FILE.ifc OUT [JOBS] [EVAL OPTION...]
+#
 # Needs IfcOpenShell (scripts/setup.sh ifc) and the furniture pack (crossnav assets import). An
-# evaluation that was cut off goes on.
+# interrupted evaluation resumes.
 set -euo pipefail
 
 building=${1:?an IFC file} out=${2:?a folder} jobs=${3:-2}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes config/unicode.txt, what tokenizers must know of characters, from Python's unicodedata.
+"""Writes config/unicode.txt, the tokenizers' character data, from Python's unicodedata.
 
     make_unicode.py > config/unicode.txt
 

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The figures of docs/navigation.md: makes the houses and episodes of a set and evaluates them.
+#
 #   scripts/navigation_figures.sh SET OUT [JOBS] [EVAL OPTION...]
+#
 # Sets: development, held-out (edition 1 of the generator), development-2, held-out-2 (edition 2),
 # big (edition 2: offices of four floors and 1,000 m2, up to 100 rooms, 3,600 actions).
 # e.g. scripts/navigation_figures.sh held-out out/navigation 2 --variant paper
-# CROSSNAV_HOMES=DIR adds the homes in DIR (scene folders; docs/homes.md) to a development set that is
-# made anew. Needs the furniture pack (crossnav assets import). An evaluation that was cut off goes on.
+# CROSSNAV_HOMES=DIR adds the homes in DIR (scene folders; docs/homes.md) to a new development set.
+# Needs the furniture pack (crossnav assets import). An interrupted evaluation resumes.
 set -euo pipefail
 
 set_name=${1:?a set, see the head of this file} out=${2:?a folder} jobs=${3:-2}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plots what `crossnav bench noise --out SWEEP.json` measured.
+"""Plots the output of `crossnav bench noise --out SWEEP.json`.
 
     scripts/plot_noise.py SWEEP.json --out PLOT.png      (or .svg, .pdf)
 

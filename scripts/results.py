@@ -4,8 +4,8 @@
 
   scripts/results.py SUITE [--jobs N] [--out FILE] [EVAL OPTION...]
 
-e.g. scripts/results.py crossnav-mfmon-1-val-pack --jobs 2. What was run before is not run again:
-a run that was cut off goes on. A suite with tracks gets a section for each track, and no pooled
+e.g. scripts/results.py crossnav-mfmon-1-val-pack --jobs 2. Existing results are reused:
+an interrupted run resumes. A suite with tracks gets a section for each track, and no pooled
 figure (--homes and --buildings as for `suite run`). CROSSNAV names the program.
 """
 
@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("CROSSNAV", str(ROOT / "build/release/apps/crossnav/crossnav"))
-# The methods of the paper's tables, then ours. A comparison is with the last of its list.
+# The methods of the paper's tables, then ours. Comparisons are with the last of its list.
 METHODS = ("onemap", "paper-no-history-poi", "paper")
 OURS = ("planar", "no-history-poi", "no-history-poi-pure", "full")
 # tab:single_object_results has no row without History POIs: one goal has no history.
@@ -59,7 +59,7 @@ def sections(report: str) -> dict:
 
 
 def paper_tables(report: str, methods: tuple) -> list:
-    """The report's tables that stand beside the paper's, one level deeper."""
+    """The report's tables beside the paper's, one heading level deeper."""
     found = sections(report)
     lines = []
     for title, text in found.items():

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what the build and the tests need, from the distribution's own packages.
+# Installs the dependencies of the build and the tests, from the distribution's own packages.
+#
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
-#                                    slurm, hm3d, ifc
+#                                    slurm, hm3d, ifc, viewer
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
 # it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
@@ -10,7 +11,8 @@
 # in scripts/clang-tidy.txt, beside OpenVINO. The hm3d group is Basis Universal, whose textures HM3D
 # ships: compiled from the sources in a crate that scripts/basis/Cargo.lock pins, beside OpenVINO too.
 # The ifc group is IfcOpenShell, pinned in scripts/ifcopenshell.txt, in a Python environment there, where
-# the program looks for it.
+# the program looks for it. The viewer group is Chromium and Node.js, with the packages that
+# viewer/package-lock.json pins: for the tests of the replay page, and for `make viewer`.
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -19,7 +21,7 @@ declare -A PACKAGES=(
   [build]="g++ cmake ninja-build ccache python3-dev python3-venv \
     libeigen3-dev libexpected-dev libfmt-dev libembree-dev libtbb-dev libtinygltf-dev \
     librecast-dev nlohmann-json3-dev libsimdjson-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
-    zlib1g-dev libzip-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev \
+    zlib1g-dev libzip-dev libpng-dev libjpeg-dev libsqlite3-dev libzstd-dev libxxhash-dev libprotobuf-dev libevent-dev \
     protobuf-compiler libmeshoptimizer-dev libpugixml-dev libgtest-dev"
   [homes]="libassimp-dev"
   [bench]="libbenchmark-dev liboctomap-dev"
@@ -29,11 +31,12 @@ declare -A PACKAGES=(
   [slurm]="slurm-wlm munge"
   [hm3d]="g++ libzstd-dev"
   [ifc]="python3-venv"
+  [viewer]="chromium"
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
-# Prints those of the given packages that dpkg does not have installed, one a line.
+# Prints the given packages that are not installed, one a line.
 missing_of() {
   local installed
   installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
@@ -41,7 +44,7 @@ missing_of() {
            <(sed -n 's/^installed //p' <<<"$installed" | sort -u)
 }
 
-# Says so and stops where the distribution is known to be too old, or is none with apt.
+# Stops with a message if the distribution is too old or has no apt.
 check_system() {
   local id=unknown version=""
   if [[ -r /etc/os-release ]]; then
@@ -75,8 +78,7 @@ as_root() {
   fi
 }
 
-# Installs those of the given packages that the distribution has, where that needs no password;
-# nothing depends on them.
+# Installs optional packages that the distribution has, if no password is needed.
 install_optional() {
   local package absent
   [[ $(id -u) -eq 0 ]] || sudo -n true 2>/dev/null || return 0
@@ -89,8 +91,8 @@ install_optional() {
   done
 }
 
-# The wheel's headers and the libraries that are used, in the folder where CMake looks. A failure
-# is a notice: networks are left out of the build then.
+# The wheel's headers and used libraries, in the folder where CMake looks. A failure is a notice:
+# the build then omits networks.
 install_openvino() {
   local pin data home work
   pin="$(dirname "${BASH_SOURCE[0]}")/openvino.txt"
@@ -109,7 +111,7 @@ install_openvino() {
   rm -rf "$work"
 }
 
-# fetch_openvino WORK PIN: downloads, checks the hash, unpacks and drops what is not used.
+# fetch_openvino WORK PIN: downloads, checks the hash, unpacks and drops unused files.
 fetch_openvino() {
   local tag=manylinux_2_28_x86_64
   [[ $(uname -m) == aarch64 ]] && tag=manylinux_2_35_aarch64
@@ -123,7 +125,7 @@ fetch_openvino() {
       ! -name 'libopenvino_onnx_frontend.so.*' ! -name 'libopenvino_*_cpu_plugin.so' -delete
 }
 
-# The linter in a Python environment of its own, where the Makefile looks.
+# The linter in a separate Python environment, where the Makefile looks.
 install_clang_tidy() {
   local pin data home
   pin="$(dirname "${BASH_SOURCE[0]}")/clang-tidy.txt"
@@ -142,7 +144,7 @@ install_clang_tidy() {
   touch "$home/complete"
 }
 
-# Transcoder and encoder (of tests) as static libraries, where CMake looks.
+# Transcoder and encoder (for tests) as static libraries, where CMake looks.
 install_basis() {
   local here data home work
   here="$(cd "$(dirname "${BASH_SOURCE[0]}")/basis" && pwd)"
@@ -182,7 +184,7 @@ build_basis() {
   (cd "$source" && cp --parents {transcoder,encoder,zstd}/*.h LICENSE "$1/home/include")
 }
 
-# IfcOpenShell in a Python environment of its own, where the program looks.
+# IfcOpenShell in a separate Python environment, where the program looks.
 install_ifcopenshell() {
   local pin home
   pin="$(dirname "${BASH_SOURCE[0]}")/ifcopenshell.txt"
@@ -200,6 +202,19 @@ install_ifcopenshell() {
   cp "$pin" "$home/complete"
 }
 
+# three.js, the bundler and the driver of the browser, where the tests look.
+install_viewer() {
+  local viewer
+  viewer="$(cd "$(dirname "${BASH_SOURCE[0]}")/../viewer" && pwd)"
+  cmp -s "$viewer/package-lock.json" "$viewer/node_modules/installed" && return 0
+  say "fetching the viewer's packages into $viewer/node_modules"
+  (cd "$viewer" && npm ci --no-audit --no-fund </dev/null >&2) || {
+    say "the viewer's packages cannot be had; see above. Only tests of the page and make viewer need them"
+    exit 1
+  }
+  cp "$viewer/package-lock.json" "$viewer/node_modules/installed"
+}
+
 main() {
   [[ ${CROSSNAV_SKIP_SETUP:-} == 1 ]] && return 0
   local group
@@ -213,6 +228,7 @@ main() {
     wanted+=("${list[@]}")
   done
   if [[ " $* " == *" hm3d "* ]] && ! command -v cargo >/dev/null; then wanted+=(cargo); fi
+  if [[ " $* " == *" viewer "* ]] && ! command -v npm >/dev/null; then wanted+=(nodejs npm); fi
   check_system
   mapfile -t missing < <(missing_of "${wanted[@]}")
   [[ ${#missing[@]} -eq 0 ]] || install_packages
@@ -223,6 +239,7 @@ main() {
   [[ " $* " != *" lint "* ]] || install_clang_tidy
   [[ " $* " != *" hm3d "* ]] || install_basis
   [[ " $* " != *" ifc "* ]] || install_ifcopenshell
+  [[ " $* " != *" viewer "* ]] || install_viewer
   return 0
 }
 

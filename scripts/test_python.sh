@@ -1,16 +1,40 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the wheel, installs it into the virtual environment of the tools and runs the Python tests there.
-#   scripts/test_python.sh [BUILD_DIR]      exit status 77: skipped, see build_wheel.sh
+# Python tests, run on the wheel in the virtual environment of the tools.
+#   scripts/test_python.sh BUILD_DIR                 builds and installs the wheel, then runs every test
+#   scripts/test_python.sh BUILD_DIR install         only the former; exit status 77: skipped, see build_wheel.sh
+#   scripts/test_python.sh BUILD_DIR FILE...         only these tests of python/tests, with what is installed
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-"$root/scripts/build_wheel.sh" "$@"
-python="$root/build/python-venv/bin/python"
-wheel=$(echo "$root"/build/wheel/*.whl)
-"$python" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall "$wheel"
-program="${1:-$root/build/release}/apps/crossnav/crossnav"  # where it is built, it writes replays
-program=$([ -x "$program" ] && realpath "$program" || true)
-cd "$root/build/python-venv"  # not where the sources lie
-CROSSNAV_PROGRAM="$program" CROSSNAV_ROOT="$root" CROSSNAV_WHEEL="$wheel" \
-  "$python" -m pytest -q -p no:cacheprovider --durations=5 "$root/python/tests"
+build=$(cd "${1:-$root/build/release}" && pwd)
+venv="$root/build/python-venv"
+files=("${@:2}")
+
+install_wheel() {
+  rm -f "$venv/installed"
+  "$root/scripts/build_wheel.sh" "$build"
+  "$venv/bin/python" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
+    "$root"/build/wheel/*.whl
+  touch "$venv/installed"
+}
+
+run_tests() {
+  local program
+  program=$([ -x "$build/apps/crossnav/crossnav" ] && realpath "$build/apps/crossnav/crossnav" || true)
+  cd "$venv"  # not where the sources lie
+  CROSSNAV_PROGRAM="$program" CROSSNAV_ROOT="$root" CROSSNAV_WHEEL=$(echo "$root"/build/wheel/*.whl) \
+    "$venv/bin/python" -m pytest -q -p no:cacheprovider --durations=5 "$@"
+}
+
+if [[ ${files[*]:-} == install ]]; then
+  install_wheel
+elif [[ ${#files[@]} -eq 0 ]]; then
+  install_wheel
+  run_tests "$root/python/tests"
+elif [[ ! -e $venv/installed ]]; then
+  echo "test_python: skipped, as no wheel is installed in $venv"
+  exit 77
+else
+  run_tests "${files[@]/#/$root/python/tests/}"
+fi

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Where Debian's package puts its libraries.
+/// Folder of the libraries in Debian's package.
 constexpr const char* kInstalled = "usr/share/sweethome3d/furniture";
 
 bool HasLibraries(const fs::path& folder) {
@@ -27,7 +27,7 @@ bool HasLibraries(const fs::path& folder) {
   return false;
 }
 
-/// The folder itself, or the place inside of an unpacked package; empty folder = installed.
+/// The folder itself, or the library folder of an unpacked package in it; empty folder = installed.
 Result<fs::path> FindLibraries(const std::string& folder) {
   const fs::path root = folder.empty() ? fs::path("/") : fs::path(folder);
   for (const fs::path& place : {root, root / kInstalled}) {

@@ -32,7 +32,7 @@ std::string CpuModel() {
   return "unknown";
 }
 
-/// Collects what each step took.
+/// Collects the cost of each step.
 class CostLog : public evaluation::RunObserver {
  public:
   Result<void> OnStep(const evaluation::StepView& step) override {
@@ -75,7 +75,7 @@ class CostLog : public evaluation::RunObserver {
             {"voxels", voxels_},
             {"feature_voxels", feature_voxels_},
             {"steps_per_s", steps_ / std::max(1e-9, total_wall_ms_ * 1e-3)},
-            // On a machine that others use too, this is the one to compare.
+            // Comparable on a shared machine.
             {"steps_per_cpu_s", steps_ / std::max(1e-9, total_cpu_ms_ * 1e-3)}};
   }
 
@@ -112,7 +112,7 @@ struct Subject {
   evaluation::Episode episode;
 };
 
-/// The given episode, or the climbing one in the embedded house.
+/// The given episode, or the episode that climbs in the embedded house.
 Result<Subject> ChooseSubject(const BenchOptions& options, const evaluation::RunConfig& config,
                               SceneCache& cache, const std::filesystem::path& scenes) {
   if (!options.episodes.empty()) {
@@ -163,7 +163,7 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
     return Fail(ErrorCode::kInvalid, "give the scenes of the episodes", "--scenes");
   }
   std::filesystem::path scenes = options.scenes;
-  ScratchFolder scratch;  // one of its own: two of these may run at once
+  ScratchFolder scratch;  // separate, because two runs may be concurrent
   if (scenes.empty()) {
     scenes = scratch.path;
     if (auto house = world::WriteEmbeddedHouse(scenes); !house)

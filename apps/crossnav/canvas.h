@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small canvas: lines, discs and letters on an RGB image, in pixels, anti-aliased where it shows.
+// A small canvas: lines, discs and letters on an RGB image, in pixels, anti-aliased.
 #pragma once
 
 #include <string_view>

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMaxAnswer = std::size_t{512} << 20;  // chosen: a million triangles: 60 MB
 constexpr char kIsError = '-', kIsText = '+';               // first character of an answer
 
-/// Reads to the end, until the deadline or until the answer is too long.
+/// Reads to the end, until the deadline, or until the answer is too long.
 void Read(int pipe, Deadline deadline, ChildAnswer& answer) {
   std::vector<char> buffer(1 << 16);
   while (true) {
@@ -97,7 +97,7 @@ Result<ChildAnswer> RunChild(const std::function<void(int out)>& child, Deadline
     }
     while (::waitpid(id, &answer.status, 0) < 0 && errno == EINTR) {
     }
-    ::kill(-id, SIGKILL);  // what it may have started
+    ::kill(-id, SIGKILL);  // and its descendants
   }
   ::close(pipe[0]);
   if (id < 0) return Fail(ErrorCode::kIo, std::strerror(errno), "a process");

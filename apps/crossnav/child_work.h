@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Work in a process of its own that ends at a moment by the clock, whatever it does.
+// Work in a child process with a deadline in wall time.
 #pragma once
 
 #include <chrono>
@@ -18,11 +18,11 @@ struct ChildAnswer {
   std::string text;
 };
 
-/// Runs `child` with the writing end of a pipe, and reads from it to the end. The child is killed
-/// with what it has started at the deadline, and where it says too much. Error: no process.
+/// Runs `child` with the writing end of a pipe, and reads from it to the end. At the deadline, or
+/// if its answer is too long, the child is killed with its descendants. Error: no process.
 Result<ChildAnswer> RunChild(const std::function<void(int out)>& child, Deadline deadline);
 
-/// What `work` returns; `late` where it was not done by the deadline. Call it from the main thread.
+/// Result of `work`; `late` if it missed the deadline. Call from the main thread.
 Result<std::string> RunBefore(Deadline deadline, const Error& late,
                               const std::function<Result<std::string>()>& work);
 

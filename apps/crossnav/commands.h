@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One struct of options and one function per verb of the program; `crossnav VERB --help` describes
-// them. main.cpp fills the structs from the command line; nothing else knows how they were typed.
+// A struct of options and a function per verb of the program; `crossnav VERB --help` describes
+// them. main.cpp fills the structs from the command line.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace crossnav::app {
 
-/// What every verb takes.
+/// Options common to all verbs.
 struct CommonOptions {
   bool json = false, quiet = false;
   std::string config_file;
@@ -37,11 +37,11 @@ struct WorldOptions {
   double area_m2 = 0;         ///< of one floor; 0 = drawn from the seed
   world::Building building = world::Building::kDrawn;
   std::string out;
-  std::string furniture;      ///< pack folder, "none", or empty = the default place
+  std::string furniture;      ///< pack folder, "none", or empty = the default folder
   std::string contact_sheet;  ///< .png; empty = none
   bool embedded = false, scan = false;
 
-  /// Of house `i` of the set.
+  /// Parameters of house `i` of the set.
   world::HouseParams ParamsOf(int i) const {
     world::HouseParams params;
     params.seed = seed + static_cast<std::uint64_t>(i);
@@ -66,7 +66,7 @@ struct ChangeOptions {
 Result<void> WorldChange(const ChangeOptions& options, const CommonOptions& common,
                          Console& console);
 
-/// Makes houses, keeps none, and says what they amount to.
+/// Generates houses without keeping them, and prints their statistics.
 Result<void> WorldStats(const WorldOptions& options, const CommonOptions& common, Console& console);
 
 struct AssetsOptions {
@@ -76,10 +76,10 @@ struct AssetsOptions {
 Result<void> AssetsImport(const AssetsOptions& options, const CommonOptions& common,
                           Console& console);
 
-/// $XDG_DATA_HOME/crossnav/furniture, where the generator looks for a pack.
+/// $XDG_DATA_HOME/crossnav/furniture, the generator's default pack.
 std::string DefaultFurniture();
-/// The pack that was asked for: a folder, "none", or empty = the default place. Nothing, with a
-/// notice, where the default place has none.
+/// The requested pack: a folder, "none", or empty = the default folder. Without a default pack:
+/// empty, with a notice.
 Result<std::optional<world::FurniturePack>> OpenFurniture(const std::string& wish,
                                                           Console& console);
 
@@ -128,10 +128,11 @@ struct EpisodesOptions {
   std::uint64_t seed = 1;
   bool repeats = false;
   std::string certify;     ///< coverage or detection; empty = as configured
-  std::string track;       ///< origin of the buildings; empty = not said
+  std::string track;       ///< origin of the buildings; empty = none
   std::string scene_list;  ///< file of names, one a line; empty = every scene
   std::vector<int> first;  ///< episodes with their first transition at stage 1, 2, ...
   bool by_scene = false;   ///< one scene in memory at a time
+  std::string goals_as = "category";  ///< category, description, or mixed
 };
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
                               Console& console);
@@ -140,12 +141,18 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
 
 struct ChooseOptions {
   std::string scenes, out;
-  int floors = 1;                       ///< at least
-  std::vector<std::string> categories;  ///< each can be observed from somewhere
+  int floors = 1;                       ///< minimum number
+  std::vector<std::string> categories;  ///< each must be observable
 };
-/// Scenes with so many floors and these categories, as a list for EpisodesGenerate.
+/// Scenes with at least this many floors and these categories, as a list for EpisodesGenerate.
 Result<void> SceneChoose(const ChooseOptions& options, const CommonOptions& common,
                          Console& console);
+
+/// --watch and --watch-port; a port alone asks for it, too.
+struct WatchOptions {
+  bool is_on = false;
+  int port = -1;  ///< 0 = any that is free
+};
 
 struct RunOptions {
   std::string scenes, episodes, episode;
@@ -154,7 +161,9 @@ struct RunOptions {
   std::string replay;    ///< .mcap; empty = none
   std::string save_map;  ///< map file to save the memory to; empty = none
   std::string memory;    ///< map file to start from; empty = none
+  std::string pose;      ///< unknown = to be found in that map; empty = given
   std::string success, budget_scope, perception;
+  WatchOptions watch;
 };
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);
 
@@ -162,6 +171,7 @@ struct DemoOptions {
   int number = 1;  ///< 1 climbs, 2 descends
   std::string out = "out/demo";
   std::string perception;  ///< oracle or networks; empty = as configured
+  WatchOptions watch;
 };
 Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Console& console);
 
@@ -172,17 +182,17 @@ struct EvalOptions {
   std::string shard = "0/1";
   std::string keep_replays = "none";  ///< none | failures
   int jobs = 1;
-  bool resume = false;  ///< the default anyway; says so in scripts
-  // What the files must be; empty = anything.
+  bool resume = false;  ///< the default; documents the intention in scripts
+  // Expected hashes of the files; empty = any.
   std::string episodes_hash;
   std::map<std::string, std::string> mesh_hashes;  ///< name of the scene: hash
 };
 Result<void> Eval(const EvalOptions& options, const CommonOptions& common, Console& console);
 
 struct SlurmOptions {
-  EvalOptions eval;  ///< what the tasks do; shard and jobs are theirs
+  EvalOptions eval;  ///< of the tasks; shard and jobs are set per task
   int tasks = 0, cpus = 1;
-  std::string partition, time, memory, account;  ///< as sbatch takes them; empty = the cluster's
+  std::string partition, time, memory, account;  ///< passed to sbatch; empty = the cluster's
   std::vector<std::string> sbatch;               ///< more options of sbatch
   bool dry_run = false;
 };
@@ -206,14 +216,14 @@ struct SuiteOptions {
   bool partial = false, force = false, page = false;  ///< as in ReportOptions
   std::vector<std::string> to;                        ///< of SuiteExport: form and folder
 };
-/// A suite that is there, in the form of another simulator.
+/// Exports an existing suite in the format of another simulator.
 Result<void> SuiteExport(const SuiteOptions& options, const CommonOptions& common,
                          Console& console);
-/// Makes the suite, unless it is there.
+/// Makes the suite, unless it exists.
 Result<void> SuiteMake(const SuiteOptions& options, const CommonOptions& common, Console& console);
-/// The same, and runs it to its end.
+/// SuiteMake, then runs the suite to its end.
 Result<void> SuiteRun(const SuiteOptions& options, const CommonOptions& common, Console& console);
-/// The same, and reports on every run that it has.
+/// SuiteRun, then reports on all its runs.
 Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& common,
                          Console& console);
 
@@ -229,7 +239,7 @@ Result<void> Report(const ReportOptions& options, const CommonOptions& common, C
 struct GapsOptions {
   std::vector<std::string> runs;
 };
-/// What keeps SPL below 100, from runs of full, known-map and known-objects.
+/// Attribution of the missing SPL, from runs of full, known-map and known-objects.
 Result<void> ShowGaps(const GapsOptions& options, const CommonOptions& common, Console& console);
 
 struct MetricsOptions {
@@ -247,7 +257,7 @@ Result<void> ReplayExport(const ReplayOptions& options, const CommonOptions& com
 struct MapOptions {
   std::string file, text, out;
   int top = 4;
-  std::vector<double> from;  ///< foot point of who asks, world [m]; empty = where it was seen from
+  std::vector<double> from;  ///< foot point of the asker, world [m]; empty = the best view's place
   bool with_voxels = false;
   bool surfaces_only = false, skip_damaged = false;
   std::vector<std::string> objects;  ///< of the graph: categories to look for
@@ -270,11 +280,14 @@ struct NetworksOptions {
   std::vector<std::string> cards;  ///< to check; empty = all
   std::string image, depth, text, out;
   std::string network;  ///< a card that answers alone; empty = those of the settings
+  std::string scenes;   ///< development houses
 };
 Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& common,
                           Console& console);
 Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& common,
                            Console& console);
+Result<void> NetworksCalibrate(const NetworksOptions& options, const CommonOptions& common,
+                               Console& console);
 Result<void> NetworksLook(const NetworksOptions& options, const CommonOptions& common,
                           Console& console);
 
@@ -285,7 +298,7 @@ struct StairsOptions {
   std::vector<std::string> kinds;  ///< empty = all
   std::string keep;                ///< folder for worlds and episodes of failed attempts
 };
-/// Names that StairsOptions::kinds may hold.
+/// Valid names in StairsOptions::kinds.
 std::vector<std::string> StairTrialKinds();
 Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& common,
                          Console& console);
@@ -298,9 +311,20 @@ struct GraphBenchOptions {
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console);
 
+struct LocalizeBenchOptions {
+  std::string scenes;
+  std::string twins;  ///< same | own: houses whose floors are one plan, instead of scenes
+  std::uint64_t house_seed = 1;
+  int houses = 10;  ///< twins
+  int count = 100;
+  std::uint64_t seed = 1;
+};
+Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOptions& common,
+                           Console& console);
+
 struct SensorTrialOptions {
   std::string data;        ///< folder
-  std::string perception;  ///< none | networks; empty = networks where those of `real` are there
+  std::string perception;  ///< none | networks; empty = networks if the files of `real` exist
   std::string networks;    ///< preset, as in LoadWithNetworks
 };
 

@@ -12,7 +12,7 @@
 namespace crossnav::app {
 namespace {
 
-constexpr double kTerminalEvery_ms = 100;  // chosen: readable, and no cost that shows
+constexpr double kTerminalEvery_ms = 100;  // chosen: readable, at negligible cost
 constexpr double kPlainEvery_ms = 10000;   // chosen: a log of an hour stays short
 
 std::size_t TerminalWidth() {

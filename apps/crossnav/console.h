@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the program says: results on stdout (one JSON document where --json is given, text
-// otherwise), everything else on stderr. The only place that prints.
+// Output of the program: results on stdout (one JSON document with --json, text otherwise),
+// everything else on stderr. The only file that prints.
 #pragma once
 
 #include <string>
@@ -11,27 +11,27 @@ namespace crossnav::app {
 
 class Console {
  public:
-  /// `is_silent` keeps stdout free: for a step on the way to the result that is asked for.
+  /// `is_silent` suppresses stdout: for intermediate steps of a verb.
   Console(bool json, bool quiet, bool is_silent = false);
 
   bool json() const { return json_; }
-  /// Text for people, on stdout; nothing under --json.
+  /// Text on stdout; nothing with --json.
   void Print(const std::string& text) const;
-  /// The one JSON document, on stdout; nothing without --json.
+  /// The JSON document, on stdout; nothing without --json.
   void Document(const std::string& json) const;
   template <class Json>
   requires requires(const Json& json) { json.dump(); }
   void Document(const Json& json) const {
-    // Names of files need not be UTF-8, which JSON is.
+    // File names need not be UTF-8; JSON must be.
     Document(json.dump(1, ' ', false, Json::error_handler_t::replace));
   }
-  /// What is going on, on stderr; nothing under --quiet.
+  /// Log line on stderr; nothing with --quiet.
   void Log(const std::string& text);
-  /// One line that replaces itself on a terminal; a plain line now and then otherwise.
+  /// A line that replaces itself on a terminal; otherwise a plain line at intervals.
   void Progress(const std::string& text);
   void EndProgress();
   void Fail(const Error& error);
-  /// Fails where stdout took less than all of it: a full disk.
+  /// Fails if stdout did not accept everything: a full disk.
   Result<void> CheckPrinted() const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kViewWidth_px = 320, kHeight_px = 240, kCaption_px = 14, kGap_px = 4;
 constexpr int kColumns = 2;
-constexpr int kSamples = 100;            // chosen: places from which the view is taken
+constexpr int kSamples = 100;            // chosen: places that are tried for the view
 constexpr double kCameraHeight_m = 1.1;  // chosen: between the robot's eye and a person's
 constexpr Rgb8 kPaper{250, 250, 250}, kInk{20, 20, 24};
 
@@ -38,7 +38,7 @@ RgbImage Halved(const RgbImage& image) {
   return half;
 }
 
-/// Prefers views of many things that are neither under one's nose nor far away.
+/// Prefers views of many objects that are neither very near nor far.
 double Interest(const sim::Scene& scene, const sim::Frame& frame) {
   std::map<int, int> pixels;
   double score = 0;

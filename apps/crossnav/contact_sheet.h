@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One picture of many houses: for each a view from inside and every floor from above, with its
-// seed, floors, stairs and area.
+// A picture of many houses: for each a view from inside and every floor from above, with its seed,
+// floors, stairs and area.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace crossnav::app {
 
 class ContactSheet {
  public:
-  /// Reads the house back from its folder and draws it. `seed` also decides where the view is from.
+  /// Reads the house back from its folder and draws it. `seed` also selects the view.
   Result<void> Add(const world::HouseReport& house, std::uint64_t seed);
   Result<void> Write(const std::filesystem::path& file) const;
 

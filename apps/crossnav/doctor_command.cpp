@@ -27,7 +27,7 @@ Json CpuFeatures() {
   return features;
 }
 
-/// Optional parts: what they are for and how to get them.
+/// Optional parts: purpose, and how to install them.
 Json OptionalParts() {
   const bool has_pack = world::FurniturePack::Load(DefaultFurniture()).has_value();
   Json parts = Json::array();
@@ -47,7 +47,7 @@ Json OptionalParts() {
   return parts;
 }
 
-/// Name and state of each network that there is a card of.
+/// Name and state of each network with a card.
 Json NetworksFound(const evaluation::RunConfig& config) {
   Json found = Json::array();
   const auto cards = inference::ListCards(NetworksDir(config));

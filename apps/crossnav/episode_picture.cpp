@@ -10,7 +10,7 @@
 
 namespace crossnav::app {
 
-/// A floor's picture while it is drawn.
+/// Canvas of a floor.
 struct FloorCanvas {
   const sim::TopDown& view;
   Canvas canvas;

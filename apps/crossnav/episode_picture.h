@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture per floor of what happened in an episode: the floor from above with the trajectory
-// (coloured by goal), the last frontiers, the stairs the agent found, the goals, and a legend.
+// Pictures of an episode, one per floor: the floor from above with the trajectory (coloured by
+// goal), the last frontiers, the stairs found by the agent, the goals, and a legend.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +38,7 @@ class EpisodePicture : public evaluation::RunObserver {
   const evaluation::SceneContext& context_;
   const evaluation::Episode& episode_;
   std::vector<Place> trajectory_;
-  std::vector<trace::CandidateTrace> frontiers_;  ///< of the last step that had any
+  std::vector<trace::CandidateTrace> frontiers_;  ///< of the last step with frontiers
   std::vector<Vector3d> stairs_world_;            ///< centres of confirmed stair voxels
   std::vector<evaluation::StageRecord> stages_;
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/generation/described_goals.h"
 #include "crossnav/evaluation/generation/episode_generator.h"
 #include "crossnav/evaluation/running/evaluation.h"
 #include "eval_progress.h"
@@ -76,7 +77,23 @@ Result<evaluation::EpisodeFile> Draw(const EpisodesOptions& options,
   return evaluation::GenerateEpisodes(*scenes, config, wishes);
 }
 
-/// The most memory that this process has used.
+/// Goals as descriptions: all that can be, or two of three.
+Result<int> Describe(const EpisodesOptions& options, const evaluation::RunConfig& config,
+                     const std::vector<std::string>& ids, evaluation::EpisodeFile& file) {
+  if (options.goals_as == "category") return 0;
+  const double share = options.goals_as == "mixed" ? 2.0 / 3.0 : 1.0;
+  int count = 0;
+  for (const std::string& id : ids) {
+    const auto context = evaluation::SceneContext::Load(options.scenes, id, config);
+    if (!context) return tl::unexpected(context.error());
+    const auto described = evaluation::DescribeGoals(**context, id, share, options.seed, file);
+    if (!described) return described;
+    count += *described;
+  }
+  return count;
+}
+
+/// Peak memory of this process.
 double PeakMegabytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -101,6 +118,8 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   auto file = Draw(options, *config, *scenes, console);
   if (!file) return tl::unexpected(file.error());
   console.EndProgress();
+  const auto described = Describe(options, *config, *scenes, *file);
+  if (!described) return tl::unexpected(described.error());
   for (evaluation::Episode& episode : file->episodes) episode.track = options.track;
   if (auto ok = evaluation::WriteEpisodes(options.out, *file); !ok) return ok;
   const Tally tally = Count(*file);
@@ -110,6 +129,8 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   console.Print(
       fmt::format("{}: {} episodes in {} scenes, {} require a floor change (first at stage {})\n",
                   options.out, tally.episodes, scenes->size(), tally.cross_floor, stages));
+  if (options.goals_as != "category")
+    console.Print(fmt::format("  {} of their goals are descriptions\n", *described));
   console.Log(fmt::format("peak memory {:.0f} MiB", PeakMegabytes()));
   if (file->certificate_edition > 1) {
     console.Print(fmt::format("  {} of {} goal objects are confirmed from nowhere\n",
@@ -165,7 +186,7 @@ Result<void> EpisodesCheck(const EpisodesOptions& options, const CommonOptions& 
   }
   console.EndProgress();
   if (!failures.empty()) {
-    // One document only: the list, not the error.
+    // A single document: the list, without the error.
     if (console.json()) {
       return Fail(ErrorCode::kInvalid,
                   failures.dump(-1, ' ', false, Json::error_handler_t::replace), options.file);

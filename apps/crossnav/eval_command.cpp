@@ -46,13 +46,13 @@ Result<evaluation::EpisodeRecord> Play(SceneCache& cache, const evaluation::Epis
   auto record =
       evaluation::RunEpisode(**context, episode, run.config, observers, run.perception.Maker());
   if (*replay) {
-    const auto closed = (*replay)->Close();  // of an episode that failed, too
+    const auto closed = (*replay)->Close();  // also for a failed episode
     if (record && !closed) return tl::unexpected(closed.error());
   }
   return record;
 }
 
-/// Plays what is not in the file yet.
+/// Plays the episodes that the file lacks.
 Result<void> PlayAll(std::vector<evaluation::Episode> episodes, int jobs, SceneCache& cache,
                      const RunSettings& run, evaluation::ResultWriter& writer, Console& console) {
   EvalProgress shown(console, static_cast<int>(episodes.size()));
@@ -74,7 +74,7 @@ Result<void> PlayAll(std::vector<evaluation::Episode> episodes, int jobs, SceneC
   return evaluation::Evaluate(evaluation, writer);
 }
 
-/// Of a suite: the files must be those of its manifest.
+/// For a suite: the files must match its manifest.
 Result<void> CheckHashes(const EvalOptions& options, const evaluation::RunHeader& header) {
   const char* remedy = "; these are not the suite's files: remove its folder and make it anew";
   if (!options.episodes_hash.empty() && header.episodes_hash != options.episodes_hash) {

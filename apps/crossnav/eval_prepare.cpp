@@ -87,7 +87,7 @@ Result<void> PrepareEval(SceneCache& cache, int jobs, std::vector<evaluation::Ep
   };
   if (auto ok = evaluation::RunPool(task); !ok) return ok;
   console.EndProgress();
-  if (!errors.empty()) return tl::unexpected(errors.begin()->second);  // whoever was first
+  if (!errors.empty()) return tl::unexpected(errors.begin()->second);  // the first error
   return {};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `eval` proves before the first step.
+// Checks of `eval` before the first step.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace crossnav::app {
 
-/// Checks every episode in its scene, certifies those that come without a certificate, and notes
-/// the scenes' hashes in the header. Scenes are loaded by worker processes alone: a process with
-/// the ray caster's threads must not be forked.
+/// Checks every episode in its scene, certifies episodes without a certificate, and records the
+/// scenes' hashes in the header. Only worker processes load scenes: a process with the ray caster's
+/// threads must not be forked.
 Result<void> PrepareEval(SceneCache& cache, int jobs, std::vector<evaluation::Episode>& episodes,
                          evaluation::RunHeader& header, Console& console);
 

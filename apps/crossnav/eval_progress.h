@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Progress lines of evaluations (how episodes ended so far, rate, remaining time) and of counted
+// Progress lines of evaluations (endings of episodes so far, rate, remaining time) and of counted
 // work.
 #pragma once
 
@@ -23,7 +23,7 @@ class EvalProgress {
   std::map<std::string, int> outcomes_;
 };
 
-/// Progress of work on many equal things: how many, rate, remaining time.
+/// Progress of equal units of work: count, rate, remaining time.
 class CountProgress {
  public:
   CountProgress(Console& console, std::string things, std::size_t total);

@@ -12,8 +12,9 @@ namespace crossnav::app {
 namespace {
 
 constexpr Rgb8 kWhite{255, 255, 255}, kBlack{20, 20, 24};
-constexpr double kFoot_m = 0.3;    // chosen: a thing belongs to the floor at most this far above it
-constexpr double kDetail_px = 30;  // chosen: fewer pixels a metre leave no room for words on things
+constexpr double kFoot_m = 0.3;  // chosen: an object belongs to a floor at most this far below it
+// chosen: fewer pixels a metre leave no room for labels of objects
+constexpr double kDetail_px = 30;
 constexpr std::array<Rgb8, kCategories.size()> kCategoryColours = {
     Rgb8{230, 120, 20},  //
     {200, 40, 160},     {20, 140, 40}, {20, 120, 220}, {120, 60, 220}, {210, 30, 40}};
@@ -24,7 +25,7 @@ Rgb8 ColourOfCategory(const std::string& category) {
                           kCategoryColours.size()];
 }
 
-/// The highest floor that lies under `z_m`; the lowest where none does.
+/// The highest floor at or below `z_m`; else the lowest floor.
 int FloorUnder(const sim::NavMesh& navmesh, double z_m) {
   int best = 0;
   for (const sim::Floor& floor : navmesh.Floors()) {
@@ -42,7 +43,7 @@ int NearestFloor(const sim::NavMesh& navmesh, double z_m) {
   return it->id;
 }
 
-/// A label, unless another one is in its place.
+/// A label, unless its place is taken by another label.
 void Word(Canvas& canvas, PixelPoint center, std::string_view text, Rgb8 colour, double paper,
           std::vector<world::Rect>& taken) {
   const double half = 0.5 * TextWidth(text, 1);

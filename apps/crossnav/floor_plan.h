@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A floor from above with the names of its rooms, where the scene knows them, and its goal objects
-// in the colours of their categories.
+// A floor from above with the names of its rooms, if known, and its goal objects in the colours of
+// their categories.
 #pragma once
 
 #include "crossnav/sim/sensing/picture.h"

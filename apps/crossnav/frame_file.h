@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame from files, as `networks look` takes it: a picture, and a depth image where there is one.
+// Reads a frame from files, for `networks look`: a picture, and an optional depth image.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 namespace crossnav::app {
 
 /// The picture (PNG or JPEG) and its depth: 16-bit PGM [mm], or an .npy matrix [m]. `depth` empty =
-/// nothing was measured. The camera is level at the sensor's height with its field of view. Errors
-/// name the file: unreadable, or of another size than the picture.
+/// no measurement. The camera is level at the sensor's height with its field of view. Errors name
+/// the file: unreadable, or of another size than the picture.
 Result<Observation> ReadFrame(const std::filesystem::path& picture,
                               const std::filesystem::path& depth, const SensorConfig& sensor);
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kOversample = 2;  // chosen: colours are means of 2 x 2 rays, as a camera's are
+constexpr int kOversample = 2;  // chosen: colours are means of 2 x 2 rays, as in a camera
 
 /// A file in NumPy's format 1, written row by row.
 class NpyFile {
@@ -54,7 +54,7 @@ struct Arrays {
   std::vector<std::uint16_t> instance_id;  // size x size, 0 = none
 };
 
-/// Colours are averaged, depth and instance are of the ray nearest to the pixel's middle.
+/// Averages colours; depth and instance come from the ray nearest to the pixel's middle.
 Arrays Reduce(const sim::Frame& frame, int size) {
   Arrays arrays;
   for (int v = 0; v < size; ++v) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Objects of one goal that a detector finds in the frames of a recording, merged over frames as
-// the agent does it.
+// Objects of one goal in the frames of a recording: detections merged over frames by the agent's
+// rules.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ class GoalSightings {
   std::vector<const policy::LivePoi*> Places() const { return pois_.Stable(config_.policy.object); }
   /// A JSON array: centre [m], frames and best confidence of each.
   std::string PlacesJson() const;
-  /// A line for each.
+  /// A line for each place.
   std::string PlacesText() const;
 
  private:

@@ -29,7 +29,9 @@ Json ObjectJson(const scenegraph::GraphObject& object) {
           {"box_min", PointJson(object.box.min)},
           {"box_max", PointJson(object.box.max)},
           {"match", object.match},
-          {"certain", object.is_certain}};
+          {"certain", object.is_certain},
+          {"record", object.record >= 0 ? Json(object.record) : Json()},
+          {"confidence", OrNull(object.confidence)}};
 }
 
 std::string Escaped(const std::string& text) {

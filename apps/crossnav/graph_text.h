@@ -11,7 +11,7 @@ namespace crossnav::app {
 std::string GraphJson(const scenegraph::SceneGraph& graph);
 /// GraphML 1.0: nodes with `kind`, edges with `relation`.
 std::string GraphXml(const scenegraph::SceneGraph& graph);
-/// For people: floors, their rooms, objects by category.
+/// Summary text: floors, their rooms, objects by category.
 std::string GraphSummary(const scenegraph::SceneGraph& graph);
 
 }  // namespace crossnav::app

@@ -40,7 +40,7 @@ std::string PythonName() {
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_AS, &memory);
   ::setrlimit(RLIMIT_CORE, &none);
-  ::setrlimit(RLIMIT_FSIZE, &none);  // it has nothing to write
+  ::setrlimit(RLIMIT_FSIZE, &none);  // it writes no files
   const int null = ::open("/dev/null", O_RDWR);
   ::dup2(null, 0);
   ::dup2(out, 1);
@@ -76,7 +76,7 @@ Result<std::string> ReadIfc(const std::string& file, const IfcLimit& limit) {
   if (!fs::exists(file, error)) return Fail(ErrorCode::kNotFound, "does not exist", file);
   if (!fs::is_regular_file(file, error)) return Fail(ErrorCode::kInvalid, "is no file", file);
   const std::string python = PythonName();
-  // An absolute path is never taken for an option.
+  // An absolute path cannot be mistaken for an option.
   const std::string path = fs::absolute(file, error).string();
   auto answer = Ask({python, "-c", std::string(IfcReader()), path}, limit);
   if (!answer) return tl::unexpected(answer.error());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// IFC files, read by IfcOpenShell in a Python of the user's, with limits of time and memory.
+// Reads IFC files by IfcOpenShell in the user's Python, with limits of time and memory.
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@ namespace crossnav::app {
 /// The text of ifc_reader.py.
 std::string_view IfcReader();
 
-/// Of a whole import: processor time of the reader, and when all of it ends by the clock.
+/// Limits of an import: processor time of the reader, and a deadline in wall time for the whole.
 struct IfcLimit {
   int seconds = 0;
   Deadline deadline = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
 };
 
-/// What is said where the limit was too short.
+/// Error for an exceeded limit.
 Error TooLate(const std::string& file, const IfcLimit& limit);
 
-/// The building in an IFC file, as docs/formats/building.md has it. The Python is that of
-/// CROSSNAV_PYTHON, else the one that `scripts/setup.sh ifc` made, else python3.
+/// The building in an IFC file, in the format of docs/formats/building.md. The Python is
+/// CROSSNAV_PYTHON, else the environment of `scripts/setup.sh ifc`, else python3.
 Result<std::string> ReadIfc(const std::string& file, const IfcLimit& limit);
 
 }  // namespace crossnav::app

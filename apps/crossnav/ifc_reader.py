@@ -2,7 +2,7 @@
 """Reads an IFC file with IfcOpenShell; prints the building as docs/formats/building.md has it.
 
 `crossnav scene import FILE.ifc` runs this text with `python3 -c`, with limits of time and memory.
-Exit status 0: standard output is the building. 1: it is one line that says what is wrong. 3: the
+Exit status 0: standard output is the building. 1: one line with the error. 3: the
 package ifcopenshell is missing. World frame, z up, metres.
 """
 import sys
@@ -18,13 +18,13 @@ os.dup2(2, 1)
 MAX_PRODUCTS = 50_000
 MAX_TRIANGLES = 1_000_000
 MAX_NAME = 200  # characters
-REACH_M = 250.0  # from the middle of the building; what lies further is left out
-FAR_M = 1000.0  # of the middle from the origin; further is moved back
+REACH_M = 250.0  # from the middle of the building; farther elements are left out
+FAR_M = 1000.0  # of the middle from the origin; farther buildings are moved back
 HIGH_M = 100.0
 MAX_WALL_M = 0.6  # from the middle of a door to a face of its wall
 BOTTOM_M = 0.3  # height of the part of a space that is its ground
 
-# What is drawn: class -> kind, the first that fits. A class that is not here is furniture or "".
+# Drawn classes: class -> kind, the first match. Other classes are furniture or "".
 KINDS = (
     ("IfcWall", "wall"), ("IfcCurtainWall", "wall"), ("IfcSlab", "floor"), ("IfcRoof", "roof"),
     ("IfcCovering", "ceiling"), ("IfcStair", "stairs"), ("IfcStairFlight", "stairs"),
@@ -44,7 +44,7 @@ LEFT_OUT = ("IfcOpeningElement", "IfcFeatureElement", "IfcVirtualElement", "IfcR
 
 
 class Refused(Exception):
-    """What is wrong with the file."""
+    """An error in the file."""
 
 
 def is_a(entity, names):
@@ -80,7 +80,7 @@ def kind_of(entity):
 
 
 def names_of(entity):
-    """Names that may say what it is, the most certain first."""
+    """Names that may give its kind, the most certain first."""
     from ifcopenshell.util import element as util
     kind = util.get_type(entity)
     names = [predefined(entity), getattr(entity, "LongName", None), entity.Name,
@@ -116,7 +116,7 @@ class Building:
             products = len(self.file.by_type("IfcProduct"))
         except MemoryError:
             raise
-        except Exception as error:  # of many kinds
+        except Exception as error:  # the library raises many types
             raise Refused("is not readable IFC: " + " ".join(str(error).split())[:200]) from None
         if products == 0:
             raise Refused("holds no building (no IfcProduct that can be read); export it again")
@@ -168,7 +168,7 @@ class Building:
         return self.colours.setdefault(key, len(self.colours))
 
     def move_near(self):
-        """Drops what is far from the rest and moves the rest to the origin."""
+        """Drops elements far from the others and moves the others to the origin."""
         import numpy
         middles = {i: 0.5 * (s[0].min(0) + s[0].max(0)) for i, s in self.shapes.items()}
         middle = numpy.median(numpy.array(list(middles.values())), axis=0)
@@ -326,7 +326,7 @@ def outline_of(vertices, faces):
         triangles = [t for t in triangles if t.area > 1e-6]
         ground = shapely.unary_union([t.buffer(1e-3, join_style="mitre") for t in triangles])
         areas.append(largest(ground))
-    # A stair's space may stand on its lowest tread only.
+    # A stair's space may stand on its lowest tread only: then the next area counts.
     ground = areas[0] if areas[0].area > 0.5 * areas[1].area else areas[1]
     if ground.area < 0.05:
         return None
@@ -355,7 +355,7 @@ def main():
         OUT.write("needs more memory than its reader may use; export single storeys\n")
         OUT.flush()
         return 1
-    except Exception as error:  # whatever the library throws at a damaged file
+    except Exception as error:  # the library raises any type on a damaged file
         what = " ".join(f"{type(error).__name__}: {error}".split())[:200]
         OUT.write(f"cannot be read by IfcOpenShell ({what}); export it again\n")
         OUT.flush()
@@ -366,4 +366,4 @@ def main():
 
 
 status = main()
-os._exit(status)  # without the library's long end
+os._exit(status)  # skips the library's slow shutdown

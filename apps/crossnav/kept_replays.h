@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `eval --keep-replays failures`: every episode is recorded while it runs, and the replays of those
-// that did not complete stay, as RUN/replays/<episode>.mcap.
+// `eval --keep-replays failures`: every episode is recorded during its run, and the replays of
+// failed episodes are kept, as RUN/replays/<episode>.mcap.
 #pragma once
 
 #include <filesystem>
@@ -16,13 +16,13 @@ class KeptReplays {
   KeptReplays(const EvalOptions& options, const evaluation::RunConfig& config,
               const evaluation::RunHeader& header);
 
-  /// Whether replays can be written; nothing to check where none is kept.
+  /// Checks that replays can be written; no check if none are kept.
   Result<void> Check() const;
-  /// In a worker, before the episode; null where none is kept.
+  /// In a worker, before the episode; null if none are kept.
   Result<std::unique_ptr<ReplayLog>> Open(const evaluation::SceneContext& context,
                                           const evaluation::Episode& episode) const;
-  /// In the program, when the episode has its record: keeps or removes the replay. Of a worker that
-  /// crashed or was killed it keeps what has reached the disk.
+  /// In the program, after the episode's record: keeps or removes the replay. Of a crashed or
+  /// killed worker it keeps the part on disk.
   void Finish(const evaluation::EpisodeRecord& record) const;
 
  private:

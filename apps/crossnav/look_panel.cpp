@@ -44,7 +44,7 @@ std::string Capitals(std::string text) {
   return text;
 }
 
-/// One field of the panel: each pixel by `paint(u, v)` of the frame.
+/// A field of the panel: each pixel by `paint(u, v)` of the frame.
 template <class Paint>
 Canvas Field(const RgbImage& rgb, double scale, const Paint& paint) {
   RgbImage image(std::max(1, static_cast<int>(rgb.width * scale)),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What networks see in a frame, as a picture for people.
+// Results of networks for a frame, as a picture.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace crossnav::app {
 
-/// Everything that was asked of one frame. What nobody answers is empty.
+/// Results of all networks for one frame; empty parts were not computed.
 struct Look {
   struct Found {
     std::string goal;

@@ -29,7 +29,7 @@ CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const ch
 
 namespace {
 
-/// Of a verb or option that does not exist, with its nearest neighbour; empty where all exist.
+/// Message for an unknown verb or option, with its nearest neighbour; empty if all are known.
 std::string MistypedName(const CLI::App& app, const std::vector<std::string>& words) {
   const CLI::App* verb = &app;
   bool is_value = false;  // may be the value of the option before it
@@ -78,7 +78,7 @@ int Main(int argc, char** argv) {
     return 2;
   }
   Console console(options.common.json, options.common.quiet);
-  // Not all verbs have use for settings, but none takes wrong ones.
+  // Settings are checked for all verbs, including verbs that do not use them.
   std::vector<std::string> warnings;
   const auto config = LoadConfig(options.common, "full", &warnings);
   for (const std::string& warning : warnings) console.Log("crossnav: warning: " + warning);

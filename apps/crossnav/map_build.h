@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `map build`: a map file of a sensor's recording, and the answer to a text as `map query` has it.
+// `map build`: makes a map file from a sensor's recording, and answers a text as `map query` does.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace crossnav::app {
 
 struct MapBuildOptions {
   std::string from, out;
-  std::string goal;                        ///< what to look for in the map; empty = nothing
-  std::string perception;                  ///< none | networks; empty = as goal and networks say
-  std::string networks;                    ///< preset, as in LoadWithNetworks
-  int top = 4;                             ///< as in MapOptions
-  recordings::RecordingOptions recording;  ///< but for what is typed as numbers:
+  std::string goal;        ///< object to search in the map; empty = none
+  std::string perception;  ///< none | networks; empty = derived from goal and networks
+  std::string networks;    ///< preset, as in LoadWithNetworks
+  int top = 4;             ///< as in MapOptions
+  recordings::RecordingOptions recording;            ///< without the numbers typed below
   std::vector<double> intrinsics, depth_intrinsics;  ///< fx, fy, cx, cy [px]; empty = not given
   std::vector<double> extrinsics, mount;             ///< x, y, z [m], qx, qy, qz, qw; likewise
   double pose_gap_s = 0.5;
@@ -24,7 +24,7 @@ struct MapBuildOptions {
 Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& common,
                       Console& console);
 
-/// What a query found, for people and for machines.
+/// Result of a query, as text and as JSON.
 struct MapAnswer {
   std::string text, json;
 };

@@ -6,6 +6,7 @@
 
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/running/timing.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/store/map_file.h"
 #include "eval_progress.h"
 #include "goal_sightings.h"
@@ -69,7 +70,7 @@ Result<evaluation::RunConfig> ConfigOf(const MapBuildOptions& options,
   return LoadConfig(all);
 }
 
-/// The file that is written when all is done: one that can be, and none but a map is replaced.
+/// Checks, before the work, that the output can be written; only maps are replaced.
 Result<void> CheckOut(const std::string& out) {
   if (auto ok = evaluation::CheckOutputFile(out, "--out"); !ok) return ok;
   std::error_code error;
@@ -79,7 +80,7 @@ Result<void> CheckOut(const std::string& out) {
   return {};
 }
 
-/// Map and memory while they grow.
+/// Map and memory under construction.
 class Builder {
  public:
   Builder(const evaluation::RunConfig& config, perception::PerceptionSuite* suite,
@@ -137,7 +138,7 @@ class Builder {
   double start_ms_;
 };
 
-/// The detector's answer to the goal.
+/// Text of the detector's places for the goal.
 std::string GoalText(const GoalSightings& sightings, const std::string& goal,
                      const std::string& detector) {
   if (!sightings.is_known())
@@ -145,6 +146,19 @@ std::string GoalText(const GoalSightings& sightings, const std::string& goal,
   const std::size_t count = sightings.Places().size();
   if (count == 0) return fmt::format("\"{}\": none found by {}\n", goal, detector);
   return fmt::format("\"{}\": {} found by {}\n{}", goal, count, detector, sightings.PlacesText());
+}
+
+/// Whether the goal is there: by the memory where its encoder's matches tell, else by the detector.
+struct GoalVerdict {
+  std::string verdict, by;
+};
+
+GoalVerdict VerdictOf(const GoalSightings& sightings, const std::string& by_memory) {
+  if (by_memory != memory::NameOf(memory::Verdict::kUnknown)) return {by_memory, "memory"};
+  if (!sightings.is_known()) return {by_memory, "memory"};
+  const auto verdict =
+      sightings.Places().empty() ? memory::Verdict::kAbsent : memory::Verdict::kPresent;
+  return {std::string(memory::NameOf(verdict)), "detector"};
 }
 
 Json GoalJson(const GoalSightings& sightings, const std::string& detector) {
@@ -206,7 +220,7 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
   if (!recording) return tl::unexpected(recording.error());
   console.EndProgress();
   const std::filesystem::path from =
-      std::filesystem::path(options.from) / "";  // a name with or without a slash behind it
+      std::filesystem::path(options.from) / "";  // accepts a trailing slash
   const auto saved = builder.Save(options.out, encoder,
                                   recording->format + " " + from.parent_path().filename().string());
   if (!saved) return tl::unexpected(saved.error());
@@ -229,9 +243,16 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
     query.top = options.top;
     const auto answer = AnswerQuery(query, *config, console);
     if (!answer) return tl::unexpected(answer.error());
-    console.Print(GoalText(*sightings, options.goal, config->networks.detector) + answer->text);
     document["detected"] = GoalJson(*sightings, config->networks.detector);
     document["answer"] = Json::parse(answer->json);
+    const auto by_memory = document["answer"].value("verdict", "unknown");
+    const GoalVerdict verdict = VerdictOf(*sightings, by_memory);
+    document["verdict"] = verdict.verdict;
+    document["verdict_by"] = verdict.by;
+    if (verdict.by == "detector")
+      console.Print(fmt::format("\"{}\" is {}, says the detector {}\n", options.goal,
+                                verdict.verdict, config->networks.detector));
+    console.Print(GoalText(*sightings, options.goal, config->networks.detector) + answer->text);
   }
   console.Document(document);
   return {};

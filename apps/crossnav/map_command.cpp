@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "crossnav/agent/observation_place.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/core/write_file.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
-#include "crossnav/sim/sensing/ground_truth_encoder.h"
-#include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/store/export_ply.h"
 #include "crossnav/store/map_file.h"
+#include "graph_file.h"
 #include "graph_picture.h"
 #include "graph_text.h"
 #include "map_build.h"
-#include "perception_source.h"
-#include "session.h"
+#include "map_texts.h"
 
 namespace crossnav::app {
 namespace {
@@ -32,85 +33,10 @@ Json PointJson(const Vector3d& p) {
 
 Result<store::LoadedMemory> Load(const MapOptions& options, const evaluation::RunConfig& config,
                                  Console& console) {
-  const auto header = store::ReadMapHeader(options.file);
-  if (!header) return tl::unexpected(header.error());
-  store::LoadOptions load;
-  load.map = config.agent.map;
-  load.map->voxel_m = header->voxel_m;
-  load.map->clearing = header->clearing;
-  load.fusion = config.agent.fusion;
-  load.skip_damaged = options.skip_damaged;
-  auto loaded = store::LoadMemory(options.file, load);
-  if (loaded) {
-    for (const std::string& damage : loaded->damaged) console.Log(options.file + ": " + damage);
-  }
-  return loaded;
+  return LoadMap(options.file, options.skip_damaged, config, console);
 }
 
-/// A floor tile: the ground-truth encoder wants a simulator, though not for texts.
-sim::Scene TileScene() {
-  sim::Scene scene;
-  scene.id = "tile";
-  scene.materials.resize(1);
-  scene.mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
-  scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  sim::UpdateDerived(scene);
-  return scene;
-}
-
-/// What is looked for, in the space of the map's features.
-struct TextVectors {
-  std::vector<float> text;
-  std::vector<std::vector<float>> background;  ///< for query.relevancy = contrastive
-};
-
-/// The text in the space of `encoder`, and what it may be held against.
-Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::string& text,
-                               const evaluation::RunConfig& config) {
-  auto vector = encoder.EncodeText(text);
-  if (!vector) return tl::unexpected(vector.error());
-  if (config.agent.query.relevancy != "contrastive") return TextVectors{std::move(*vector), {}};
-  auto background = perception::EncodeTexts(encoder, memory::kBackgroundPrompts);
-  if (!background) return tl::unexpected(background.error());
-  return TextVectors{std::move(*vector), std::move(*background)};
-}
-
-/// As ground truth would encode the text for features of `dim` numbers.
-Result<TextVectors> EncodeTruth(const MapOptions& options, int dim,
-                                const evaluation::RunConfig& config) {
-  const sim::Scene scene = TileScene();
-  const auto navmesh = sim::NavMesh::Build(scene, config.navmesh);
-  if (!navmesh) return tl::unexpected(navmesh.error());
-  const sim::RayCaster caster(scene);
-  const sim::Simulator simulator(scene, *navmesh, caster, config.agent.sensor, config.agent.action);
-  sim::GroundTruthConfig texts = config.ground_truth;
-  texts.feature_dim = dim;  // the map knows
-  const auto encoder = sim::MakeGroundTruthEncoder(simulator, texts);
-  if (!encoder) return tl::unexpected(encoder.error());
-  if ((*encoder)->Dim() != dim) {
-    return Fail(ErrorCode::kMismatch,
-                fmt::format("its features have {} numbers, the vectors of ground_truth.clip_dir {}",
-                            dim, (*encoder)->Dim()),
-                options.file);
-  }
-  return EncodeWith(**encoder, options.text, config);
-}
-
-Result<TextVectors> EncodeText(const MapOptions& options, const store::MapHeader& header,
-                               const evaluation::RunConfig& config) {
-  if (header.feature_dim == 0)
-    return Fail(ErrorCode::kInvalid, "this map holds no features to query", options.file);
-  const auto source = PerceptionSource::Read(config);
-  if (!source) return tl::unexpected(source.error());
-  if (auto ok = CheckEncoder(header, source->EncoderName(), options.file); !ok)
-    return tl::unexpected(ok.error());
-  auto suite = source->MakeSuite();
-  if (!suite) return EncodeTruth(options, header.feature_dim, config);
-  if (!*suite) return tl::unexpected(suite->error());
-  return EncodeWith(*(*suite)->encoder, options.text, config);
-}
-
-/// From `options.from`, else from where the place was seen best: the agent stood there once.
+/// From `options.from`, else from the place of its best view, where the agent once stood.
 std::optional<agent::ObservationPlace> PlaceToStand(const MapOptions& options,
                                                     const geometry::VoxelMap& map,
                                                     const memory::MemoryCluster& cluster,
@@ -177,17 +103,15 @@ Json FlightsJson(const std::vector<geometry::StairFlight>& flights) {
 
 /// The first line of an answer.
 std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
-                        const std::string& encoder, bool is_nowhere) {
-  const auto from = memory::PresentFrom(encoder);
-  switch (memory::Judge(match, encoder)) {
+                        const std::string& encoder, std::optional<double> from, bool is_nowhere) {
+  switch (memory::Judge(match, from)) {
     case memory::Verdict::kAbsent:
       return fmt::format(
           "\"{}\" is absent: nothing matches better than {:.2f}, present is {:.2f}\n", text,
           match.best, *from);
     case memory::Verdict::kUnknown:
       return fmt::format(
-          "\"{}\" matches {:.2f}; for features of {} it was never measured from where "
-          "on it is there\n",
+          "\"{}\" matches {:.2f}; features of {} do not tell what is there from what is not\n",
           text, match.best, encoder.empty() ? "an unknown encoder" : encoder);
     case memory::Verdict::kPresent:
       break;
@@ -196,40 +120,10 @@ std::string VerdictText(const std::string& text, const memory::QueryMatch& match
                      match.best, is_nowhere ? ", but so much of it that no place stands out" : "");
 }
 
-/// The places of `category` that match as well as what is present; all of them where that was never
-/// measured for the map's encoder.
-Result<void> AddObjects(const MapOptions& options, const std::string& category,
-                        const store::LoadedMemory& loaded, const evaluation::RunConfig& config,
-                        scenegraph::SceneGraph& graph) {
-  MapOptions asked = options;
-  asked.text = category;
-  const auto vectors = EncodeText(asked, loaded.header, config);
-  if (!vectors) return tl::unexpected(vectors.error());
-  memory::QueryConfig query = config.agent.query;
-  query.top_k = 1000;  // all that stand out
-  const auto found = memory::Query(loaded.memory, vectors->text, query, vectors->background);
-  const auto match = memory::MatchOf(loaded.memory, vectors->text, found);
-  const auto from = memory::PresentFrom(loaded.header.encoder_name);
-  graph.asked.push_back(category);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (from && match.places[i] < *from) continue;
-    scenegraph::GraphObject object;
-    object.category = category;
-    object.p_center_world = found[i].p_center_world;
-    object.box = found[i].box;
-    object.match = match.places[i];
-    object.is_certain = from.has_value();
-    AddObject(graph, std::move(object));
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Console& console) {
-  const bool is_xml = options.out.ends_with(".graphml");
-  if (!is_xml && !options.out.ends_with(".json"))
-    return Fail(ErrorCode::kUnsupported, "a graph is written as .json or .graphml", "--to");
+  if (auto ok = CheckGraphFile(options.out); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFile(options.out, "--to"); !ok) return ok;
   if (auto ok = evaluation::CheckNotInput(options.out, "--to", options.file); !ok) return ok;
   if (auto ok = evaluation::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
@@ -238,15 +132,14 @@ Result<void> MapGraph(const MapOptions& options, const CommonOptions& common, Co
   const auto loaded = Load(options, *config, console);
   if (!loaded) return tl::unexpected(loaded.error());
   auto graph = scenegraph::BuildGraph(loaded->map, loaded->memory, loaded->flights);
-  for (const std::string& category : options.objects)
-    if (auto ok = AddObjects(options, category, *loaded, *config, graph); !ok) return ok;
+  AddRecords(graph, loaded->objects);
+  if (auto ok = FindObjects(options.file, options.objects, *loaded, *config, graph); !ok) return ok;
   RelateObjects(graph);
-  const std::string json = GraphJson(graph);
-  if (auto ok = WriteFileAtomically(options.out, is_xml ? GraphXml(graph) : json); !ok) return ok;
+  if (auto ok = WriteGraphFile(graph, options.out); !ok) return ok;
   if (!options.pictures.empty())
     if (auto ok = WriteFloorPictures(graph, options.pictures); !ok) return ok;
   console.Print(GraphSummary(graph));
-  console.Document(json);
+  console.Document(GraphJson(graph));
   return {};
 }
 
@@ -290,17 +183,18 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
                               Console& console) {
   const auto loaded = Load(options, config, console);
   if (!loaded) return tl::unexpected(loaded.error());
-  const auto vectors = EncodeText(options, loaded->header, config);
+  const auto vectors = EncodeText(options.file, options.text, loaded->header, config);
   if (!vectors) return tl::unexpected(vectors.error());
   memory::QueryConfig query = config.agent.query;
   query.top_k = options.top;
   const auto found = memory::Query(loaded->memory, vectors->text, query, vectors->background);
   const auto match = memory::MatchOf(loaded->memory, vectors->text, found);
   const std::string& encoder = loaded->header.encoder_name;
-  const memory::Verdict verdict = memory::Judge(match, encoder);
+  const auto from = PresentFrom(encoder, config);
+  const memory::Verdict verdict = memory::Judge(match, from);
   Json places = Json::array();
   MapAnswer answer;
-  answer.text = VerdictText(options.text, match, encoder, found.empty());
+  answer.text = VerdictText(options.text, match, encoder, from, found.empty());
   for (std::size_t i = 0; verdict != memory::Verdict::kAbsent && i < found.size(); ++i) {
     const memory::MemoryCluster& cluster = found[i];
     const Vector3d& p = cluster.p_center_world;
@@ -315,7 +209,6 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
     places.push_back(ClusterJson(cluster, match.places[i], place, loaded->map.config().voxel_m,
                                  options.with_voxels));
   }
-  const auto from = memory::PresentFrom(encoder);
   answer.json = Json({{"text", options.text},
                       {"verdict", memory::NameOf(verdict)},
                       {"match", match.best},
@@ -346,7 +239,7 @@ Result<void> MapExport(const MapOptions& options, const CommonOptions& common, C
   if (options.text.empty()) {
     points = store::StatePoints(loaded->map, options.surfaces_only);
   } else {
-    const auto vectors = EncodeText(options, loaded->header, *config);
+    const auto vectors = EncodeText(options.file, options.text, loaded->header, *config);
     if (!vectors) return tl::unexpected(vectors.error());
     points = store::FieldPoints(
         loaded->memory, memory::RelevancyField(loaded->memory, vectors->text, config->agent.query,

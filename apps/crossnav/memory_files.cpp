@@ -5,22 +5,42 @@
 
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/evaluation/settings/config_file.h"
+#include "crossnav/scenegraph/build_graph.h"
 #include "session.h"
 
 namespace crossnav::app {
 
-Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::RunConfig& config,
-                           const std::string& encoder, agent::Agent& agent) {
+Result<store::LoadedMemory> ReadMemory(const std::filesystem::path& path,
+                                       const evaluation::RunConfig& config,
+                                       const std::string& encoder) {
   const auto header = store::ReadMapHeader(path);
   if (!header) return tl::unexpected(header.error());
-  if (auto ok = CheckEncoder(*header, encoder, path.string()); !ok) return ok;
+  if (auto ok = CheckEncoder(*header, encoder, path.string()); !ok)
+    return tl::unexpected(ok.error());
   store::LoadOptions options;
   options.map = config.agent.map;
+  // Agent::Restore gives the evidence counts where it has none.
+  if (config.agent.memory.mode == "revise") options.map->clearing = header->clearing;
   options.fusion = config.agent.fusion;
-  auto loaded = store::LoadMemory(path, options);
+  return store::LoadMemory(path, options);
+}
+
+Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::RunConfig& config,
+                           const std::string& encoder, agent::Agent& agent) {
+  auto loaded = ReadMemory(path, config, encoder);
   if (!loaded) return tl::unexpected(loaded.error());
-  return agent.Restore(std::move(loaded->map), std::move(loaded->memory),
-                       std::move(loaded->flights), loaded->seen_stairs);
+  auto restored = agent.Restore(std::move(loaded->map), std::move(loaded->memory),
+                                std::move(loaded->flights), loaded->seen_stairs);
+  if (!restored) return restored;
+  agent.RestoreObjects(std::move(loaded->objects), static_cast<int>(loaded->header.revision));
+  return {};
+}
+
+Result<std::optional<store::LoadedMemory>> MemoryLoader::LostIn() {
+  if (is_pose_known_) return std::nullopt;
+  auto loaded = ReadMemory(path_, config_, encoder_);
+  if (!loaded) return tl::unexpected(loaded.error());
+  return std::optional<store::LoadedMemory>(std::move(*loaded));
 }
 
 Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::filesystem::path& path,
@@ -30,6 +50,9 @@ Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::fil
   info.frame = frame;
   info.flights = agent.flights();
   info.seen_stairs = agent.seen_stairs();
+  info.objects = agent.objects();
+  if (!info.objects.empty())
+    LocateRecords(scenegraph::BuildGraph(agent.map(), agent.memory(), info.flights), info.objects);
   return store::SaveMemory(path, agent.map(), agent.memory(), info);
 }
 
@@ -46,7 +69,8 @@ Result<std::unique_ptr<MemoryLoader>> KnownMemories::For(
     if (!survey) return tl::unexpected(survey.error());
     fs::create_directories(folder_, error);
     fs::path part = path;
-    part += "." + std::to_string(getpid());  // of this worker; another may make the same one
+    // of this worker; another worker may make the same file
+    part += "." + std::to_string(getpid());
     store::SaveInfo info;
     info.encoder_name = encoder_;
     info.frame = "ground truth of " + context.scene().id;

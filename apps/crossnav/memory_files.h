@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// An agent's memory from and to a map file.
+// Loads and saves an agent's memory.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "crossnav/agent/agent.h"
@@ -15,33 +16,50 @@
 
 namespace crossnav::app {
 
-/// Gives an agent that has not stepped yet the memory saved at `path`. Errors: features of another
-/// encoder than `encoder`, what LoadMemory and Agent::Restore refuse.
+/// Loads the memory saved at `path` into an agent before its first step. Errors: features of
+/// another encoder than `encoder`, errors of LoadMemory and Agent::Restore.
 Result<void> RestoreMemory(const std::filesystem::path& path, const evaluation::RunConfig& config,
                            const std::string& encoder, agent::Agent& agent);
 
-/// `frame`: what the world frame is, in words.
+/// `frame`: name of the world frame, free text.
 Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::filesystem::path& path,
                                        const std::string& encoder, const std::string& frame);
 
-/// Gives an agent a saved memory before its first goal: the lifelong case.
+/// Reads the memory saved at `path` for going on with `config`. Errors: features of another encoder
+/// than `encoder`, what LoadMemory refuses.
+Result<store::LoadedMemory> ReadMemory(const std::filesystem::path& path,
+                                       const evaluation::RunConfig& config,
+                                       const std::string& encoder);
+
+/// Gives an agent a saved memory before its first goal: the lifelong case. With an unknown pose the
+/// robot has to find itself in it first.
 class MemoryLoader : public evaluation::RunObserver {
  public:
-  MemoryLoader(std::filesystem::path path, const evaluation::RunConfig& config, std::string encoder)
-      : path_(std::move(path)), config_(config), encoder_(std::move(encoder)) {}
+  MemoryLoader(std::filesystem::path path, const evaluation::RunConfig& config, std::string encoder,
+               bool is_pose_known = true)
+      : path_(std::move(path)),
+        config_(config),
+        encoder_(std::move(encoder)),
+        is_pose_known_(is_pose_known) {}
 
   Result<void> OnStart(agent::Agent& state) override {
-    return RestoreMemory(path_, config_, encoder_, state);
+    return is_pose_known_ ? RestoreMemory(path_, config_, encoder_, state) : Result<void>();
   }
+  Result<std::optional<store::LoadedMemory>> LostIn() override;
+  void OnAwoken(const evaluation::Awoken& awoken) override { awoken_ = awoken; }
+  /// Nothing where the pose was known.
+  const std::optional<evaluation::Awoken>& awoken() const { return awoken_; }
 
  private:
   std::filesystem::path path_;
   const evaluation::RunConfig& config_;
   std::string encoder_;
+  bool is_pose_known_;
+  std::optional<evaluation::Awoken> awoken_;
 };
 
-/// Memories that the variants known-map and known-objects start from: ground truth, a file for each
-/// scene in `folder`, made when it is first asked for (evaluation/running/survey.h).
+/// Memories of the variants known-map and known-objects: ground truth, a file for each scene in
+/// `folder`, made on first use (evaluation/running/survey.h).
 class KnownMemories {
  public:
   /// `config` must outlive it.
@@ -53,7 +71,7 @@ class KnownMemories {
         encoder_(std::move(encoder)) {}
 
   bool IsOn() const { return known_ != evaluation::Known::kNothing; }
-  /// Null where the variant is told nothing.
+  /// Null if the variant starts without knowledge.
   Result<std::unique_ptr<MemoryLoader>> For(const evaluation::SceneContext& context) const;
 
  private:

@@ -34,6 +34,7 @@ Result<evaluation::RunConfig> LoadWithNetworks(
   const bool is_default = inference::IsSame(*inference::FindPreset("own"), config->networks);
   if (asked == nullptr && is_default && !inference::MissingFile(real, dir, file_dirs))
     inference::Apply(real, config->networks);
+  UseRetrieval(*config);
   return config;
 }
 

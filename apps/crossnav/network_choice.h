@@ -14,9 +14,9 @@ inline constexpr const char* kNetworksHelp =
     "own (the network of the repository), or real (boxes by DEIMv2 Femto); default: real where its "
     "file is there and no setting names a network";
 
-/// The settings of `common` with the networks of `preset`. Overrides of `common` win. Empty: `real`
-/// where no setting names a network and its files are there. `file_dirs` as in NetworkSet::Read.
-/// Error: a file of the preset that is not there.
+/// The settings of `common` with the networks of `preset`. Overrides of `common` take precedence.
+/// Empty preset: `real` if no setting names a network and its files exist. `file_dirs` as in
+/// NetworkSet::Read. Error: a missing file of the preset.
 Result<evaluation::RunConfig> LoadWithNetworks(
     const CommonOptions& common, const std::string& preset,
     const std::vector<std::filesystem::path>& file_dirs = {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `networks list | check | look`: which networks there are, whether they work, what they see.
+// `networks list | check | calibrate | look`: lists, checks and calibrates networks, and shows
+// their output.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,7 +28,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// The cards that were asked for, as names in the folder or as paths; all where none was.
+/// The requested cards, as names in the folder or as paths; all cards by default.
 Result<std::vector<fs::path>> CardsOf(const NetworksOptions& options,
                                       const evaluation::RunConfig& config) {
   const fs::path dir = NetworksDir(config);
@@ -40,10 +41,10 @@ Result<std::vector<fs::path>> CardsOf(const NetworksOptions& options,
   return cards;
 }
 
-/// A card and what became of it.
+/// A card and the result of its check.
 struct Entry {
   std::string name, family, parts, licence, error;
-  bool is_there = false;  ///< the file, as the card describes it
+  bool is_there = false;  ///< the file exists and matches the card
 };
 
 Entry EntryOf(const fs::path& path) {
@@ -90,7 +91,7 @@ Observation PlainFrame(const SensorConfig& sensor) {
   return obs;
 }
 
-/// Names a network for every part that it has, and none for the others.
+/// Settings with this network for every part that it has, and no network for the other parts.
 inference::NetworksConfig Alone(const inference::NetworksConfig& base, const std::string& name,
                                 const std::string& parts) {
   inference::NetworksConfig config = base;
@@ -104,8 +105,8 @@ inference::NetworksConfig Alone(const inference::NetworksConfig& base, const std
   return config;
 }
 
-/// The suite's parts, each asked once, the detector for each goal; one that is none of its classes
-/// is no error.
+/// Runs each part of the suite once, the detector for each goal; a goal outside its classes is no
+/// error.
 Result<Look> LookAt(const perception::PerceptionSuite& suite, const Observation& obs,
                     std::span<const std::string_view> goals, const std::string& text) {
   Look look;
@@ -140,7 +141,7 @@ Result<Look> LookAt(const perception::PerceptionSuite& suite, const Observation&
   return look;
 }
 
-/// Milliseconds of the second of two looks: the first one allocates.
+/// Milliseconds of the second of two looks: the first look allocates.
 Result<double> TimeOf(const fs::path& path, const Entry& entry,
                       const evaluation::RunConfig& config) {
   const auto settings = Alone(config.networks, path.string(), entry.parts);
@@ -149,7 +150,7 @@ Result<double> TimeOf(const fs::path& path, const Entry& entry,
   const auto suite = set->MakeSuite(config.agent.sensor.camera_height_m);
   if (!suite) return tl::unexpected(suite.error());
   Observation obs = PlainFrame(config.agent.sensor);
-  const std::span<const std::string_view> goal(kCategories.data(), 1);  // as an agent asks
+  const std::span<const std::string_view> goal(kCategories.data(), 1);  // as an agent does
   double ms = 0;
   for (int i = 0; i < 2; ++i) {
     obs.rgb.data[0].r = static_cast<std::uint8_t>(i);  // another frame
@@ -240,7 +241,7 @@ Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& 
   for (const fs::path& path : *cards) {
     Entry entry = EntryOf(path);
     double ms = 0;
-    // A card whose file the user has not fetched is nothing wrong, unless it was asked for.
+    // A card without its downloaded file is no error, unless it was requested.
     const bool is_absent = !entry.is_there && !entry.family.empty() && options.cards.empty() &&
                            entry.error.find("is not there") != std::string::npos;
     if (entry.is_there) {
@@ -304,6 +305,15 @@ void AddNetworks(CLI::App& app, Options& o) {
                             "crossnav networks check crossnav_small",
                             [&o](Console& c) { return NetworksCheck(o.networks, o.common, c); });
   check->add_option("CARD", o.networks.cards, "Names or paths of cards; default: all");
+  CLI::App* calibrate =
+      AddVerb(*networks, o, "calibrate",
+              "Retrieval thresholds of an encoder, measured and put into its card",
+              "crossnav networks calibrate sed --scenes houses",
+              [&o](Console& c) { return NetworksCalibrate(o.networks, o.common, c); });
+  calibrate->add_option("CARD", o.networks.cards, "Name or path; default: networks.encoder")
+      ->expected(0, 1);
+  calibrate->add_option("--scenes", o.networks.scenes, "Folder of development houses")->required();
+  calibrate->add_option("--out", o.networks.out, "Card to write; default: the card itself");
   CLI::App* look = AddVerb(*networks, o, "look", "What the networks see in a picture",
                            "crossnav networks look room.png --text sofa --out panel.png",
                            [&o](Console& c) { return NetworksLook(o.networks, o.common, c); });

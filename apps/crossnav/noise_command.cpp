@@ -24,11 +24,11 @@ using Json = nlohmann::ordered_json;
 
 struct Kind {
   const char* name;
-  const char* key;  ///< the setting that is swept
+  const char* key;  ///< the swept setting
   std::vector<std::string> values;
 };
 
-/// chosen: a small, a usual and a large value of each; the usual one is near a profile's.
+/// chosen: a small, a typical and a large value of each; the typical value is near a profile's.
 const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = {
       {"profile", "noise.profile", {"realsense", "kinect", "spot"}},
@@ -47,11 +47,11 @@ const std::vector<Kind>& Kinds() {
 }
 
 struct Case {
-  std::string kind, value;  ///< "none" and nothing for the perfect sensors
+  std::string kind, value;  ///< "none" and empty for perfect sensors
   evaluation::RunConfig config;
 };
 
-/// What the episodes of a case amount to.
+/// Totals over the episodes of a case.
 struct Sum {
   int episodes = 0, complete = 0, goals = 0, reached = 0, measured = 0;
   int floor_change = 0, floor_change_complete = 0;
@@ -69,8 +69,7 @@ Result<std::vector<Case>> CasesOf(const NoiseSweepOptions& options, const Common
     cases.push_back({kind, value, *config});
     return {};
   };
-  // Evidence clears as it does under a profile, so that a case differs from "clearing" by its
-  // noise.
+  // Evidence clears as under a profile, so that a case differs from "clearing" by its noise only.
   const std::string clearing = "map.clearing=evidence";
   if (auto ok = add("none", "", {}); !ok) return tl::unexpected(ok.error());
   if (auto ok = add("clearing", "evidence", {clearing}); !ok) return tl::unexpected(ok.error());
@@ -98,7 +97,7 @@ std::vector<evaluation::Episode> Chosen(const std::vector<evaluation::Episode>& 
   return chosen;
 }
 
-/// Measures the map when the episode is over.
+/// Measures the map at the end of the episode.
 class MapMeasure : public evaluation::RunObserver {
  public:
   explicit MapMeasure(const evaluation::SceneContext& context) : context_(context) {}
@@ -113,7 +112,7 @@ class MapMeasure : public evaluation::RunObserver {
   evaluation::MapError error_;
 };
 
-/// In a worker: the map's error, and on the next line the record.
+/// In a worker: the map's error, then the record on the next line.
 Result<std::string> Play(SceneCache& cache, const evaluation::Episode& episode,
                          const evaluation::RunConfig& config, const PerceptionSource& perception) {
   const auto context = cache.Get(episode.scene_id);
@@ -132,7 +131,7 @@ void AddEpisode(const evaluation::Episode& episode, const std::string& text, Sum
   sum.goals += static_cast<int>(episode.goals.size());
   sum.floor_change += episode.cross_floor_required ? 1 : 0;
   const std::size_t end = text.find('\n');
-  if (end == std::string::npos) return;  // without a result: not successful
+  if (end == std::string::npos) return;  // no result: not successful
   double map_m = 0, stray_share = 0;
   std::istringstream(text) >> map_m >> stray_share;
   const auto record = evaluation::EpisodeFromJsonLine(text.substr(end + 1), episode.episode_id);
@@ -148,7 +147,7 @@ void AddEpisode(const evaluation::Episode& episode, const std::string& text, Sum
   sum.floor_change_complete += is_complete && episode.cross_floor_required ? 1 : 0;
 }
 
-/// All episodes under one case.
+/// All episodes of one case.
 Result<Sum> PlayAll(SceneCache& cache, const std::vector<evaluation::Episode>& episodes,
                     const Case& one, int jobs, const PerceptionSource& perception,
                     Console& console) {
@@ -204,14 +203,14 @@ std::string LineOf(const Json& row) {
                      100 * row["map_stray_share"].get<double>());
 }
 
-/// What a sweep leaves, row by row, so that one that was cut off goes on.
+/// Document of a sweep, row by row, so that an interrupted sweep can resume.
 Json DocumentOf(const evaluation::EpisodeFile& file, std::size_t episodes, const Json& rows) {
   return {{"episodes_hash", evaluation::HexHash(file.content_hash)},
           {"episodes", episodes},
           {"rows", rows}};
 }
 
-/// The row of `one` in the document of an earlier sweep over the same episodes; null without.
+/// The row of `one` in the document of an earlier sweep over the same episodes; null if absent.
 Json KeptRow(const Json& earlier, const Json& empty, const Case& one) {
   if (!earlier.is_object() || earlier.value("episodes_hash", Json()) != empty["episodes_hash"] ||
       earlier.value("episodes", Json()) != empty["episodes"])

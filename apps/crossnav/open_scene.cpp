@@ -15,7 +15,7 @@ Result<OpenScene> OpenSceneFolder(const std::string& folder, const evaluation::R
   OpenScene open;
   open.scene = std::make_unique<sim::Scene>(std::move(*scene));
   for (const std::string& note : open.scene->notes) console.Log(open.scene->id + ": " + note);
-  auto navmesh = sim::NavMesh::BuildCached(*open.scene, config.navmesh);
+  auto navmesh = sim::NavMesh::Open(*open.scene, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
   open.navmesh = std::make_unique<sim::NavMesh>(std::move(*navmesh));
   open.caster = std::make_unique<sim::RayCaster>(*open.scene);

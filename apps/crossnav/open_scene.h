@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene folder with its navmesh and camera, for the verbs that look at one scene.
+// A scene folder with its navmesh and camera, for verbs on a single scene.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct OpenScene {
   std::unique_ptr<sim::RayCaster> caster;
 };
 
-/// Reads `folder`; what the reader left out goes to the log.
+/// Reads `folder`; logs the reader's omissions.
 Result<OpenScene> OpenSceneFolder(const std::string& folder, const evaluation::RunConfig& config,
                                   Console& console);
 
@@ -27,12 +27,12 @@ struct SceneJob {
   OpenScene open;
 };
 
-/// Opens the scene in `folder` and makes the folder `out` for what a verb draws of it; nothing is
-/// made where the scene or the settings are bad.
+/// Opens the scene in `folder` and creates the folder `out` for a verb's drawings; creates nothing
+/// if the scene or the settings are invalid.
 Result<SceneJob> OpenSceneJob(const std::string& folder, const std::string& out,
                               const CommonOptions& common, Console& console);
 
-/// To a tenth of a millimetre: what JSON files of pictures hold.
+/// Rounded to a tenth of a millimetre, for JSON files of pictures.
 double Rounded(double value);
 
 }  // namespace crossnav::app

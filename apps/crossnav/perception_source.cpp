@@ -14,12 +14,31 @@ fs::path NetworksDir(const evaluation::RunConfig& config) {
   if (!config.networks.dir.empty()) return config.networks.dir;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  // In a build tree (build/PRESET/apps/crossnav), installed (bin), or where one is.
+  // In a build tree (build/PRESET/apps/crossnav), in an installation (bin), or beside it.
   const std::array<fs::path, 3> places = {program / "../../../../networks",
                                           program / "../share/crossnav/networks", "networks"};
   for (const fs::path& place : places)
     if (fs::is_directory(place, error)) return fs::weakly_canonical(place, error);
   return places.back();
+}
+
+inference::ModelCard::Retrieval RetrievalOf(const evaluation::RunConfig& config) {
+  if (config.eval.perception != "networks" || config.networks.encoder.empty()) return {};
+  const auto path = inference::CardPath(NetworksDir(config), config.networks.encoder);
+  const auto card = inference::ReadModelCard(path);
+  return card ? card->retrieval : inference::ModelCard::Retrieval{};
+}
+
+void UseRetrieval(evaluation::RunConfig& config) {
+  const auto measured = RetrievalOf(config);
+  const memory::QueryConfig base;
+  memory::QueryConfig& query = config.agent.query;
+  const auto use = [](const std::optional<double>& value, double& setting, double standard) {
+    if (value && setting == standard) setting = *value;
+  };
+  use(measured.min_similarity, query.min_similarity, base.min_similarity);
+  use(measured.min_z_score, query.min_z_score, base.min_z_score);
+  use(measured.min_peak_share, query.min_peak_share, base.min_peak_share);
 }
 
 Result<PerceptionSource> PerceptionSource::Read(const evaluation::RunConfig& config,

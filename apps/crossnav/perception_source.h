@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where detections come from, as the settings say: ground truth, or networks that are opened when
+// Source of detections according to the settings: ground truth, or networks, which are opened when
 // the first episode is played.
 #pragma once
 
@@ -16,23 +16,30 @@
 
 namespace crossnav::app {
 
-/// networks.dir, or the folder `networks` that lies beside the program's source or installation.
+/// networks.dir, or the folder `networks` beside the program's source or installation.
 std::filesystem::path NetworksDir(const evaluation::RunConfig& config);
+
+/// Retrieval thresholds in the card of networks.encoder; nothing in them with ground truth, or
+/// where the card cannot be read (PerceptionSource::Read says why).
+inference::ModelCard::Retrieval RetrievalOf(const evaluation::RunConfig& config);
+
+/// Puts them in place of each query.* setting that has its default.
+void UseRetrieval(evaluation::RunConfig& config);
 
 class PerceptionSource {
  public:
-  /// Reads cards and hashes files where networks are asked for; opens none, so that processes can
-  /// be forked afterwards. `config` must outlive it; `file_dirs` as in NetworkSet::Read.
+  /// Reads cards and hashes files if networks are configured; opens none, so that processes can be
+  /// forked afterwards. `config` must outlive it; `file_dirs` as in NetworkSet::Read.
   static Result<PerceptionSource> Read(const evaluation::RunConfig& config,
                                        const std::vector<std::filesystem::path>& file_dirs = {});
 
   /// For RunEpisode.
   evaluation::MakePerception Maker() const;
-  /// The networks that answer; nothing where ground truth does.
+  /// The configured networks; empty for ground truth.
   std::optional<Result<perception::PerceptionSuite>> MakeSuite() const;
-  /// SHA-256 of the networks' files by name; none for ground truth.
+  /// SHA-256 of the networks' files by name; empty for ground truth.
   std::map<std::string, std::string> Hashes() const;
-  /// Of the features in memories that are made with it.
+  /// Encoder of the features in memories made with it.
   std::string EncoderName() const;
 
  private:

@@ -15,13 +15,14 @@
 #include "memory_files.h"
 #include "progress.h"
 #include "replay_log.h"
+#include "watch_log.h"
 
 namespace crossnav::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Keeps the step records, one JSON line each; voxel changes are in the replay.
+/// Collects the step records, one JSON line each; voxel changes are in the replay.
 class TraceLog : public evaluation::RunObserver {
  public:
   Result<void> OnStep(const evaluation::StepView& step) override {
@@ -38,7 +39,7 @@ struct MemorySummary {
   std::int64_t rows = 0, compacted_rows = 0, dropped_rows = 0, bytes = 0;
 };
 
-/// Looks at the memory when the episode is over, and saves it where that was asked for.
+/// Reads the memory at the end of the episode, and saves it on request.
 class MapLog : public evaluation::RunObserver {
  public:
   MapLog(std::filesystem::path path, std::string frame, std::string encoder)
@@ -61,7 +62,7 @@ class MapLog : public evaluation::RunObserver {
   MemorySummary summary_;
 };
 
-/// Everything that was written, by what it is.
+/// Written files, by purpose.
 using Written = std::vector<std::pair<std::string, std::string>>;
 
 Result<Written> WriteFiles(const evaluation::EpisodeRecord& record,
@@ -94,9 +95,36 @@ Result<Written> WriteFiles(const evaluation::EpisodeRecord& record,
   return written;
 }
 
-void Announce(const evaluation::EpisodeRecord& record, const MemorySummary& memory,
+std::string AwokenText(const evaluation::Awoken& awoken) {
+  const localization::LocalizeStep& answer = awoken.answer;
+  const bool is_known = answer.status == localization::Status::kKnown;
+  return fmt::format("  pose     {} after {} actions, agreement {:.2f}{}\n",
+                     localization::NameOf(answer.status), awoken.actions, answer.agreement,
+                     is_known ? fmt::format("; {:.2f} m and {:.1f} deg from the true one",
+                                            awoken.off_m, awoken.off_deg)
+                              : "; goes on with an empty memory");
+}
+
+Json AwokenJson(const evaluation::Awoken& awoken) {
+  return {{"status", localization::NameOf(awoken.answer.status)},
+          {"actions", awoken.actions},
+          {"agreement", awoken.answer.agreement},
+          {"rivals", awoken.answer.rivals},
+          {"off_m", awoken.off_m},
+          {"off_deg", awoken.off_deg}};
+}
+
+/// What was learned besides the record.
+struct Learned {
+  MemorySummary memory;
+  std::optional<evaluation::Awoken> awoken;
+};
+
+void Announce(const evaluation::EpisodeRecord& record, const Learned& learned,
               const Written& written, Console& console) {
+  const MemorySummary& memory = learned.memory;
   std::string text = evaluation::EpisodeText(record);
+  if (learned.awoken) text += AwokenText(*learned.awoken);
   text += fmt::format("  memory   {} feature rows, {} of them int8, {} dropped; {:.1f} MB\n",
                       memory.rows, memory.compacted_rows, memory.dropped_rows,
                       static_cast<double>(memory.bytes) / 1e6);
@@ -111,16 +139,18 @@ void Announce(const evaluation::EpisodeRecord& record, const MemorySummary& memo
   }
   console.Print(text);
   if (!console.json()) return;
-  console.Document(Json({{"record", Json::parse(evaluation::ToJsonLine(record))},
-                         {"memory",
-                          {{"feature_rows", memory.rows},
-                           {"compacted_rows", memory.compacted_rows},
-                           {"dropped_rows", memory.dropped_rows},
-                           {"bytes", memory.bytes}}},
-                         {"files", std::move(paths)}}));
+  Json document = {{"record", Json::parse(evaluation::ToJsonLine(record))},
+                   {"memory",
+                    {{"feature_rows", memory.rows},
+                     {"compacted_rows", memory.compacted_rows},
+                     {"dropped_rows", memory.dropped_rows},
+                     {"bytes", memory.bytes}}}};
+  if (learned.awoken) document["pose"] = AwokenJson(*learned.awoken);
+  document["files"] = std::move(paths);
+  console.Document(document);
 }
 
-/// Before the first step: every file that the episode will leave.
+/// Checks, before the first step, every output of the episode.
 Result<void> CheckFiles(const evaluation::SceneContext& context, const PlayFiles& files) {
   for (const sim::Floor& floor : context.navmesh().Floors()) {
     const auto picture = files.folder / fmt::format("floor_{}.png", floor.id);
@@ -161,23 +191,26 @@ Result<evaluation::EpisodeRecord> PlayEpisode(
     replay = std::move(*opened);
     observers.push_back(replay.get());
   }
-  MemoryLoader memory(files.memory, config, perception.EncoderName());
+  MemoryLoader memory(files.memory, config, perception.EncoderName(), files.is_pose_known);
   if (!files.memory.empty()) observers.push_back(&memory);
   const KnownMemories known(files.folder, header.variant, config, perception.EncoderName());
   const auto told = known.For(context);
   if (!told) return tl::unexpected(told.error());
   if (*told) observers.push_back(told->get());
+  WatchLog watch(ReplayInfoOf(context, episode, config, header), files.watch, console);
+  if (files.watch) observers.push_back(&watch);
   MapLog map(files.map, context.scene().id, perception.EncoderName());
   observers.push_back(&map);
   auto record = evaluation::RunEpisode(context, episode, config, observers, perception.Maker());
   console.EndProgress();
+  watch.Close();
   if (!record) return record;
   if (replay) {
     if (auto ok = replay->Close(); !ok) return tl::unexpected(ok.error());
   }
   const auto written = WriteFiles(*record, header, files, picture, trace);
   if (!written) return tl::unexpected(written.error());
-  Announce(*record, map.summary(), *written, console);
+  Announce(*record, {map.summary(), memory.awoken()}, *written, console);
   return record;
 }
 

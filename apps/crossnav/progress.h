@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The progress line of one episode: goal, mode, reason, steps per second, what remains.
+// Progress line of an episode: goal, mode, reason, steps per second, remaining steps.
 #pragma once
 
 #include "console.h"

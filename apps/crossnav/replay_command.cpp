@@ -41,7 +41,7 @@ void AddReplay(CLI::App& app, Options& o) {
                            [&o](Console& c) { return ReplayExport(o.replay, o.common, c); });
   page->add_option("REPLAY", o.replay.file, "Replay (.mcap)")->required();
   page->add_option("--compare", o.replay.compare,
-                   "Another replay of the same episode: the page shows where they part");
+                   "Another replay of the same episode: the page opens at their first difference");
   page->add_option("--out,--to", o.replay.out,
                    "Page to write (.html), or Rerun recording (.rrd, by the Python package)")
       ->required();

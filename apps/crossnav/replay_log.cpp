@@ -4,11 +4,11 @@
 #include "crossnav/agent/sight.h"
 
 namespace crossnav::app {
-namespace {
 
-trace::ReplayInfo InfoOf(const evaluation::SceneContext& context,
-                         const evaluation::Episode& episode, const evaluation::RunConfig& config,
-                         const evaluation::RunHeader& header) {
+trace::ReplayInfo ReplayInfoOf(const evaluation::SceneContext& context,
+                               const evaluation::Episode& episode,
+                               const evaluation::RunConfig& config,
+                               const evaluation::RunHeader& header) {
   trace::ReplayInfo info;
   info.scene_id = context.scene().id;
   info.episode_id = episode.episode_id;
@@ -27,7 +27,12 @@ trace::ReplayInfo InfoOf(const evaluation::SceneContext& context,
   return info;
 }
 
-}  // namespace
+trace::StageResult StageResultOf(const evaluation::StageRecord& stage, int goal_index,
+                                 int last_step) {
+  return {goal_index,      stage.goal, std::string(evaluation::NameOf(stage.outcome)),
+          stage.success,   last_step,  stage.length_m,
+          stage.shortest_m};
+}
 
 Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const evaluation::SceneContext& context,
                                                    const evaluation::Episode& episode,
@@ -36,7 +41,7 @@ Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const evaluation::SceneContex
                                                    const std::filesystem::path& path) {
   std::error_code ignored;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-  auto writer = trace::ReplayWriter::Open(path, InfoOf(context, episode, config, header));
+  auto writer = trace::ReplayWriter::Open(path, ReplayInfoOf(context, episode, config, header));
   if (!writer) return tl::unexpected(writer.error());
   return std::unique_ptr<ReplayLog>(new ReplayLog(std::move(*writer)));
 }
@@ -49,9 +54,7 @@ Result<void> ReplayLog::OnStep(const evaluation::StepView& step) {
 }
 
 Result<void> ReplayLog::OnStageEnd(const evaluation::StageRecord& stage) {
-  return writer_.WriteStage({goal_index_, stage.goal,
-                             std::string(evaluation::NameOf(stage.outcome)), stage.success,
-                             last_step_, stage.length_m, stage.shortest_m});
+  return writer_.WriteStage(StageResultOf(stage, goal_index_, last_step_));
 }
 
 }  // namespace crossnav::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes the replay of an episode while it runs.
+// Writes the replay of an episode during its run.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,18 @@
 
 namespace crossnav::app {
 
+/// Head of a replay; what is true of the goals is for display.
+trace::ReplayInfo ReplayInfoOf(const evaluation::SceneContext& context,
+                               const evaluation::Episode& episode,
+                               const evaluation::RunConfig& config,
+                               const evaluation::RunHeader& header);
+
+trace::StageResult StageResultOf(const evaluation::StageRecord& stage, int goal_index,
+                                 int last_step);
+
 class ReplayLog : public evaluation::RunObserver {
  public:
-  /// Creates missing folders. The replay is `<path>.part` until Close() gives it its name.
+  /// Creates missing folders. The replay is `<path>.part` until Close() renames it.
   static Result<std::unique_ptr<ReplayLog>> Open(const evaluation::SceneContext& context,
                                                  const evaluation::Episode& episode,
                                                  const evaluation::RunConfig& config,

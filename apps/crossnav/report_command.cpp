@@ -48,7 +48,7 @@ std::string TracksOf(const evaluation::ReportRun& run) {
   return tracks;
 }
 
-/// Every run against the first of its track.
+/// Every run against the first run of its track.
 Result<std::vector<evaluation::Comparison>> CompareAll(
     const std::vector<evaluation::ReportRun>& runs, bool is_forced) {
   std::vector<evaluation::Comparison> comparisons;
@@ -64,7 +64,7 @@ Result<std::vector<evaluation::Comparison>> CompareAll(
   return comparisons;
 }
 
-/// report.html in `folder`.
+/// Writes report.html in `folder`.
 Result<std::string> WriteHtmlPage(const ReportOptions& options) {
   std::string page = (std::filesystem::path(options.out) / "report.html").string();
   std::vector<std::string> words = options.runs;

@@ -6,11 +6,12 @@
 #include "crossnav/evaluation/running/survey.h"
 #include "crossnav/world/house/embedded_house.h"
 #include "play.h"
+#include "watch_log.h"
 
 namespace crossnav::app {
 namespace {
 
-/// The built-in episodes: where they start and what they look for.
+/// Built-in episodes: starts and goals.
 struct BuiltIn {
   int start_floor;
   std::vector<std::string> goals;
@@ -44,7 +45,13 @@ Result<void> Run(const RunOptions& options, const CommonOptions& common, Console
   files.replay = options.replay;
   files.map = options.save_map;
   files.memory = options.memory;
+  files.is_pose_known = options.pose != "unknown";
+  if (!files.is_pose_known && files.memory.empty())
+    return Fail(ErrorCode::kInvalid, "a robot can only be lost in a map: give --memory", "--pose");
   if (auto ok = CheckOutputs(files); !ok) return ok;
+  const auto watch = OpenWatch(options.watch, console);
+  if (!watch) return tl::unexpected(watch.error());
+  files.watch = watch->get();
   SceneCache cache(options.scenes, *config);
   cache.UseGoalsOf(*file);
   const auto context = cache.Get(episode->scene_id);
@@ -68,6 +75,8 @@ Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Conso
   if (!config) return tl::unexpected(config.error());
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
+  const auto watch = OpenWatch(options.watch, console);
+  if (!watch) return tl::unexpected(watch.error());
   const std::filesystem::path out = options.out;
   const auto house = world::WriteEmbeddedHouse(out / "scenes");
   if (!house) return tl::unexpected(house.error());
@@ -87,14 +96,15 @@ Result<void> Demo(const DemoOptions& options, const CommonOptions& common, Conso
   evaluation::AddGoalObjects(scene, file);
   const auto path = out / fmt::format("episode_{}.json.gz", options.number);
   if (auto ok = evaluation::WriteEpisodes(path, file); !ok) return ok;
-  const auto read = evaluation::ReadEpisodes(path);  // as any other run would see it
+  const auto read = evaluation::ReadEpisodes(path);  // as any other run reads it
   if (!read) return tl::unexpected(read.error());
 
   evaluation::RunHeader header = MakeHeader(*config, "full", *read);
   header.networks = perception->Hashes();
   header.scenes[evaluation::SceneName(episode->scene_id)] = HashesOf(**context);
   const auto folder = out / fmt::format("{}", options.number);
-  const PlayFiles files{folder, folder / "replay.mcap", folder / "replay.html", {}, {}};
+  const PlayFiles files{folder,      folder / "replay.mcap", folder / "replay.html", {}, {},
+                        watch->get()};
   const auto record =
       PlayEpisode(**context, read->episodes.front(), *config, header, files, *perception, console);
   if (!record) return tl::unexpected(record.error());

@@ -27,12 +27,13 @@ void AddNetworksPreset(CLI::App* verb, std::string& preset) {
 template <class T>
 void AddProtocol(CLI::App* verb, T& options) {
   verb->add_option("--variant", options.variant, kVariantHelp);
-  verb->add_option("--success", options.success, "What a STOP must be near: box or viewpoint");
+  verb->add_option("--success", options.success,
+                   "Success rule of a STOP: near the box, or near a viewpoint (box, viewpoint)");
   verb->add_option("--budget-scope", options.budget_scope, "Action budget per episode or goal");
   AddPerception(verb, options.perception);
 }
 
-/// What `eval` and `slurm` share.
+/// Options common to `eval` and `slurm`.
 void AddEvaluation(CLI::App* verb, EvalOptions& eval) {
   verb->add_option("--scenes", eval.scenes, "Folder of scenes")->required();
   verb->add_option("--episodes", eval.episodes, "Episode file")->required();
@@ -54,7 +55,9 @@ void AddRuns(CLI::App& app, Options& o) {
   run->add_option("--replay", o.run.replay, "Replay to write (.mcap)");
   run->add_option("--save-map", o.run.save_map, "Map file to save the memory to");
   run->add_option("--memory", o.run.memory, "Map file to start from, as --save-map wrote it");
+  run->add_option("--pose", o.run.pose, kPoseHelp)->check(CLI::IsMember({"given", "unknown"}));
   run->add_option("--out", o.run.out, "Folder for pictures, record and trace; default: out/run");
+  AddWatch(run, o.run.watch);
   AddProtocol(run, o.run);
 
   CLI::App* demo =
@@ -63,6 +66,7 @@ void AddRuns(CLI::App& app, Options& o) {
   demo->add_option("NUMBER", o.demo.number, "1 climbs to the upper floor, 2 descends")
       ->check(CLI::Range(1, 2));
   demo->add_option("--out", o.demo.out, "Folder to write to; default: out/demo");
+  AddWatch(demo, o.demo.watch);
   AddPerception(demo, o.demo.perception);
 
   CLI::App* eval =
@@ -115,7 +119,7 @@ void AddSuites(CLI::App& app, Options& o) {
   CLI::App* make = AddVerb(*suite, o, "make", "Houses and episodes of a suite, with their hash",
                            "crossnav suite make crossnav-mfmon-1-mini --jobs 4",
                            [&o](Console& c) { return SuiteMake(o.suite, o.common, c); });
-  CLI::App* run = AddVerb(*suite, o, "run", "Makes what is missing and runs the episodes",
+  CLI::App* run = AddVerb(*suite, o, "run", "Makes the missing parts and runs the episodes",
                           "crossnav suite run crossnav-mfmon-1-mini --variant planar --jobs 4",
                           [&o](Console& c) { return SuiteRun(o.suite, o.common, c); });
   CLI::App* report = AddVerb(*suite, o, "report", "From nothing to a report over all its runs",
@@ -170,10 +174,10 @@ void AddResults(CLI::App& app, Options& o) {
                               [&o](Console& c) { return ShowMetrics(o.metrics, o.common, c); });
   metrics->add_option("RESULTS", o.metrics.files, "Result files (.jsonl)")->required();
 
-  CLI::App* gaps =
-      AddVerb(app, o, "gaps", "What keeps SPL below 100: geometry, search order, detours, approach",
-              "crossnav gaps runs/full runs/known-map runs/known-objects",
-              [&o](Console& c) { return ShowGaps(o.gaps, o.common, c); });
+  CLI::App* gaps = AddVerb(
+      app, o, "gaps", "Attribution of the missing SPL: geometry, search order, detours, approach",
+      "crossnav gaps runs/full runs/known-map runs/known-objects",
+      [&o](Console& c) { return ShowGaps(o.gaps, o.common, c); });
   gaps->add_option("RUN", o.gaps.runs,
                    "Run folders or result files of different variants on the same episodes")
       ->required();
@@ -181,7 +185,7 @@ void AddResults(CLI::App& app, Options& o) {
   AddReplay(app, o);
 }
 
-/// What a recording does not say of itself, or says wrongly.
+/// Parameters that a recording lacks, or states wrongly.
 void AddSensor(CLI::App* verb, MapBuildOptions& o) {
   verb->add_option("--intrinsics", o.intrinsics,
                    "Colour camera [px], and the depth camera's where it has none of its own")
@@ -197,7 +201,7 @@ void AddSensor(CLI::App* verb, MapBuildOptions& o) {
       ->type_name("X,Y,Z,QX,QY,QZ,QW")
       ->delimiter(',')
       ->expected(7);
-  verb->add_option("--mount", o.mount, "Pose of the colour camera on what the poses are of [m]")
+  verb->add_option("--mount", o.mount, "Pose of the colour camera in the frame of the poses [m]")
       ->type_name("X,Y,Z,QX,QY,QZ,QW")
       ->delimiter(',')
       ->expected(7);
@@ -226,7 +230,8 @@ void AddMapBuild(CLI::App& map, Options& o) {
       ->check(CLI::IsMember({"none", "networks"}));
   AddNetworksPreset(build, b.networks);
   build
-      ->add_option("--goal", b.goal, "Then list the places of this text, or say that there is none")
+      ->add_option("--goal", b.goal,
+                   "Then list the places of this text, or report that there is none")
       ->type_name("TEXT");
   build->add_option("--top", b.top, "Places at most")->check(CLI::Range(1, 1000));
   AddSensor(build, b);
@@ -251,7 +256,7 @@ void AddMap(CLI::App& app, Options& o) {
   CLI::App* map = app.add_subcommand("map", "Make a memory of a recording, look into a saved one");
   map->require_subcommand(1);
   AddMapBuild(*map, o);
-  CLI::App* info = AddVerb(*map, o, "info", "What a map file holds", "crossnav map info home.map",
+  CLI::App* info = AddVerb(*map, o, "info", "Content of a map file", "crossnav map info home.map",
                            [&o](Console& c) { return MapInfo(o.map, o.common, c); });
   CLI::App* query =
       AddVerb(*map, o, "query",
@@ -264,7 +269,10 @@ void AddMap(CLI::App& app, Options& o) {
   CLI::App* graph = AddVerb(*map, o, "graph", "Floors, rooms and objects of a map as a graph",
                             "crossnav map graph home.map --to graph.json --objects chair,bed",
                             [&o](Console& c) { return MapGraph(o.map, o.common, c); });
-  graph->add_option("--to", o.map.out, "File to write: .json or .graphml")->required();
+  graph
+      ->add_option("--to", o.map.out,
+                   "File to write: .json, .graphml, .mcap, or .rrd by the Python package")
+      ->required();
   graph
       ->add_option("--objects", o.map.objects,
                    "Categories to look for in the memory; default: none")
@@ -273,9 +281,9 @@ void AddMap(CLI::App& app, Options& o) {
   graph->add_option("--pictures", o.map.pictures, "Folder for a picture of each floor");
   for (CLI::App* verb : {info, query, points, graph}) {
     verb->add_option("MAP", o.map.file, "Map file")->required();
-    verb->add_flag("--skip-damaged", o.map.skip_damaged, "Go on with what is intact");
+    verb->add_flag("--skip-damaged", o.map.skip_damaged, "Skip damaged parts");
   }
-  query->add_option("TEXT", o.map.text, "What to look for")->required();
+  query->add_option("TEXT", o.map.text, "Text to search for")->required();
   query->add_option("--top", o.map.top, "Places at most")->check(CLI::Range(1, 1000));
   query
       ->add_option("--from", o.map.from,
@@ -289,31 +297,8 @@ void AddMap(CLI::App& app, Options& o) {
   points->add_flag("--surfaces", o.map.surfaces_only, "Leave out the air");
 }
 
-void AddServe(CLI::App& app, Options& o) {
-  CLI::App* serve = AddVerb(app, o, "serve", "The agent for a live robot, behind a local socket",
-                            "crossnav serve --socket /run/user/1000/crossnav.sock --set "
-                            "sensor.camera_height_m=0.6 --save-map home.map",
-                            [&o](Console& c) { return ServeLive(o.serve, o.common, c); });
-  CLI::Option* socket =
-      serve
-          ->add_option("--socket", o.serve.socket,
-                       "Unix domain socket; default: $XDG_RUNTIME_DIR/crossnav.sock, or "
-                       "/tmp/crossnav-UID.sock")
-          ->type_name("PATH");
-  serve->add_option("--port", o.serve.port, "TCP on 127.0.0.1 instead; 0 = any that is free")
-      ->check(CLI::Range(0, 65535))
-      ->excludes(socket);
-  serve
-      ->add_option("--perception", o.serve.perception,
-                   "networks, or none: maps and explores, and finds nothing")
-      ->check(CLI::IsMember({"networks", "none"}));
-  AddNetworksPreset(serve, o.serve.networks);
-  serve->add_option("--memory", o.serve.memory, "Map file to start from, as --save-map wrote it");
-  serve->add_option("--save-map", o.serve.save_map, "Map file to save the memory to at the end");
-}
-
 void AddTools(CLI::App& app, Options& o) {
-  AddVerb(app, o, "doctor", "What this program finds here, and what is missing",
+  AddVerb(app, o, "doctor", "Versions and optional parts found here, and missing parts",
           "crossnav doctor --json", [&o](Console& c) { return Doctor(o.common, c); });
   CLI::App* bench =
       AddVerb(app, o, "bench", "Timings of the whole step and of its stages",
@@ -328,7 +313,7 @@ void AddTools(CLI::App& app, Options& o) {
     o.command = [&o](Console& c) { return Bench(o.bench, o.common, c); };
   });
   CLI::App* stairs =
-      AddVerb(*bench, o, "stairs", "Attempts at each kind of stair, and at what is none",
+      AddVerb(*bench, o, "stairs", "Attempts at each kind of stair, and at false entrances",
               "crossnav bench stairs --count 40",
               [&o](Console& c) { return BenchStairs(o.stairs, o.common, c); });
   stairs->add_option("--count", o.stairs.count, "Attempts a kind and direction")
@@ -351,6 +336,7 @@ void AddTools(CLI::App& app, Options& o) {
   graph->add_option("--edition", o.graph_bench.edition, "Of the generator")
       ->check(CLI::Range(1, 2));
   graph->add_option("--pictures", o.graph_bench.pictures, "Folder for a picture of each floor");
+  AddLocalizeBench(*bench, o);
   CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",
                             "crossnav bench noise --scenes scenes --episodes e.json --count 12",
                             [&o](Console& c) { return BenchNoise(o.noise, o.common, c); });
@@ -365,6 +351,7 @@ void AddTools(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(NoiseKinds()));
   noise->add_option("--out", o.noise.out, "JSON to write, for scripts/plot_noise.py");
   AddSensorTrials(*bench, o);
+  AddWordTrials(*bench, o);
 }
 
 }  // namespace
@@ -375,6 +362,7 @@ void AddRunVerbs(CLI::App& app, Options& options) {
   AddSuites(app, options);
   AddResults(app, options);
   AddMap(app, options);
+  AddAsk(app, options);
   AddServe(app, options);
   AddNetworks(app, options);
   AddTools(app, options);

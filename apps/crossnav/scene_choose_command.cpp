@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `crossnav scene choose` and the lists of scenes that it writes.
+// `crossnav scene choose`, and its lists of scenes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string_view Trimmed(std::string_view text) {
   return text;
 }
 
-/// Every name that a list may call a scene by.
+/// All names by which a list may refer to a scene.
 std::map<std::string, std::string, std::less<>> IdsByName(const std::vector<std::string>& ids) {
   std::map<std::string, std::string, std::less<>> by_name;
   for (const std::string& id : ids) {
@@ -43,7 +43,7 @@ std::map<std::string, std::string, std::less<>> IdsByName(const std::vector<std:
 struct SceneFacts {
   std::string name;
   std::size_t floors = 0;
-  std::vector<std::string> categories;  ///< that can be observed from somewhere
+  std::vector<std::string> categories;  ///< observable categories
 };
 
 SceneFacts FactsOf(const std::string& id, const evaluation::SceneContext& context) {

@@ -100,7 +100,7 @@ std::string InfoText(const sim::SceneInfo& info) {
   return text;
 }
 
-/// "x,y,z,yaw,pitch", angles in degrees; the last two may be left out.
+/// "x,y,z,yaw,pitch", angles in degrees; the last two are optional.
 Result<AgentPose> ParsePose(const std::string& text) {
   std::vector<double> numbers;
   std::istringstream stream(text);
@@ -123,7 +123,7 @@ Result<AgentPose> ParsePose(const std::string& text) {
       {numbers[0], numbers[1], numbers[2]}, DegToRad(numbers[3]), DegToRad(numbers[4])};
 }
 
-/// Things that take at least a hundredth of a small picture.
+/// Number of objects that cover at least a hundredth of a small picture.
 std::ptrdiff_t CountThings(const InstanceImage& instances) {
   std::map<std::int32_t, std::size_t> pixels;
   for (const std::int32_t instance : instances.data) ++pixels[instance];
@@ -132,7 +132,8 @@ std::ptrdiff_t CountThings(const InstanceImage& instances) {
   });
 }
 
-/// Of some places drawn with `seed` the one that shows most: a single one may face a wall.
+/// The place, among some drawn with `seed`, with the most visible objects: a single place may face
+/// a wall.
 std::optional<AgentPose> PlaceThatShowsMost(const OpenScene& open, double camera_height_m,
                                             std::uint64_t seed) {
   constexpr int kPlaces = 32, kSide_px = 64;  // chosen: a few milliseconds

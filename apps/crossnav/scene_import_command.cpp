@@ -69,15 +69,15 @@ bool IsIfc(const std::string& input) {
   return ending == ".ifc";
 }
 
-/// What is told of an import: log lines, text, document.
+/// Report of an import: log lines, text, document.
 Json Told(const homes::ImportReport& report) {
   Json log = Json::array();
   for (const std::string& note : report.notes) log.push_back(report.scene_id + ": " + note);
   for (const homes::Storey& storey : report.storeys) {
     if (storey.is_reached) continue;
-    log.push_back(fmt::format(
-        "{}: warning: no way leads to '{}' at {:.2f} m; look at its staircase and doors",
-        report.scene_id, storey.name, storey.floor_m));
+    log.push_back(
+        fmt::format("{}: warning: no path leads to '{}' at {:.2f} m; check its staircase and doors",
+                    report.scene_id, storey.name, storey.floor_m));
   }
   return {{"log", std::move(log)}, {"text", ReportText(report)}, {"document", ReportJson(report)}};
 }
@@ -88,7 +88,7 @@ Result<Json> Import(const homes::ImportOptions& import) {
   return Told(*report);
 }
 
-/// As Import, in a process that ends when the limit is reached. Names need not be UTF-8.
+/// Import in a process that ends at the limit. Names need not be UTF-8.
 Result<Json> ImportIfc(homes::ImportOptions import, int seconds) {
   const IfcLimit limit{seconds};
   const std::string file = import.input.string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A list of scenes: a text file with a name a line, '#' begins a comment.
+// A list of scenes: a text file with one name a line, '#' begins a comment.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace crossnav::app {
 
-/// Ids of the scenes below `scenes_dir` that the file names, in its order: by id, by folder
-/// ("00800-TEEsavR23oF") or by the part of it after the number.
+/// Ids of the scenes below `scenes_dir` that the file names, in its order. A name is an id, a
+/// folder ("00800-TEEsavR23oF") or the part of it after the number.
 Result<std::vector<std::string>> ReadSceneList(const std::string& file,
                                                const std::string& scenes_dir);
 

@@ -8,7 +8,7 @@
 namespace crossnav::app {
 namespace {
 
-/// What to draw houses from.
+/// Parameters of generated houses.
 void AddHouses(CLI::App* verb, WorldOptions& world) {
   verb->add_option("--seed", world.seed, "First seed");
   verb->add_option("--count", world.count, "Number of houses")->check(CLI::Range(1, 100000));
@@ -66,7 +66,7 @@ void AddWorld(CLI::App& app, Options& o) {
   verb->add_flag("--embedded", o.world.embedded, "Write the house that comes with the program");
   AddChange(*world, o);
   CLI::App* stats =
-      AddVerb(*world, o, "stats", "What a set of generated houses amounts to; keeps none of them",
+      AddVerb(*world, o, "stats", "Statistics of a set of generated houses; keeps none of them",
               "crossnav world stats --seed 1 --count 200 --floors 0",
               [&o](Console& c) { return WorldStats(o.world, o.common, c); });
   AddHouses(stats, o.world);
@@ -219,6 +219,10 @@ void AddEpisodes(CLI::App& app, Options& o) {
       ->type_name("N,N,N");
   generate->add_flag("--by-scene", o.episodes.by_scene,
                      "Keep one scene in memory at a time; draws other episodes than without");
+  generate
+      ->add_option("--goals-as", o.episodes.goals_as,
+                   "category; description: of one object each; mixed: two of three so")
+      ->check(CLI::IsMember({"category", "description", "mixed"}));
   generate->add_flag("--repeats", o.episodes.repeats, "Allow a category twice in an episode");
   generate->add_option("--out", o.episodes.out, "Episode file (.json or .json.gz)")->required();
   CLI::App* check = AddVerb(*episodes, o, "check", "Proves every certificate again",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `bench sensors`: frames of real sensors, mapped and judged by frames that were held out, by what
-// is level, and by what people can see in them (docs/recordings.md, "Held to real sensors").
+// `bench sensors`: maps frames of real sensors and scores them by held-out frames, by level
+// surfaces, and by hand-labelled objects (docs/recordings.md, "Held to real sensors").
 #include <fmt/format.h>
 
 #include <array>
@@ -8,37 +8,29 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "crossnav/core/read_file.h"
 #include "crossnav/evaluation/episodes/held_out.h"
 #include "crossnav/evaluation/running/timing.h"
 #include "crossnav/geometry/treads.h"
 #include "crossnav/inference/backend.h"
 #include "crossnav/inference/presets.h"
 #include "crossnav/policy/stair_geometry.h"
-#include "crossnav/recordings/depth_image.h"
 #include "crossnav/recordings/frames.h"
 #include "crossnav/scenegraph/storeys.h"
+#include "depth_noise_text.h"
 #include "goal_sightings.h"
 #include "network_choice.h"
 #include "perception_source.h"
+#include "stair_frames.h"
 #include "verbs.h"
 
 namespace crossnav::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 constexpr int kHeldOut = 4;  // every fourth frame, from the fourth
 constexpr double kFloorBand_m = 0.25;
-
-// Of the stairs' clouds, by least squares of the points on depth times pixel [px].
-constexpr CameraIntrinsics kStairCamera = {512, 424, 365.4, 365.4, 254.3, 209.1};
-
-Json FlightJson(const geometry::TreadFlight& flight) {
-  return {
-      {"treads", flight.treads.size()}, {"riser_m", flight.riser_m}, {"tread_m", flight.tread_m}};
-}
 
 /// Storeys of the map, and the plane through what lies near the lowest one's height.
 Json FloorJson(const geometry::VoxelMap& map) {
@@ -58,8 +50,8 @@ Json FloorJson(const geometry::VoxelMap& map) {
           {"residual_m", fit.residual_m}};
 }
 
-/// Pixels of the big plant before a window in hololens, stated by hand: the inner part of its
-/// foliage, as it appears in the colour image. Frames are counted from 0.
+/// Pixels of the big plant before a window in hololens, labelled by hand: the inner part of its
+/// foliage in the colour image. Frames are counted from 0.
 struct PlantPixels {
   const char* file;
   int frame;
@@ -67,7 +59,8 @@ struct PlantPixels {
 };
 constexpr std::array<PlantPixels, 2> kPlants = {
     {{"00111.png", 27, {190, 130, 300, 300}}, {"00321.png", 79, {225, 100, 335, 280}}}};
-constexpr double kCrown_m = 0.4;  // chosen: half the width of a tall plant; farther is background
+// chosen: half the width of a tall plant; farther points are background
+constexpr double kCrown_m = 0.4;
 
 /// Mean of the points in the box within kCrown_m of its median depth.
 std::optional<Vector3d> PointOf(const PlantPixels& plant, const Observation& obs) {
@@ -104,6 +97,7 @@ class RoomTrial {
     for (const PlantPixels& plant : known_)
       if (plant.frame == frames_)
         if (const auto point = PointOf(plant, obs)) known_plants_.emplace_back(plant.file, *point);
+    evaluation::AddFrame(obs, &noise_);
     const bool is_held_out = frames_++ % kHeldOut == kHeldOut - 1;
     const auto flight = geometry::FindTreads(obs.depth_m, obs.camera, obs.T_world_camera);
     flights_ += !flight.treads.empty();
@@ -117,6 +111,8 @@ class RoomTrial {
     map_.UpdateStates();
     return {};
   }
+
+  std::string Noise() const { return NoiseText(noise_); }
 
   Json Document() const {
     evaluation::HeldOutResult result;
@@ -132,6 +128,7 @@ class RoomTrial {
                  {"violated_share", static_cast<double>(result.violations) / rays},
                  {"floor", FloorJson(map_)},
                  {"frames_with_stairs_by_geometry", flights_},
+                 {"noise", Json::parse(NoiseJson(noise_))},
                  {"plants", nullptr}};
     if (plants_) json["plants"] = Json::parse(plants_->PlacesJson());
     if (plants_) json["known_plants"] = KnownPlants();
@@ -139,7 +136,7 @@ class RoomTrial {
   }
 
  private:
-  /// Each plant of kPlants and the nearest place that the detector found.
+  /// Each plant of kPlants and the nearest place found by the detector.
   Json KnownPlants() const {
     Json all = Json::array();
     for (const auto& [file, p] : known_plants_) {
@@ -162,58 +159,20 @@ class RoomTrial {
   std::optional<GoalSightings> plants_;
   std::vector<std::pair<std::string, Vector3d>> known_plants_;
   std::vector<Observation> held_out_;
+  evaluation::DepthStatistics noise_;
   int frames_ = 0, flights_ = 0;
 };
 
-Result<Json> TryRoom(const fs::path& folder, const recordings::RecordingOptions& options,
-                     const evaluation::RunConfig& config, perception::PerceptionSuite* suite) {
+Result<std::pair<Json, std::string>> TryRoom(const fs::path& folder,
+                                             const recordings::RecordingOptions& options,
+                                             const evaluation::RunConfig& config,
+                                             perception::PerceptionSuite* suite) {
   const bool has_known = folder.filename() == "hololens";
   RoomTrial trial(config, suite, has_known ? kPlants : std::span<const PlantPixels>());
   const auto read = recordings::ReadRecording(
       folder, options, [&](const auto&, const auto& frame) { return trial.Add(frame.obs); });
   if (!read) return tl::unexpected(read.error());
-  return trial.Document();
-}
-
-/// Third line of the stairs' IMU files: pitch down and roll in degrees come first.
-Result<Pose> PoseOfImu(const fs::path& file) {
-  const auto text = ReadFile(file, 1 << 16);
-  if (!text) return tl::unexpected(text.error());
-  double pitch_deg = 0, roll_deg = 0;
-  std::size_t line = text->find('\n');
-  if (line != std::string::npos) line = text->find('\n', line + 1);
-  if (line == std::string::npos ||
-      std::sscanf(text->c_str() + line + 1, "%lf,%lf", &pitch_deg, &roll_deg) != 2)
-    return Fail(ErrorCode::kMalformed, "line 3 must begin with pitch and roll", file.string());
-  const double pitch = DegToRad(pitch_deg), roll = DegToRad(roll_deg);
-  Eigen::Matrix3d R;  // columns: the camera's right, down and forward in x ahead, y left, z up
-  R.col(0) = Vector3d(-std::sin(roll) * std::sin(pitch), -std::cos(roll),
-                      -std::sin(roll) * std::cos(pitch));
-  R.col(2) = Vector3d(std::cos(pitch), 0, -std::sin(pitch));
-  R.col(1) = R.col(2).cross(R.col(0));
-  Pose T_world_camera = Pose::Identity();
-  T_world_camera.linear() = R;
-  return T_world_camera;
-}
-
-Result<Json> TryStairs(const fs::path& folder) {
-  Json frames = Json::array();
-  for (const char* name : {"0000", "0001"}) {
-    const fs::path file = folder / (std::string(name) + "_depth.png");
-    const auto bytes = ReadFile(file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto raw = recordings::DecodeDepth16(recordings::BytesOf(*bytes), file.string());
-    if (!raw) return tl::unexpected(raw.error());
-    if (raw->width != kStairCamera.width_px || raw->height != kStairCamera.height_px)
-      return Fail(ErrorCode::kMismatch, "must be 512 x 424 px", file.string());
-    const auto T_world_camera = PoseOfImu(folder / (std::string(name) + "_imu.txt"));
-    if (!T_world_camera) return tl::unexpected(T_world_camera.error());
-    Json frame = FlightJson(
-        geometry::FindTreads(recordings::DepthOf(*raw, 0.001), kStairCamera, *T_world_camera));
-    frame["frame"] = name;
-    frames.push_back(std::move(frame));
-  }
-  return frames;
+  return std::pair(trial.Document(), trial.Noise());
 }
 
 std::string RoomText(const char* name, const Json& room) {
@@ -247,15 +206,6 @@ std::string RoomText(const char* name, const Json& room) {
             : fmt::format("found {:.2f} m off, {:+.2f} m in height", plant["error_m"].get<double>(),
                           plant["height_error_m"].get<double>()));
   }
-  return text;
-}
-
-std::string StairsText(const Json& frames) {
-  std::string text;
-  for (const Json& frame : frames)
-    text += fmt::format("stairs {}: {} treads, riser {:.3f} m, tread {:.3f} m\n",
-                        frame["frame"].get<std::string>(), frame["treads"].get<int>(),
-                        frame["riser_m"].get<double>(), frame["tread_m"].get<double>());
   return text;
 }
 
@@ -293,14 +243,14 @@ Result<void> BenchSensors(const SensorTrialOptions& options, const CommonOptions
     if (!fs::exists(data / name, error)) continue;
     auto room = TryRoom(data / name, recording, *config, suite ? &*suite : nullptr);
     if (!room) return tl::unexpected(room.error());
-    text += RoomText(name, *room);
-    document[name] = std::move(*room);
+    text += RoomText(name, room->first) + room->second;
+    document[name] = std::move(room->first);
   }
   if (fs::exists(data / "stairs", error)) {
-    auto stairs = TryStairs(data / "stairs");
+    auto stairs = TryStairs(data / "stairs", suite ? &*suite : nullptr);
     if (!stairs) return tl::unexpected(stairs.error());
-    text += StairsText(*stairs);
-    document["stairs"] = std::move(*stairs);
+    text += stairs->text;
+    document["stairs"] = Json::parse(stairs->json);
   }
   if (document.empty())
     return Fail(ErrorCode::kNotFound, "holds none of the folders hololens, rgbd and stairs",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `run`, `eval`, `demo` and `bench` share: the episode file, its scenes and the run's header.
+// Shared code of `run`, `eval`, `demo` and `bench`: the episode file, its scenes and the run's
+// header.
 #pragma once
 
 #include <filesystem>
@@ -17,25 +18,26 @@
 
 namespace crossnav::app {
 
-/// --variant, --success, --budget-scope and --perception as typed; empty = as configured.
+/// --variant, --success, --budget-scope and --perception from the command line; empty = as
+/// configured.
 struct Protocol {
   std::string variant = "full", success, budget_scope, perception;
 };
 Result<evaluation::RunConfig> LoadRunConfig(const CommonOptions& common, const Protocol& protocol);
 
-/// Scenes, loaded when first asked for; the last few are kept.
+/// Cache of scenes, loaded on first use; keeps the last few.
 class SceneCache {
  public:
   SceneCache(std::filesystem::path scenes_dir, const evaluation::RunConfig& config)
       : scenes_dir_(std::move(scenes_dir)), config_(config) {}
 
-  /// Scenes take the viewpoints of an ObjectNav file; those of other files are found anew, but the
-  /// marks of a file of edition 2 count. `file` must outlive the cache.
+  /// Scenes take the viewpoints of an ObjectNav file; for other files viewpoints are computed, with
+  /// the marks of a file of edition 2. `file` must outlive the cache.
   void UseGoalsOf(const evaluation::EpisodeFile& file) { file_ = &file; }
 
   Result<const evaluation::SceneContext*> Get(const std::string& scene_id);
 
-  /// These scenes, all kept from now on; for drawing episodes.
+  /// Loads these scenes and keeps them all, for drawing episodes.
   Result<std::vector<evaluation::GeneratorScene>> GetAll(const std::vector<std::string>& ids,
                                                          Console& console);
 
@@ -57,7 +59,7 @@ evaluation::RunHeader MakeHeader(const evaluation::RunConfig& config, const std:
 
 evaluation::SceneHashes HashesOf(const evaluation::SceneContext& context);
 
-/// Features of one encoder mean nothing to another: fails unless the map is of `encoder`, or holds
+/// Features of different encoders are not comparable: fails unless the map is of `encoder`, or has
 /// no features.
 Result<void> CheckEncoder(const store::MapHeader& header, const std::string& encoder,
                           const std::string& path);

@@ -17,7 +17,7 @@ std::string ShellQuoted(const std::string& text) {
 }
 
 Result<ShellAnswer> RunInShell(const std::string& command) {
-  // NOLINTNEXTLINE(bugprone-command-processor): whole command lines are what this is for
+  // NOLINTNEXTLINE(bugprone-command-processor): runs whole command lines by design
   std::FILE* pipe = ::popen(("exec " + command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return Fail(ErrorCode::kIo, std::strerror(errno), command);
   ShellAnswer answer;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Other programs that a command needs: Slurm's, and the Python package.
+// Runs other programs: Slurm's, and the Python package.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace crossnav::app {
 
-/// As one word of a POSIX shell.
+/// Quotes as one word of a POSIX shell.
 std::string ShellQuoted(const std::string& text);
 
 struct ShellAnswer {
-  int exit_status = 0;  ///< 127 = there is no such program; 128 + the signal that ended it
+  int exit_status = 0;  ///< 127 = no such program; 128 + the signal that ended it
   std::string text;     ///< of both streams, without the last line's end
 };
 /// Runs `command` in the system's shell to its end.
 Result<ShellAnswer> RunInShell(const std::string& command);
 
 /// Runs `python3 -m MODULE WORDS...` of the package `crossnav`; CROSSNAV_PYTHON names another
-/// interpreter. `extra` is what the module needs besides, as `pip install crossnav[extra]` has it.
-/// Its last line is the error where it fails.
+/// interpreter. `extra`: the module's extra requirement, as in `pip install crossnav[extra]`. On
+/// failure the last line of its output is the error.
 Result<void> RunPythonModule(const std::string& module, const std::string& extra,
                              const std::vector<std::string>& words);
 

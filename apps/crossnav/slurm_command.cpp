@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `crossnav slurm`: checks what `eval` would check, writes the scripts and hands them to sbatch.
+// `crossnav slurm`: runs eval's checks, writes the scripts and submits them to sbatch.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What eval is told; as typed, since the tasks work in the same folder.
+/// Arguments of eval, unchanged, because the tasks run in the same folder.
 std::vector<std::string> EvalArguments(const EvalOptions& eval, const CommonOptions& common) {
   std::vector<std::string> arguments;
   const auto add = [&](const char* option, const std::string& value) {
@@ -36,7 +36,7 @@ std::vector<std::string> EvalArguments(const EvalOptions& eval, const CommonOpti
   return arguments;
 }
 
-/// A value on a #SBATCH line ends at a blank and a line at its line feed.
+/// A value on a #SBATCH line ends at a space, and the line at a line feed.
 Result<void> CheckWord(const std::string& option, const std::string& value) {
   const auto is_bad = [](char c) {
     return std::isspace(static_cast<unsigned char>(c)) || c == '#';
@@ -57,7 +57,7 @@ Result<void> CheckWords(const SlurmOptions& options) {
   return {};
 }
 
-/// Shards of another division would hold some episodes twice.
+/// Existing shards of another division would duplicate episodes.
 Result<void> CheckDivision(const SlurmJob& job) {
   const std::string suffix = fmt::format("-of-{}.jsonl", job.tasks);
   std::error_code ignored;
@@ -73,7 +73,7 @@ Result<void> CheckDivision(const SlurmJob& job) {
   return {};
 }
 
-/// As eval does, so that not every task of the array fails with the same message.
+/// Runs eval's checks here, so that the tasks of the array do not all fail with the same message.
 Result<void> CheckEval(const SlurmOptions& options, const CommonOptions& common) {
   const EvalOptions& eval = options.eval;
   const auto config =
@@ -135,7 +135,7 @@ Result<std::string> Submit(const std::string& script) {
               script);
 }
 
-/// The number behind `word`, as text; empty where there is none.
+/// The number after `word`, as text; empty if absent.
 std::string IdOf(const std::string& answer, const std::string& word) {
   const std::size_t at = answer.rfind(word + " ");
   if (at == std::string::npos) return {};

@@ -8,7 +8,7 @@
 namespace crossnav::app {
 namespace {
 
-// chosen: seconds before its time is over in which a task requeues itself; Slurm may signal up to a
+// chosen: a task requeues itself this many seconds before its time limit; Slurm may signal up to a
 // minute earlier
 constexpr int kRequeueSeconds = 60;
 
@@ -16,12 +16,12 @@ std::string Option(const char* name, const std::string& value) {
   return value.empty() ? std::string() : fmt::format("#SBATCH --{}={}\n", name, value);
 }
 
-/// What both jobs say to sbatch. Logs are relative to the folder of the scripts.
+/// Common #SBATCH lines of both jobs. Logs are relative to the scripts' folder.
 std::string Head(const SlurmJob& job, const std::string& name, const std::string& log) {
   std::string text = "#!/bin/bash\n";
   text += Option("job-name", name);
   text += Option("output", log);
-  text += Option("open-mode", "append");  // a requeued task goes on in its log, too
+  text += Option("open-mode", "append");  // a requeued task appends to its log
   text += "#SBATCH --requeue\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n";
   text += Option("partition", job.partition);
   text += Option("account", job.account);
@@ -47,8 +47,7 @@ std::string ShardScript(const SlurmJob& job) {
   text +=
       fmt::format("#SBATCH --array=0-{}\n#SBATCH --cpus-per-task={}\n", job.tasks - 1, job.cpus);
   if (!job.time.empty()) text += fmt::format("#SBATCH --signal=B:USR1@{}\n", kRequeueSeconds);
-  text +=
-      "# One shard of an evaluation. Started again, it goes on behind the last finished episode.\n";
+  text += "# One shard of an evaluation. A restart continues behind the last finished episode.\n";
   text += Start(job);
   text += "task=$SLURM_ARRAY_TASK_ID\n";
   const std::string shards = ShellQuoted(job.out + "/shards");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `bench stairs`: attempts at every kind of stair, up and down, and at what is none.
+// `bench stairs`: attempts at every kind of stair, up and down, and at false entrances.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,13 +21,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One row of either table.
+/// A row of either table.
 struct Row {
   std::string kind, way;
-  int attempts = 0, reached = 0, found = 0;  ///< reached: or started, at what is no stair
+  int attempts = 0, reached = 0, found = 0;  ///< reached: at false entrances, started
   std::vector<double> actions;
-  std::vector<std::string> notes;         ///< one per attempt that was not as it should be
-  std::vector<evaluation::Episode> kept;  ///< their episodes
+  std::vector<std::string> notes;         ///< one per failed attempt
+  std::vector<evaluation::Episode> kept;  ///< episodes of failed attempts
 };
 
 struct Tables {
@@ -48,7 +48,8 @@ std::string ShareText(int hits, int attempts) {
 std::string Text(const Tables& tables) {
   std::string text;
   if (!tables.stairs.empty()) {
-    text += "| stair | way | reached the other floor, % | found the goal | median actions |\n";
+    text +=
+        "| stair | direction | reached the other floor, % | found the goal | median actions |\n";
     text += "|---|---|--:|--:|--:|\n";
   }
   int attempts = 0, reached = 0;
@@ -155,9 +156,9 @@ Result<void> TryFalse(const evaluation::RunConfig& config, evaluation::FalseEntr
   return {};
 }
 
-/// Seeds whose world has no start that sees the entrance, or no ground to walk on, are passed over,
-/// up to this many a wanted attempt.
-constexpr int kSeedsPerAttempt = 4;  // chosen: most worlds have one
+/// Skips seeds whose world has no start with a view of the entrance, or no walkable ground, up to
+/// this many per wanted attempt.
+constexpr int kSeedsPerAttempt = 4;  // chosen: most worlds qualify
 
 /// A kind of stair by its name.
 struct StairMaker {

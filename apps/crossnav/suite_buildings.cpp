@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kSeeds = 500;  // chosen: that a suite may try; most give a house
+constexpr std::uint64_t kSeeds = 500;  // chosen: seeds tried for a suite; most give a house
 
 Result<std::string> MeshHashOf(const fs::path& folder) {
   const auto scene = sim::LoadScene(folder);
@@ -24,7 +24,8 @@ Result<std::string> MeshHashOf(const fs::path& folder) {
   return evaluation::HexHash(scene->mesh_hash);
 }
 
-/// The houses of `seeds`, in processes; `passed` gets the mesh hash of each house that passed.
+/// Generates the houses of `seeds` in worker processes; `passed` receives the mesh hash of each
+/// accepted house.
 Result<void> MakeHouses(const evaluation::SuiteDefinition& suite, const fs::path& scenes,
                         const std::vector<std::uint64_t>& seeds, const world::FurniturePack* pack,
                         int jobs, MeshHashes& passed, Console& console) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The buildings of a suite's tracks, below a folder of scenes. Each function gives the mesh hash of
+// Buildings of a suite's tracks, below a folder of scenes. Each function returns the mesh hash of
 // each scene by its name.
 #pragma once
 
@@ -14,17 +14,17 @@ namespace crossnav::app {
 
 using MeshHashes = std::map<std::string, std::string>;
 
-/// Houses of the first seeds that give one, whatever the number of processes.
+/// Houses of the first valid seeds, independent of the number of processes.
 Result<MeshHashes> GenerateBuildings(const evaluation::SuiteDefinition& suite,
                                      const std::filesystem::path& scenes,
                                      const world::FurniturePack* pack, int jobs, Console& console);
 
-/// The example homes that the archive `jar` of Sweet Home 3D holds. Error: no such file.
+/// The example homes in the archive `jar` of Sweet Home 3D. Error: no such file.
 Result<MeshHashes> ImportDrawnHomes(const std::filesystem::path& jar,
                                     const std::filesystem::path& scenes, int jobs,
                                     Console& console);
 
-/// A copy of every scene below `from`, where `crossnav scene import` wrote them.
+/// Copies every scene below `from`, the output of `crossnav scene import`.
 Result<MeshHashes> CopyBuildings(const std::filesystem::path& from,
                                  const std::filesystem::path& scenes, Console& console);
 

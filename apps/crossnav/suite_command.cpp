@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `crossnav suite make | run | report`: each does what is missing before it.
+// `crossnav suite make | run | report`: each verb first does the missing steps before it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ SuitePlace PlaceOf(const evaluation::SuiteDefinition& suite, const SuiteOptions&
   return {fs::path(options.out) / suite.name};
 }
 
-/// What a suite's episodes are made with; they depend on no settings of the user's.
+/// Settings for a suite's episodes; independent of the user's settings.
 evaluation::RunConfig ConfigOf(const evaluation::SuiteDefinition& suite) {
   evaluation::RunConfig config;
   if (!suite.track.empty()) config.dataset.certificate = "detection";
@@ -53,7 +53,7 @@ evaluation::GeneratorOptions DrawingOf(const evaluation::SuiteDefinition& suite,
   return drawing;
 }
 
-/// In one worker: scenes are loaded there, and this process may go on to fork.
+/// In a single worker: it loads the scenes, and this process stays free to fork.
 Result<void> MakeEpisodes(const evaluation::SuiteDefinition& suite, const SuitePlace& place,
                           const evaluation::RunConfig& config, Console& console) {
   evaluation::PoolTask task;
@@ -117,7 +117,8 @@ std::string FurnitureOf(const evaluation::SuiteDefinition& suite,
   return pack != nullptr ? "pack " + pack->hash() : std::string("simple shapes");
 }
 
-/// Buildings, episodes, manifest; the manifest is written last, so that what has one is whole.
+/// Buildings, episodes, manifest; the manifest is written last, so that its presence means
+/// completeness.
 Result<evaluation::SuiteManifest> MakeSuite(const evaluation::SuiteDefinition& suite,
                                             const SuiteOptions& options, Console& console) {
   const SuitePlace place = PlaceOf(suite, options);
@@ -128,7 +129,7 @@ Result<evaluation::SuiteManifest> MakeSuite(const evaluation::SuiteDefinition& s
   if (!opened) return tl::unexpected(opened.error());
   const world::FurniturePack* pack = *opened ? &**opened : nullptr;
   std::error_code ignored;
-  fs::remove_all(place.scenes(), ignored);  // of a make that was interrupted
+  fs::remove_all(place.scenes(), ignored);  // of an interrupted make
   const auto meshes = MakeBuildings(suite, options, pack, console);
   if (!meshes) return tl::unexpected(meshes.error());
   if (auto ok = MakeEpisodes(suite, place, ConfigOf(suite), console); !ok)
@@ -153,7 +154,7 @@ Result<evaluation::SuiteManifest> MakeSuite(const evaluation::SuiteDefinition& s
   return manifest;
 }
 
-/// The suite or track as it is on disk, made where it is not.
+/// The suite or track on disk, made if absent.
 Result<evaluation::SuiteManifest> EnsureSuite(const evaluation::SuiteDefinition& suite,
                                               const SuiteOptions& options, Console& console) {
   const SuitePlace place = PlaceOf(suite, options);
@@ -167,7 +168,7 @@ Result<evaluation::SuiteManifest> EnsureSuite(const evaluation::SuiteDefinition&
   return manifest;
 }
 
-/// The tracks that the name means and that can be had: without --buildings, not bim.
+/// The available tracks of the name: without --buildings, not bim.
 Result<std::vector<evaluation::SuiteDefinition>> WantedTracks(const SuiteOptions& options,
                                                               Console& console) {
   auto tracks = evaluation::FindTracks(options.name);
@@ -182,7 +183,7 @@ Result<std::vector<evaluation::SuiteDefinition>> WantedTracks(const SuiteOptions
   return tracks;
 }
 
-/// A run of the suite, finished.
+/// Runs the suite to its end.
 Result<void> EnsureRun(const evaluation::SuiteDefinition& suite, const SuiteOptions& options,
                        const CommonOptions& common, Console& console) {
   const auto manifest = EnsureSuite(suite, options, console);
@@ -200,7 +201,7 @@ Result<void> EnsureRun(const evaluation::SuiteDefinition& suite, const SuiteOpti
   return Eval(eval, common, console);
 }
 
-/// A line for people and a document.
+/// A text line and a document.
 std::pair<std::string, Json> Describe(const SuitePlace& place,
                                       const evaluation::SuiteManifest& manifest) {
   int required = 0;
@@ -263,7 +264,7 @@ Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& commo
   if (IsLifelong(options.name)) return LifelongReport(options, console);
   const auto tracks = WantedTracks(options, console);
   if (!tracks) return tl::unexpected(tracks.error());
-  Console quiet(false, common.quiet, /*is_silent=*/true);  // the run's figures stand in the report
+  Console quiet(false, common.quiet, /*is_silent=*/true);  // the report has the run's figures
   ReportOptions report;
   report.out = (fs::path(options.out) / options.name / "report").string();
   for (const evaluation::SuiteDefinition& suite : *tracks) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// `crossnav suite export SUITE --to habitat DIR`: a suite as Habitat-Sim and Habitat-Lab load it.
+// `crossnav suite export SUITE --to habitat DIR`: a suite in the formats of Habitat-Sim and
+// Habitat-Lab.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "crossnav/core/read_file.h"
 #include "crossnav/core/write_file.h"
 #include "crossnav/evaluation/episodes/habitat_episodes.h"
 #include "crossnav/evaluation/episodes/suite.h"
@@ -19,14 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One scene: its mesh as it is, its semantics with linear colours, and its navmesh.
+/// A scene: its mesh with colours as Habitat multiplies them, its semantics with linear colours,
+/// and its navmesh.
 Result<void> ExportScene(const fs::path& from, const fs::path& to,
                          const sim::NavMeshSettings& settings) {
   const auto scene = sim::LoadScene(from);
   if (!scene) return tl::unexpected(scene.error());
   const std::string stem = scene->id.substr(scene->id.find('-') + 1);
-  const auto mesh = ReadFile(from / (stem + ".glb"));
-  if (!mesh) return tl::unexpected(mesh.error());
   const auto navmesh = sim::EncodeHabitatNavMesh(*scene, settings);
   if (!navmesh) return tl::unexpected(navmesh.error());
   std::error_code error;
@@ -42,7 +41,7 @@ Result<void> ExportScene(const fs::path& from, const fs::path& to,
       !ok) {
     return ok;
   }
-  return write(".glb", *mesh);
+  return write(".glb", world::EncodeRenderGlb(*scene, world::RenderColours::kAsShown));
 }
 
 }  // namespace

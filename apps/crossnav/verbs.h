@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The program's verbs and their options, as CLI11 takes them.
+// The program's verbs and their options, for CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "ask_command.h"
 #include "commands.h"
 #include "map_build.h"
 #include "noise_command.h"
@@ -12,13 +13,17 @@
 
 namespace crossnav::app {
 
+inline constexpr const char* kPoseHelp =
+    "unknown: the robot has to find itself in --memory; default: given";
+
 using Command = std::function<Result<void>(Console&)>;
 
-/// Holds the options of every verb while CLI11 fills them in.
+/// Options of every verb, filled in by CLI11.
 struct Options {
   CommonOptions common;
   WorldOptions world;
   ChangeOptions change;
+  AskOptions ask;
   AssetsOptions assets;
   SceneOptions scene;
   ViewsOptions views;
@@ -43,24 +48,36 @@ struct Options {
   StairsOptions stairs;
   NoiseSweepOptions noise;
   GraphBenchOptions graph_bench;
+  LocalizeBenchOptions localize_bench;
   SensorTrialOptions sensor_trials;
+  WordBenchOptions word_bench;
   ServeOptions serve;
   Command command;
 };
 
-/// Adds a verb with the options that all of them take.
+/// Adds a verb with the common options.
 CLI::App* AddVerb(CLI::App& parent, Options& options, const char* name, const char* what,
                   const char* example, Command command);
 
-/// Houses, scenes and episodes: what is run in.
+/// Houses, scenes and episodes.
 void AddSceneVerbs(CLI::App& app, Options& options);
 /// Runs, their results, maps, networks and tools.
 void AddRunVerbs(CLI::App& app, Options& options);
 
+/// `serve`.
+void AddServe(CLI::App& app, Options& options);
+/// --watch and --watch-port.
+void AddWatch(CLI::App* verb, WatchOptions& watch);
 /// `networks`.
 void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.
 void AddReplay(CLI::App& app, Options& options);
+/// `bench localize`.
+void AddLocalizeBench(CLI::App& bench, Options& options);
+/// `ask`.
+void AddAsk(CLI::App& app, Options& options);
+/// `bench words`.
+void AddWordTrials(CLI::App& bench, Options& options);
 /// `bench sensors`.
 void AddSensorTrials(CLI::App& bench, Options& options);
 

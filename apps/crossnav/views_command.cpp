@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMinObject_px = 50;  // chosen: below that nobody could name it
+constexpr int kMinObject_px = 50;  // chosen: smaller objects are unrecognisable
 
 Json BoxJson(const perception::PixelBox& box) {
   return Json::array({box.u0, box.v0, box.u1, box.v1});

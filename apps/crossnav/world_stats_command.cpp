@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Counts = std::map<std::string, int>;
 
-/// What a set of houses amounts to.
+/// Statistics of a set of houses.
 struct Totals {
   int asked = 0, plans = 0;
   std::vector<std::string> failed;  ///< messages
@@ -66,7 +66,7 @@ std::string SpreadText(const std::vector<double>& values, int digits) {
 }
 
 std::string Table(const Totals& t) {
-  std::string floors, text = "| what | figure |\n|---|---|\n";
+  std::string floors, text = "| quantity | figure |\n|---|---|\n";
   for (const auto& [count, houses] : t.floors) {
     floors += fmt::format("{}{} of {}", floors.empty() ? "" : ", ", houses, count);
   }

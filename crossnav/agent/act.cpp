@@ -9,6 +9,8 @@
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/shared_parts.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/policy/ground_motion.h"
 #include "crossnav/policy/steering.h"
 
@@ -21,7 +23,6 @@ namespace {
 constexpr double kArrived_m = 0.35;    // chosen: one forward step and a voxel
 constexpr int kLooksAtTarget = 6;      // chosen: half a turn, or less and a pitch
 constexpr double kTouching_m = 0.001;  // chosen: beside a blocked column, not in it
-constexpr int kWobbles = 3;            // chosen: one more than a live POI needs to be stable
 
 /// The next action along the path; nullopt at its end, or where no step helps.
 std::optional<Action> Walk(StepState& now, Route& route) {
@@ -99,9 +100,12 @@ std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Ver
     if (auto look = LookAt(now, visit, p_aim, 2 * kLooksAtTarget)) return look;
   }
   // Once aimed, a wobble to either side gives the detector a few more frames.
-  constexpr Action kWobble[kWobbles] = {Action::kTurnLeft, Action::kTurnRight, Action::kTurnRight};
-  if (poi.looked < kWobbles) return kWobble[poi.looked++];
+  if (const auto wobble = static_cast<std::size_t>(poi.looked); wobble < kWobble.size())
+    return ++poi.looked, kWobble[wobble];
   poi.is_exhausted = true;
+  if (now.world.revision)
+    now.world.objects.Disprove(CanonicalName(now.goal.goal), poi.voxels,
+                               {now.world.day, now.world.step});
   now.goal.events.push_back("history POI without success, similarity " +
                             std::to_string(poi.similarity) + " score " + std::to_string(poi.score));
   End(now, Ending::kReached);

@@ -70,7 +70,7 @@ struct Scan {
 };
 using Activity = std::variant<Pursuit, Scan>;
 
-/// The pursuit in progress, or the one that a scan interrupts.
+/// The pursuit in progress, or the pursuit that a scan interrupts.
 Pursuit& PursuitOf(Activity& activity);
 const Pursuit& PursuitOf(const Activity& activity);
 /// Target and route of a pursuit; null while idle.

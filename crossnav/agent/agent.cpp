@@ -9,11 +9,13 @@
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
+#include "crossnav/agent/object_notes.h"
 #include "crossnav/agent/observation_check.h"
 #include "crossnav/agent/onemap_policy.h"
 #include "crossnav/agent/paper_policy.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/check.h"
 #include "crossnav/core/colour_grid.h"
 
@@ -83,7 +85,9 @@ struct Agent::Impl {
       : given(c), config(c), perception(std::move(p)), hooks(h), world(c) {}
 
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
-  std::vector<policy::Sighting> NoteSightings(const std::vector<perception::Detection>& detections,
+  std::vector<policy::Sighting> Lift(const std::vector<perception::Detection>& detections,
+                                     const Observation& obs);
+  std::vector<policy::Sighting> NoteSightings(std::vector<policy::Sighting> sightings,
                                               const Observation& obs);
   void Record(StepResult& result, const Decision& decision);
 };
@@ -117,7 +121,10 @@ std::vector<geometry::SeenStair> Agent::seen_stairs() const {
   return impl_->world.stairs.Export();
 }
 
-Result<void> Agent::SetGoal(const std::string& name) {
+Result<void> Agent::SetGoal(const std::string& wish) {
+  auto described = DescribedGoalOf(wish, *impl_->perception.encoder);
+  if (!described) return tl::unexpected(described.error());
+  const std::string& name = *described ? (*described)->category : wish;
   auto text = impl_->perception.encoder->EncodeText(name);
   if (!text) return tl::unexpected(text.error());
   LearnNames(*impl_->perception.encoder, impl_->config, &impl_->world);
@@ -131,7 +138,9 @@ Result<void> Agent::SetGoal(const std::string& name) {
     if (!background) return tl::unexpected(background.error());
     fresh.background = std::move(*background);
   }
-  fresh.events.push_back("goal activated: " + name);
+  fresh.events.push_back("goal activated: " + wish);
+  fresh.described = std::move(*described);
+  LookAtHome(impl_->world, impl_->config, &fresh);
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
   impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
@@ -156,10 +165,13 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
     return Fail(ErrorCode::kMismatch, "the saved features have another dimension than the encoder",
                 "memory");
   world.map = std::move(map);
+  if (IsRevising(impl_->config))
+    if (auto done = CountEvidence(&world.map); !done) return done;
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
   world.flights = std::move(flights);
   world.stairs.Import(seen_stairs);
+  if (IsRevising(impl_->config)) world.revision = RevisionOf(world);
   for (const geometry::StairFlight& flight : world.flights) {
     if (!flight.IsWalked()) continue;
     for (std::size_t i = 1; i < flight.steps_world.size(); ++i)
@@ -170,26 +182,48 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
   return {};
 }
 
-/// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; sightings below the
-/// confidence of a POI become hints and are not returned.
-std::vector<policy::Sighting> Agent::Impl::NoteSightings(
+void Agent::RestoreObjects(std::vector<objects::ObjectRecord> records, int day) {
+  World& world = impl_->world;
+  CROSSNAV_CHECK(world.step == 0, "a saved memory is given before the first step");
+  world.objects.Load(std::move(records));
+  world.day = day;
+  LocateObjects(&world);
+}
+
+std::vector<objects::ObjectRecord> Agent::objects() const {
+  return impl_->world.objects.Confirmed();
+}
+
+/// The goal in 3D, without objects that were rejected; as weak as a hint may be.
+std::vector<policy::Sighting> Agent::Impl::Lift(
     const std::vector<perception::Detection>& detections, const Observation& obs) {
   const policy::ObjectConfig& object = config.policy.object;
-  const policy::ObjectConfig hint = HintConfig(config.policy);
+  const double least =
+      std::min(object.secondary_confidence, HintConfig(config.policy).detector_confidence);
+  return WithoutRejected(policy::LiftDetections(detections, obs, config.map, object, least),
+                         obs.T_world_camera.translation(), config, &goal);
+}
+
+/// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; sightings below the
+/// confidence of a POI become hints and are not returned.
+std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sighting> sightings,
+                                                         const Observation& obs) {
+  const policy::ObjectConfig& object = config.policy.object;
   const Vector3d p_camera_world = obs.T_world_camera.translation();
-  auto sightings =
-      policy::LiftDetections(detections, obs, config.map, object,
-                             std::min(object.secondary_confidence, hint.detector_confidence));
-  sightings = WithoutRejected(std::move(sightings), p_camera_world, config, &goal);
-  goal.full.hints.Update(sightings, hint, config.map.voxel_m, world.step);
+  goal.full.hints.Update(sightings, HintConfig(config.policy), config.map.voxel_m, world.step);
+  const std::vector<policy::Sighting> all = sightings;
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;
   });
   // Paper, "Final Target-Object Approach": during the approach the detection is updated.
   const int approached = config.policy.profile == "paper" ? goal.active_live : -1;
   goal.live.Update(sightings, object, config.map.voxel_m, world.step, approached);
-  if (DoubtsClaims(config))
-    NoteViews(goal.live.all(), sightings, p_camera_world, object, config.verify, &goal.full.claims);
+  if (DoubtsClaims(config)) {
+    const policy::VerifyConfig& verify = config.verify;
+    NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);
+    if (verify.evidence == "views")
+      NoteScores(goal.live.all(), all, p_camera_world, object, verify, &goal.full.claims);
+  }
   return sightings;
 }
 
@@ -229,11 +263,14 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
     world.flight_survey.Update(world.stairs, world.levels_m, agent.p_world, config.map.voxel_m,
                                &world.flights);
   }
-  auto sightings = NoteSightings(percept->detections, obs);
+  const auto lifted = Lift(percept->detections, obs);
+  auto sightings = NoteSightings(lifted, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
   world.coverage.Add(end_voxels, p_camera_world, goal.full.inspect_range_m, config.map.voxel_m);
   if (config.policy.profile == "onemap") world.onemap.map.Add(end_voxels, obs, config.fusion);
   clock.Stop("evidence");
+  NoteObjects(lifted, percept->detections, obs, &world, &goal);
+  clock.Stop("objects");
   return Seen{std::move(sightings), std::move(*percept)};
 }
 

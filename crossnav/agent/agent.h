@@ -17,6 +17,7 @@
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/objects/object_record.h"
 #include "crossnav/perception/perception.h"
 #include "crossnav/trace/step_trace.h"
 
@@ -38,14 +39,16 @@ class Agent {
   struct Impl;
 
  public:
-  /// `hooks` decide what the user wants to decide (agent/hooks.h, policy.profile = full); they must
+  /// `hooks` replace decisions of the policy (agent/hooks.h, policy.profile = full); they must
   /// outlive the agent.
   Agent(const Config& config, perception::PerceptionSuite perception, Hooks* hooks = nullptr);
   ~Agent();
   Agent(Agent&&) noexcept;
 
-  /// Activates a goal: text vector, similarity field, POIs, path and verification start anew;
-  /// map, stairs and features stay as they are.
+  /// Activates a goal: the name of a category or an object, or a description of one ("the red chair
+  /// upstairs", language/parse_description.h), whose words that are not understood are kInvalid.
+  /// Text vector, similarity field, POIs, path and verification restart; map,
+  /// stairs and features stay.
   Result<void> SetGoal(const std::string& goal);
 
   /// Starts from a saved memory, the lifelong case: the map's states, stairs and features are known
@@ -55,12 +58,19 @@ class Agent {
                        std::vector<geometry::StairFlight> flights = {},
                        const std::vector<geometry::SeenStair>& seen_stairs = {});
 
-  /// One step. Colour with a grid of its own is brought onto that of depth first; where the
-  /// observation says how the camera is mounted, that goes before sensor.camera_height_m. Errors: a
-  /// malformed observation (sizes, NaN pose) or a failing network.
+  /// Goes on with records of objects that were saved with the memory; after Restore. `day`: runs
+  /// with this memory so far (store::MapHeader::revision).
+  void RestoreObjects(std::vector<objects::ObjectRecord> records, int day);
+
+  /// One step. Colour with its own grid is first registered to the grid of depth; a mounting in the
+  /// observation takes precedence over sensor.camera_height_m. Errors: a malformed observation
+  /// (sizes, NaN pose) or a failing network.
   Result<StepResult> Step(const Observation& obs);
 
   const Config& config() const;
+  /// Objects that the agent has records of, those that are gone and places disproved among them:
+  /// what is saved with the memory.
+  std::vector<objects::ObjectRecord> objects() const;
   /// Text vector of the active goal; empty before the first.
   std::span<const float> goal_text() const;
   const geometry::VoxelMap& map() const;

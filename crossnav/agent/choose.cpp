@@ -119,6 +119,7 @@ void CarryOut(StepState& now, Glance glance) {
 
 }  // namespace
 
+// Precedence: live POI, scan in progress, visit in progress, remembered place, glance, exploration.
 Choice Choose(const Situation& now) {
   Choice choice;
   const Activity& activity = now.goal.full.activity;

@@ -21,7 +21,7 @@ std::string TwoDigits(double value) {
   return text;
 }
 
-/// The names that the goal is held against: all that do not mean it.
+/// Names that compete with the goal: all that do not mean it.
 std::vector<policy::NamedText> OthersThan(const std::string& goal, const World& world) {
   std::vector<policy::NamedText> others;
   for (const policy::NamedText& text : world.full.names)
@@ -80,12 +80,15 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   const int views = seen ? static_cast<int>(seen->p_cameras_world.size()) : 0;
   const auto opinion =
       OpinionOf(now.world.memory, poi.voxels, goal.text, OthersThan(goal.goal, now.world));
-  ClaimVerdict verdict = Judge(opinion, verification.confidence, views, config);
+  const auto scores = seen ? seen->scores : std::vector<policy::ViewScore>{};
+  ClaimVerdict verdict = config.evidence == "views"
+                             ? Judge(opinion, scores, config)
+                             : Judge(opinion, verification.confidence, views, config);
   const bool was_asked = goal.full.claims.second_view_of == poi.id;
   if (verdict == ClaimVerdict::kWeak) {
     goal.full.claims.second_view_of = poi.id;
     if (goal.full.claims.no_second_view_of == poi.id || !HasSecondView(now, poi)) {
-      // There is none: the memory decides, and a view that failed counts against the claim unless
+      // Without a second view the memory decides, and a failed view counts against the claim unless
       // the memory is sure.
       const double margin = opinion ? opinion->Margin() : 0;
       const bool has_failed = goal.active_live == poi.id && goal.failed_views > 0;
@@ -117,6 +120,7 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
     goal.full.claims.rejected.push_back(
         {poi.id, poi.voxels, poi.p_center_world, poi.confidence, views});
   }
+  now.world.objects.Refute(CanonicalName(goal.goal), poi.voxels);
   goal.live.Discard(poi.id);
 }
 

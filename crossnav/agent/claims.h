@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the agent does about claims that may be wrong (verify.memory = on, policy.profile = full):
-// the rules of policy/claim.h, asked at the places where the step needs them. World frame, metres.
+// Verification of claims in a step (verify.memory = on, policy.profile = full): calls the rules of
+// policy/claim.h. World frame, metres.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace crossnav::agent {
 
-/// Whether claims are held against the memory at all.
+/// Whether claims are compared with the memory.
 bool DoubtsClaims(const Config& config);
 
-/// Text vectors of the names that claims are held against, once for an encoder; names that it
+/// Text vectors of the names that compete with claims, once for an encoder; names that the encoder
 /// cannot encode are left out.
 void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* world);
 
@@ -22,7 +22,7 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
                                               const Vector3d& p_camera_world, const Config& config,
                                               GoalState* goal);
 
-/// The last word on a POI that this frame proves: kWeak has asked for a view from another side.
+/// Final verdict on a POI that this frame confirms; kWeak requests a view from another side.
 policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
                                 const policy::Verification& verification);
 

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "crossnav/agent/memory_config.h"
 #include "crossnav/core/action.h"
 #include "crossnav/core/camera.h"
 #include "crossnav/geometry/map_config.h"
@@ -26,6 +27,7 @@ struct Config {
   planner::PlannerConfig planner;
   policy::PolicyConfig policy;
   policy::VerifyConfig verify;
+  MemoryConfig memory;
 };
 
 /// Visits every field as visit(name, field[, range]); sections through visit.Section(name, struct).
@@ -39,6 +41,7 @@ void Visit(V& visit, Config& c) {
   visit.Section("planner", c.planner);
   visit.Section("policy", c.policy);
   visit.Section("verify", c.verify);
+  visit.Section("memory", c.memory);
 }
 
 }  // namespace crossnav::agent

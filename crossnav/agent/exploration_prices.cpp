@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/policy/whereabouts.h"
 
 namespace crossnav::agent {
@@ -15,6 +16,7 @@ using policy::Candidate;
 namespace {
 
 constexpr std::size_t kHeading = 5;    // chosen: places of a path that give its direction
+constexpr double kRoom_m2 = 4;         // chosen: unseen area that may be a room
 constexpr double kFromAfar_m = 4;      // chosen: the path around a table to a nearer view
 constexpr double kSplitLevel_m = 1.0;  // chosen: flat ground this near in height is the same floor
 
@@ -24,7 +26,15 @@ ExplorationPrices::ExplorationPrices(const Situation& now, const policy::Relevan
     : now_(now),
       config_(now.config.policy.explore),
       relevancy_(relevancy),
-      floor_prior_m_(config_.floor_prior_m_per_bit * policy::UpperStoreyBits(now.goal.goal)) {}
+      floor_prior_m_(config_.floor_prior_m_per_bit * policy::UpperStoreyBits(now.goal.goal)),
+      is_surely_absent_(IsSurelyAbsent(now)) {}
+
+bool ExplorationPrices::IsWorthwhile(const ExplorationCandidate& found) const {
+  if (!is_surely_absent_) return true;
+  if (found.type == ExplorationClass::kUninspected) return false;
+  return found.type != ExplorationClass::kFrontier ||
+         policy::UnseenBeyond(now_.world.ground, found.place, config_.view_range_m) >= kRoom_m2;
+}
 
 PricedCandidate ExplorationPrices::Of(ExplorationCandidate found, std::vector<VoxelKey> path,
                                       double path_m) {
@@ -51,7 +61,9 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
     case ExplorationClass::kFlight:
       return {FlightPrice(RiseOf(now_, found.place)) + Doubt(found.candidate)};
     case ExplorationClass::kUninspected:
-      return {config_.uninspected_m + level_m};
+      return {
+          std::max(0.0, config_.uninspected_m - SearchBonus(now_, found.candidate.p_focus_world)) +
+          level_m};
     case ExplorationClass::kHint:
       return {config_.hint_bonus_m};
     case ExplorationClass::kHintFromAfar:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Price of an exploration candidate [m]: its path, the turns before the first step, and the terms
 // of its class, of the floor prior, of turning back on a flight, and of the commitment
-// (docs/navigation.md, "What to do").
+// (docs/navigation.md, "Activities").
 #pragma once
 
 #include <vector>
@@ -23,6 +23,10 @@ struct PricedCandidate {
 class ExplorationPrices {
  public:
   ExplorationPrices(const Situation& now, const policy::Relevancy& relevancy);
+
+  /// False for candidates that no longer matter once the goal is surely absent from all that the
+  /// memory knows (memory.mode = revise): known ground, and pockets of unseen ground.
+  bool IsWorthwhile(const ExplorationCandidate& found) const;
 
   /// `path_m`: cost of `path`.
   PricedCandidate Of(ExplorationCandidate found, std::vector<geometry::VoxelKey> path,
@@ -56,6 +60,7 @@ class ExplorationPrices {
   const policy::ExploreConfig& config_;
   const policy::Relevancy& relevancy_;
   double floor_prior_m_;  // positive: the goal is likelier on an upper floor; negative: below
+  bool is_surely_absent_;
   bool has_found_descent_ = false;
 };
 

@@ -35,6 +35,7 @@ std::vector<PricedCandidate> PriceCandidates(const Situation& now, const VoxelKe
     // A hook may prefer candidates that are far away.
     if (!now.hooks && path_m + prices->LargestDiscount() >= best_m) break;
     for (ExplorationCandidate& found : candidates.At(*place)) {
+      if (!prices->IsWorthwhile(found)) continue;
       all.push_back(prices->Of(std::move(found), search.PathTo(*place), path_m));
       best_m = std::min(best_m, prices->UpperBound(all.back()));
     }

@@ -35,7 +35,7 @@ class Hints {
   struct Hint {
     const policy::LivePoi& poi;
     policy::ViewTest view;                   ///< within the approach range
-    std::optional<policy::ViewTest> nearer;  ///< than the last view, where there is such a place
+    std::optional<policy::ViewTest> nearer;  ///< nearer than the last view, if such a place exists
     const CloseLooks* looks = nullptr;       ///< null before the first
     bool was_approached = false;
     bool is_seen = false, is_seen_nearer = false;

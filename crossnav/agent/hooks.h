@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The two decisions that studies replace: where to look next, and whether to believe a claim. Each
-// is asked with the policy's own answer in hand, so that one may be replaced and the other kept.
-// For policy.profile = full. World frame, metres.
+// Hooks: the two decisions that studies replace, namely where to look next and whether to believe a
+// claim. Each hook receives the policy's own answer and may return it, so that each can be replaced
+// alone. For policy.profile = full. World frame, metres.
 #pragma once
 
 #include <span>
@@ -35,8 +35,8 @@ class Hooks {
   virtual std::vector<double> ScoreExploration(const Situation& now,
                                                std::span<const ExplorationOption> options);
 
-  /// kAgreed says STOP now, kWeak looks from elsewhere, kRefuted gives the object up. Asked for
-  /// each stable object in view.
+  /// Called for each stable object in view. kAgreed stops now, kWeak looks from elsewhere, kRefuted
+  /// gives the object up.
   virtual policy::ClaimVerdict JudgeClaim(const Situation& now, const Claim& claim);
 };
 

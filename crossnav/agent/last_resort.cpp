@@ -6,6 +6,7 @@
 #include "crossnav/agent/cut_off.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 namespace {
@@ -64,6 +65,7 @@ bool TryAllAgain(StepState& now) {
   goal.full.attempts.clear();
   goal.full.looks.clear();
   goal.live.ForgiveDiscarded();
+  if (goal.described) goal.described->set_aside.clear();
   goal.tried_viewpoints.clear();
   goal.failed_views = 0;
   goal.full.failed.clear();
@@ -74,13 +76,17 @@ bool TryAllAgain(StepState& now) {
   return true;
 }
 
-constexpr std::array kResorts = {LookAroundAgain, ForgetBumps,    Squeeze,
-                                 StepOnSeats,     AskMemoryAgain, TryAllAgain};
+constexpr std::array kResorts = {TakeGuesses, LookAroundAgain, ForgetBumps, Squeeze,
+                                 StepOnSeats, AskMemoryAgain,  TryAllAgain};
 
 }  // namespace
 
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;
+  if (IsSurelyAbsent(now)) {
+    goal.events.push_back("all explored; everywhere looked at, it is gone");
+    return false;
+  }
   while (goal.full.last_resorts < kResorts.size()) {
     if (!kResorts[goal.full.last_resorts++](now)) continue;
     for (HistoryPoi& poi : goal.history) poi.unreachable_step.reset();

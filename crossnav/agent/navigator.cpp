@@ -12,10 +12,11 @@
 #include "crossnav/agent/last_resort.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/shared_parts.h"
+#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 
-using policy::CandidateKind;
 using policy::ClaimVerdict;
 using policy::Mode;
 using policy::ModeReason;
@@ -35,11 +36,8 @@ ClaimVerdict JudgeClaim(StepState& now, const policy::LivePoi& poi,
 
 /// Issues STOP where this frame confirms a live POI. False if it confirms none.
 bool TryConfirmGoal(StepState& now, Decision& decision) {
-  const auto& config = now.config;
-  for (const policy::LivePoi* poi : now.goal.live.Stable(config.policy.object)) {
-    auto verification =
-        policy::Verify(*poi, now.sightings, {now.obs, now.agent, config.sensor.camera_height_m},
-                       config.policy, config.map.voxel_m);
+  for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
+    auto verification = VerifyNow(now, *poi);
     const auto verdict = JudgeClaim(now, *poi, verification);
     if (verification.passed && verdict == ClaimVerdict::kWeak)
       verification.failed_check = "second view";
@@ -57,12 +55,7 @@ bool TryConfirmGoal(StepState& now, Decision& decision) {
       confirmed = confirmed < 0 ? *similarity : std::min(confirmed, *similarity);
     }
     now.goal.active_live = poi->id;
-    policy::Candidate claimed;
-    claimed.kind = CandidateKind::kLivePoi;
-    claimed.poi_id = poi->id;
-    claimed.p_focus_world = poi->p_center_world;
-    claimed.size = static_cast<int>(poi->voxels.size());
-    claimed.score = poi->confidence;
+    policy::Candidate claimed = CandidateOf(*poi);
     decision.shown.push_back(claimed);
     decision.target = std::move(claimed);
     decision.p_claimed_world = poi->p_center_world;
@@ -142,6 +135,8 @@ Decision Navigate(StepState& now) {
   NoteLevel(now);
   now.world.full.looked_along.Add(now.eye, DegToRad(now.config.sensor.hfov_deg));
   MeasureProgress(now);
+  UpdateSearch(now);
+  JudgeInstances(now);
   if (!TryConfirmGoal(now, decision)) ChooseAndAct(now, &decision);
   if (decision.action == Action::kMoveForward) now.world.full.before_forward = now.agent;
   decision.activity = NameOf(now.goal.full.activity);

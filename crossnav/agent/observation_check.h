@@ -13,7 +13,8 @@ namespace crossnav::agent {
 /// intrinsics, a mounting that no robot has.
 Result<void> CheckObservation(const Observation& obs);
 
-/// What a network answered must fit the frame: an error that names it, never a read out of bounds.
+/// Checks that a network's answer fits the frame: an error that names it, never a read out of
+/// bounds.
 Result<void> CheckPercept(const perception::Percept& percept, const Observation& obs);
 
 }  // namespace crossnav::agent

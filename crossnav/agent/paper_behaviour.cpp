@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/flights.h"
 
 namespace crossnav::agent::paper {
@@ -16,10 +17,9 @@ using policy::CenteringAction;
 
 namespace {
 
-constexpr double kArrived_m = 0.20;    // chosen: less than one forward step
-constexpr int kLooksAtHistoryPoi = 3;  // chosen: one more than a live POI needs to be stable
-constexpr int kLooksAtFrontier = 2;    // chosen
-constexpr int kMaxPitches = 4;         // chosen: from the lowest pitch to one up, and one more
+constexpr double kArrived_m = 0.20;  // chosen: less than one forward step
+constexpr int kLooksAtFrontier = 2;  // chosen
+constexpr int kMaxPitches = 4;       // chosen: from the lowest pitch to one up, and one more
 constexpr double kFrontierBlacklist_m = 0.4;  // chosen: a few voxels that cannot be seen
 
 /// Centre of the frontier's unknown voxels near the agent: the heading on arrival.
@@ -103,8 +103,7 @@ void EndSession(Situation& now, bool is_success) {
     now.world.path_off_level_world.push_back(now.agent.p_world);
     policy::NoteWalk(now.world.path_off_level_world, now.world.stairs, now.config.map.voxel_m,
                      &now.world.flights);
-    now.world.level_m = now.agent.p_world.z();
-    now.world.levels_m.push_back(now.world.level_m);
+    EnterLevel(now.world, now.agent.p_world.z());
     now.world.paper.last_direction = session.direction;
     now.goal.events.push_back(session.direction > 0 ? "new level above" : "new level below");
     return;
@@ -123,18 +122,15 @@ void EndSession(Situation& now, bool is_success) {
 void QueueLookAround(GoalState& goal, const AgentPose& agent, const ActionConfig& action) {
   // One pitch step down: the ground at the feet and everything up to above the horizon is in view.
   const double down_rad = -DegToRad(action.pitch_deg);
-  if (const auto pitch = policy::PitchTowards(agent, down_rad, action))
-    goal.paper.script.push_back(*pitch);
-  const int turns = static_cast<int>(std::lround(360.0 / action.turn_deg));
-  goal.paper.script.insert(goal.paper.script.end(), static_cast<std::size_t>(turns),
-                           Action::kTurnLeft);
+  const auto turn = FullTurn(agent, down_rad, action);
+  goal.paper.script.insert(goal.paper.script.end(), turn.begin(), turn.end());
 }
 
 void NoticeBump(Situation& now) {
   auto& bumps = now.world.paper.bumps;
   if (!bumps.Update(now.agent, now.world.step, now.config.map)) return;
   now.goal.events.push_back("bump");
-  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another way out
+  if (bumps.bumps_in_place() < 3) return;  // chosen: two tries, then another route
   const auto escape =
       policy::EscapeActions(now.world.map, now.agent, bumps.bumped_yaws(), now.config.action);
   now.goal.paper.script.assign(escape.begin(), escape.end());
@@ -142,8 +138,7 @@ void NoticeBump(Situation& now) {
 }
 
 double DistanceToGoal(const Situation& now, const Target& target) {
-  const Vector3d p = CenterOf(target.plan.path.back(), now.config.map.voxel_m);
-  return (p - now.agent.p_world).head<2>().norm();
+  return DistanceToEndOf(target.plan.path, now.agent.p_world, now.config.map.voxel_m);
 }
 
 std::optional<Action> FollowPath(const Situation& now, const Target& target,
@@ -192,9 +187,7 @@ SessionVerdict CheckSession(Situation& now) {
   if (!now.goal.paper.session) return SessionVerdict::kNone;
   GoalState& goal = now.goal;
   policy::StairSession& session = *goal.paper.session;
-  auto& path = now.world.path_off_level_world;
-  if ((path.back() - now.agent.p_world).norm() > 0.5 * now.config.map.voxel_m)
-    path.push_back(now.agent.p_world);
+  NoteOffLevel(now.world, now.agent.p_world, now.config.map.voxel_m);
   policy::PromoteStairs(session, now.world.stairs, now.world.map, now.config.policy.stair);
   const auto status =
       policy::AdvanceSession(session, now.world.map, now.agent.p_world, now.config.policy.stair);
@@ -283,9 +276,8 @@ std::optional<Action> VisitHistoryPoi(Situation& now, const Target& target) {
     poi.looked = 8;
   }
   // Aimed: a wobble to either side gives the detector a few more frames.
-  constexpr Action kWobble[kLooksAtHistoryPoi] = {Action::kTurnLeft, Action::kTurnRight,
-                                                  Action::kTurnRight};
-  if (poi.looked < 8 + kLooksAtHistoryPoi) return kWobble[poi.looked++ - 8];
+  if (const auto wobble = static_cast<std::size_t>(poi.looked - 8); wobble < kWobble.size())
+    return ++poi.looked, kWobble[wobble];
   poi.is_exhausted = true;
   const auto& config = now.config.policy.poi;
   now.goal.paper.blacklist.push_back(

@@ -14,7 +14,7 @@ namespace crossnav::agent::paper {
 /// A full turn on the spot with the camera one step down: sees the ground at the feet too.
 void QueueLookAround(GoalState& goal, const AgentPose& agent, const ActionConfig& action);
 
-/// A forward step that did not move: an obstacle ahead, after the third one a way out of there.
+/// A forward step that did not move: an obstacle ahead; after the third bump, an escape from there.
 void NoticeBump(Situation& now);
 
 /// One action along the plan: pitch first, then turn or walk. nullopt at its end.

@@ -8,6 +8,7 @@
 
 #include "crossnav/agent/paper_behaviour.h"
 #include "crossnav/agent/paper_targets.h"
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/stair_geometry.h"
 #include "crossnav/policy/takeover.h"
 
@@ -72,9 +73,7 @@ void UpdateLevel(Situation& now) {
   World& world = now.world;
   GoalState& goal = now.goal;
   if (!world.has_level) {
-    world.has_level = true;
-    world.level_m = now.agent.p_world.z();
-    world.levels_m.push_back(world.level_m);
+    EnterLevel(world, now.agent.p_world.z());
     goal.p_looked_around_world = now.agent.p_world;
     QueueLookAround(goal, now.agent, now.config.action);
     return;
@@ -175,11 +174,7 @@ Decision Decide(StepState& given) {
   const auto& target = SelectTarget(decision.mode, options);  // eq:supp_candidate_priority
   const policy::LivePoi* claimed =
       decision.mode.uses_live_poi ? goal.live.Find(goal.active_live) : nullptr;
-  if (claimed) {
-    decision.verification = policy::Verify(
-        *claimed, given.sightings, {given.obs, given.agent, given.config.sensor.camera_height_m},
-        given.config.policy, given.config.map.voxel_m);
-  }
+  if (claimed) decision.verification = VerifyNow(given, *claimed);
   const bool is_looking = look && decision.mode.mode == Mode::kBasicExplore;
   decision.action = is_looking ? look : Act(now, decision.mode, target, decision.verification);
   if (!decision.action && Reconsider(now)) decision.action = Action::kTurnLeft;

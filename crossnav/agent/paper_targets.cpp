@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crossnav/agent/observation_place.h"
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/approach.h"
 #include "crossnav/policy/frontiers.h"
 
@@ -240,12 +241,7 @@ std::optional<Target> ChooseLivePoi(const Situation& now, int* id) {
   const auto& approach = now.config.policy.approach;
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
     if (IsBlacklisted(now.goal.paper.blacklist, poi->p_center_world)) continue;
-    Candidate candidate;
-    candidate.kind = CandidateKind::kLivePoi;
-    candidate.poi_id = poi->id;
-    candidate.p_focus_world = poi->p_center_world;
-    candidate.size = static_cast<int>(poi->voxels.size());
-    candidate.score = poi->confidence;
+    Candidate candidate = CandidateOf(*poi);
     const bool is_active = poi->id == now.goal.active_live;
     candidate.standing =
         policy::Viewpoints(now.world.map, poi->voxels, approach.range_m - 0.1, approach, camera_m,
@@ -263,11 +259,7 @@ std::optional<Target> ChooseHistoryPoi(Situation& now, int* index) {
     HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(i)];
     if (poi.is_exhausted || IsBlacklisted(now.goal.paper.blacklist, poi.p_center_world))
       return std::nullopt;
-    Candidate candidate;
-    candidate.kind = CandidateKind::kHistoryPoi;
-    candidate.p_focus_world = poi.p_center_world;
-    candidate.size = static_cast<int>(poi.voxels.size());
-    candidate.score = poi.score;
+    Candidate candidate = CandidateOf(poi);
     if (!now.start) return std::nullopt;
     auto view = PathToView(now.world.map, *now.start, poi.voxels, WholeMapRules(now), now.config);
     if (!view) return std::nullopt;
@@ -290,7 +282,7 @@ std::optional<Target> ChooseStairFrontier(const Situation& now) {
   const auto frontiers = StairFrontiers(*now.goal.paper.session, now.world.map, now.agent.p_world);
   const double here_m = now.goal.paper.session->direction *
                         (now.agent.p_world.z() - now.goal.paper.session->entrance_level_m);
-  // Steps that were seen one by one first; the sphere bridges treads that hide behind their risers.
+  // First by individually seen steps; the sphere bridges treads hidden behind their risers.
   for (const GraphKind kind : {GraphKind::kNormal, GraphKind::kStair}) {
     planner::PlannerConfig local = now.config.planner;
     // chosen: a flight and its landings; an expansion of the sphere looks at 4,188 neighbours.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crossnav/agent/claims.h"
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/approach.h"
 #include "crossnav/policy/frontiers.h"
 
@@ -113,11 +114,9 @@ std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& 
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
     auto target = ViewOf(now, start, *poi);
     if (!target) continue;
-    target->candidate.kind = CandidateKind::kLivePoi;
-    target->candidate.poi_id = poi->id;
-    target->candidate.p_focus_world = poi->p_center_world;
-    target->candidate.size = static_cast<int>(poi->voxels.size());
-    target->candidate.score = poi->confidence;
+    auto standing = std::move(target->candidate.standing);
+    target->candidate = CandidateOf(*poi);
+    target->candidate.standing = std::move(standing);
     return target;
   }
   return std::nullopt;
@@ -170,10 +169,9 @@ PlaceChoice ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
       auto target = ViewOf(now, start, poi);
       unreachable_step = target ? std::nullopt : std::optional(now.world.step);
       if (!target || (choice.target && choice.target->cost_m <= target->cost_m)) continue;
-      target->candidate.kind = CandidateKind::kHistoryPoi;
-      target->candidate.p_focus_world = poi.p_center_world;
-      target->candidate.size = static_cast<int>(poi.voxels.size());
-      target->candidate.score = poi.score;
+      auto standing = std::move(target->candidate.standing);
+      target->candidate = CandidateOf(poi);
+      target->candidate.standing = std::move(standing);
       choice.place = static_cast<int>(i);
       choice.target = std::move(target);
     }

@@ -25,7 +25,7 @@ planner::GroundRules RulesOf(const Situation& now);
 /// Foot position of an agent at a place to stand.
 Vector3d FootOf(const geometry::VoxelKey& key, double voxel_m);
 
-/// Whether something that high above an agent's foot is on the storey that the agent stands on.
+/// Whether an object at this height above an agent's foot is on the storey of the agent.
 bool IsOnStorey(double above_foot_m, const policy::ExploreConfig& config);
 
 /// Ranges of a view that follows one from `distance_m` without enough confidence, as shares of it,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/flights.h"
 #include "crossnav/policy/stair_geometry.h"
 
@@ -23,8 +24,8 @@ void NoteBump(StepState& now) {
   const AgentPose before = *std::exchange(now.world.full.before_forward, std::nullopt);
   const Vector3d moved = now.agent.p_world - before.p_world;
   if (moved.head<2>().norm() >= now.config.policy.motion.bump_m) return;
-  // The missing part of the step points at the obstacle: a body that slides along a wall has the
-  // wall beside itself, and free ground ahead.
+  // The missing part of the step points at the obstacle: for a body that slides along a wall, the
+  // wall is beside it, and the ground ahead is free.
   Vector3d missing =
       now.config.action.forward_m * Vector3d(std::cos(before.yaw_rad), std::sin(before.yaw_rad), 0);
   missing -= Vector3d(moved.x(), moved.y(), 0);
@@ -40,7 +41,7 @@ void NoteBump(StepState& now) {
   }
   if (Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity))) {
     pursued->route.motion.clear();
-    // Where nothing was learnt, the next step would be the same.
+    // Without new knowledge the next step would be the same.
     pursued->route.idle_steps +=
         now.config.policy.explore.progress_steps / (is_new ? kBumps : kBumpsInVain);
   }
@@ -51,9 +52,7 @@ void NoteLevel(StepState& now) {
   World& world = now.world;
   const double z_m = now.agent.p_world.z();
   if (!world.has_level) {
-    world.has_level = true;
-    world.level_m = z_m;
-    world.levels_m.push_back(z_m);
+    EnterLevel(world, z_m);
     LookAround(now);
     return;
   }
@@ -63,8 +62,7 @@ void NoteLevel(StepState& now) {
     path.assign(1, now.agent.p_world);
     return;
   }
-  if (path.empty() || (path.back() - now.agent.p_world).norm() > 0.5 * now.config.map.voxel_m)
-    path.push_back(now.agent.p_world);
+  NoteOffLevel(world, now.agent.p_world, now.config.map.voxel_m);
   const bool is_flat = policy::IsFlatAround(world.map, now.agent.p_world);
   world.full.flat_frames = is_flat ? world.full.flat_frames + 1 : 0;
   if (world.full.flat_frames < now.config.policy.stair.landing_frames) return;
@@ -78,8 +76,7 @@ void NoteLevel(StepState& now) {
     now.goal.events.push_back(walks == 1 ? "a flight is known" : "a known flight was walked again");
   }
   path.assign(1, now.agent.p_world);
-  world.level_m = z_m;
-  world.levels_m.push_back(z_m);
+  EnterLevel(world, z_m);
   const bool is_known = std::any_of(
       world.full.looked_around_m.begin(), world.full.looked_around_m.end(), [&](double looked_m) {
         return std::abs(z_m - looked_m) < now.config.policy.explore.storey_m;

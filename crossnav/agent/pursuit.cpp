@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/flights.h"
 
 namespace crossnav::agent {
@@ -213,8 +214,7 @@ void MeasureProgress(StepState& now) {
 double DistanceToEnd(const Situation& now) {
   const Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity));
   if (!pursued || pursued->route.path.empty()) return 0;
-  const Vector3d p = CenterOf(pursued->route.path.back(), now.config.map.voxel_m);
-  return (p - now.agent.p_world).head<2>().norm();
+  return DistanceToEndOf(pursued->route.path, now.agent.p_world, now.config.map.voxel_m);
 }
 
 }  // namespace crossnav::agent

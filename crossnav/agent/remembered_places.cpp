@@ -5,6 +5,8 @@
 #include <functional>
 #include <numeric>
 
+#include "crossnav/agent/whereabouts.h"
+
 namespace crossnav::agent {
 
 using geometry::VoxelKey;
@@ -22,6 +24,8 @@ std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& go
     poi.similarity = cluster.similarity;
     places.push_back(std::move(poi));
   }
+  if (world.revision) places = Revised(std::move(places), world, goal);
+  if (goal.described) places = FittingPlaces(std::move(places), world, goal);
   return places;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// History POIs for the goal's text, from the memory as it is (paper, "Query-Conditioned
-// Retrieval").
+// History POIs for the goal's text, from the current memory (paper, "Query-Conditioned Retrieval").
 #pragma once
 
 #include <optional>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "crossnav/policy/steering.h"
+#include "crossnav/agent/shared_parts.h"
 
 namespace crossnav::agent {
 
@@ -27,13 +27,8 @@ void EndScan(StepState& now) {
 }
 
 void LookAround(StepState& now) {
-  const auto& action = now.config.action;
-  std::deque<Action> turns;
   const double down_rad = DegToRad(now.config.policy.motion.travel_pitch_deg);
-  if (const auto pitch = policy::PitchTowards(now.agent, down_rad, action)) turns.push_back(*pitch);
-  const auto count = static_cast<std::size_t>(std::lround(360.0 / action.turn_deg));
-  turns.insert(turns.end(), count, Action::kTurnLeft);
-  BeginScan(now, std::move(turns));
+  BeginScan(now, FullTurn(now.agent, down_rad, now.config.action));
   now.goal.p_looked_around_world = now.agent.p_world;
   now.world.full.looked_around_m.push_back(now.agent.p_world.z());
 }

@@ -11,7 +11,7 @@ namespace crossnav::agent {
 
 /// Interrupts the pursuit by `turns`. Replaces a scan in progress; nothing happens without turns.
 void BeginScan(StepState& now, std::deque<Action> turns);
-/// Ends the scan, if there is one; the suspended pursuit goes on.
+/// Ends the scan, if there is one, and resumes the suspended pursuit.
 void EndScan(StepState& now);
 
 /// Begins a full turn with the camera down at the ground.

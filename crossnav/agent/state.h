@@ -5,6 +5,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,10 +13,13 @@
 
 #include "crossnav/agent/activity.h"
 #include "crossnav/agent/config.h"
+#include "crossnav/agent/described_goal.h"
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/objects/object_book.h"
+#include "crossnav/objects/room_odds.h"
 #include "crossnav/planner/ground_map.h"
 #include "crossnav/policy/candidates.h"
 #include "crossnav/policy/claim.h"
@@ -30,6 +34,7 @@
 #include "crossnav/policy/stair_session.h"
 #include "crossnav/policy/steering.h"
 #include "crossnav/policy/unanswered_ground.h"
+#include "crossnav/scenegraph/scene_graph.h"
 
 namespace crossnav::agent {
 
@@ -57,6 +62,12 @@ struct OneMapWorld {
   std::set<policy::Column> blacklist;  ///< goals that did not go away when they were reached
 };
 
+/// A loaded memory under memory.mode = revise: the rooms that it knows.
+struct Revision {
+  scenegraph::SceneGraph graph;
+  std::vector<objects::RoomPlace> rooms;
+};
+
 /// Survives a change of goal.
 struct World {
   geometry::VoxelMap map;
@@ -75,6 +86,9 @@ struct World {
   FullWorld full;
   PaperWorld paper;
   OneMapWorld onemap;
+  objects::ObjectBook objects;
+  int day = 0;                       ///< runs with the loaded memory before this one
+  std::optional<Revision> revision;  ///< empty: no memory was loaded, or memory.mode = keep
 
   /// Brings states and ground up to date with the evidence.
   void UpdateStates() {
@@ -91,7 +105,10 @@ struct World {
   }
 
   explicit World(const Config& config)
-      : map(MapConfigOf(config)), ground(config.map), memory(config.fusion, config.map.voxel_m) {}
+      : map(MapConfigOf(config)),
+        ground(config.map),
+        memory(config.fusion, config.map.voxel_m),
+        objects(config.map.voxel_m) {}
 };
 
 /// A place of the memory that answered the goal's query.
@@ -105,8 +122,8 @@ struct HistoryPoi {
   int looked = 0;                       ///< frames spent looking at it on arrival
 };
 
-/// Views of a hint or live POI with too low confidence: the next one is nearer while the confidence
-/// rises, then from another side.
+/// Views of a hint or live POI with too low confidence: the next view is nearer while the
+/// confidence rises, then from another side.
 struct CloseLooks {
   int poi_id = -1;
   std::vector<Vector3d> p_from_world;  ///< foot positions of the views so far
@@ -123,6 +140,14 @@ struct FailedViews {
   double doubtful_m = 0;  ///< FullGoal::doubtful_m after the last
 };
 
+/// Odds of the rooms for a goal that is at no place that the memory believes.
+struct RoomSearch {
+  std::map<int, double> odds;  ///< by room of the graph
+  double mean = 0;             ///< over the rooms with ground that was not inspected
+  double unseen = 1;           ///< mass of the ground that was not inspected
+  int step = 0;                ///< of the last refresh of `mean` and `unseen`
+};
+
 /// Goal state of policy.profile = full.
 struct FullGoal {
   Activity activity;
@@ -137,8 +162,9 @@ struct FullGoal {
   bool may_squeeze = false;      ///< planner rules that last resorts relaxed
   bool may_step_on_seats = false;
   double inspect_range_m = 0;
-  policy::Relevancy relevancy;  ///< scoring = semantic
-  int relevancy_step = -1;      ///< step of its last refresh
+  policy::Relevancy relevancy;       ///< scoring = semantic
+  int relevancy_step = -1;           ///< step of its last refresh
+  std::optional<RoomSearch> search;  ///< memory.mode = revise
 };
 
 /// Verification of a stair entrance, while the agent stands there and looks.
@@ -192,7 +218,8 @@ struct OneMapGoalState {
 
 /// Reinitialised by every new goal.
 struct GoalState {
-  std::string goal;
+  std::string goal;                        ///< name of a category or an object
+  std::optional<DescribedGoal> described;  ///< more was said than the name
   int index = -1;
   std::vector<float> text;
   std::vector<std::vector<float>> background;  ///< text vectors for query.relevancy = contrastive

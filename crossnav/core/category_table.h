@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one table by which words become goals: raw names of scenes, labels of networks and what users
-// type all go through it. Exact names, never substrings.
+// Category table: maps raw names of scenes, labels of networks and user input to goals. Exact
+// names, never substrings.
 #pragma once
 
 #include <filesystem>
@@ -19,13 +19,13 @@ using CategoryTable = std::map<std::string, std::string, std::less<>>;
 const CategoryTable& DefaultCategories();
 /// "raw name<TAB>category" lines, '#' comments.
 Result<CategoryTable> ReadCategoryTable(const std::filesystem::path& path);
-/// The same from text. Errors name `where` and the line.
+/// Reads the table from text. Errors name `where` and the line.
 Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::string& where);
 
 /// "TV_monitor " -> "tv monitor"
 std::string SpacedName(std::string_view text);
 
-/// The spaced name of the category that the built-in table gives for `text`, or its own:
+/// Spaced name of the category that the built-in table gives for `text`, else the spaced text:
 /// "Couch" -> "sofa", "TV" -> "tv monitor", "Lamp " -> "lamp".
 std::string CanonicalName(std::string_view text);
 

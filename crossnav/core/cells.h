@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The one place where a length becomes a number of cells. A plain floor(0.30 / 0.05) is 5 in double
-// and 6 in float; these forgive a relative error of 1e-6, so that 0.30 / 0.05 is 6 in both.
+// Lengths as numbers of cells; every conversion uses these functions. A plain floor(0.30 / 0.05) is
+// 5 in double and 6 in float; these forgive a relative error of 1e-6, so that 0.30 / 0.05 is 6 in
+// both.
 #pragma once
 
 #include <cmath>

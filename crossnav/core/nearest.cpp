@@ -14,7 +14,7 @@ std::string_view LastPart(std::string_view name) {
   return name.substr(name.rfind('.') + 1);
 }
 
-/// Letters to insert, remove or change; `most` + 1 where they are more than `most`.
+/// Number of letters to insert, remove or change; `most` + 1 where it exceeds `most`.
 int EditDistance(std::string_view a, std::string_view b, int most) {
   const auto lengths = static_cast<int>(a.size()) - static_cast<int>(b.size());
   if (std::abs(lengths) > most) return most + 1;
@@ -43,7 +43,7 @@ std::string DidYouMean(std::string_view word, std::span<const std::string> names
   int best_distance = static_cast<int>(word.size()) / 3 + 2;
   for (const std::string& name : names) {
     int distance = EditDistance(name, word, best_distance);
-    // "voxel_m" for "map.voxel_m": the place is forgotten, or another.
+    // Compares the last part of dotted keys: "voxel_m" matches "map.voxel_m".
     if (name.find('.') != std::string::npos)
       distance =
           std::min(distance, 1 + EditDistance(LastPart(name), LastPart(word), best_distance));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What somebody who mistyped a name probably meant.
+// Suggestions for mistyped names.
 #pragma once
 
 #include <span>

@@ -22,9 +22,9 @@ float FloatOfHalf(std::uint16_t bits) {
   return static_cast<float>(bits >> 15 != 0 ? -size : size);
 }
 
-/// "(3, 512)" behind 'shape' in the header; nothing where it is no shape.
+/// "(3, 512)" behind 'shape' in the header; empty where it is no shape.
 std::optional<std::vector<std::int64_t>> ShapeOf(std::string_view header) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 31;  // of a side
+  constexpr std::int64_t kMost = std::int64_t{1} << 31;  // limit of one dimension
   const std::size_t key = header.find("'shape'");
   const std::size_t open = header.find('(', key), close = header.find(')', open);
   if (key == std::string_view::npos || close == std::string_view::npos) return std::nullopt;
@@ -66,7 +66,7 @@ Result<NpyArray> ReadNpy(const std::filesystem::path& path) {
   auto shape = ShapeOf(header);
   if (!shape) return bad("its header has no shape");
   const std::size_t count = (bytes.size() - begin) / item;
-  double wanted = 1;  // a product of sides may be more than fits an integer
+  double wanted = 1;  // double: the product of the dimensions may exceed an integer
   for (const std::int64_t side : *shape) wanted *= static_cast<double>(side);
   if (wanted * static_cast<double>(item) != static_cast<double>(bytes.size() - begin))
     return bad("holds more or fewer numbers than its header says");

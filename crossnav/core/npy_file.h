@@ -15,10 +15,10 @@ struct NpyArray {
   std::vector<float> data;  ///< row-major
 };
 
-/// Errors name the file: not such an array, ends early or late, holds a number that is not finite.
+/// Errors name the file: another kind of array, wrong length, a number that is not finite.
 Result<NpyArray> ReadNpy(const std::filesystem::path& path);
 
-/// The rows of a matrix that must have `rows` of them.
+/// Rows of a matrix with exactly `rows` rows.
 Result<std::vector<std::vector<float>>> ReadNpyRows(const std::filesystem::path& path,
                                                     std::size_t rows);
 

@@ -14,7 +14,7 @@ namespace crossnav {
 namespace {
 
 constexpr std::int64_t kMaxPixels = 1LL << 26;  // chosen: 8192 x 8192, four times HM3D's largest
-constexpr std::uint64_t kMaxDeflate = 1032;     // what a byte of a PNG can unpack to at most
+constexpr std::uint64_t kMaxDeflate = 1032;  // largest ratio of unpacked to packed bytes in a PNG
 
 void Append(png_structp png, png_bytep bytes, png_size_t count) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
@@ -22,7 +22,7 @@ void Append(png_structp png, png_bytep bytes, png_size_t count) {
 
 void Flush(png_structp) {}
 
-/// `pixels`: rows without gaps, of one, three or four bytes a pixel as `colour_type` says.
+/// `pixels`: rows without gaps, of one, three or four bytes a pixel according to `colour_type`.
 std::string Encode(int width, int height, int colour_type, const std::uint8_t* pixels) {
   CROSSNAV_CHECK(width > 0 && height > 0, "an empty image has no PNG");
   CROSSNAV_CHECK(width <= kMostPngSide_px && height <= kMostPngSide_px, "too large for a PNG");
@@ -59,7 +59,7 @@ void OnError(png_structp png, png_const_charp message) {
   std::longjmp(reader->jump, 1);
 }
 
-void OnWarning(png_structp, png_const_charp) {}  // libraries do not print
+void OnWarning(png_structp, png_const_charp) {}  // ignored: libraries do not print
 
 void OnRead(png_structp png, png_bytep out, png_size_t count) {
   auto* reader = static_cast<Reader*>(png_get_io_ptr(png));
@@ -144,7 +144,7 @@ Result<Image<Rgba8>> DecodePng(std::span<const std::uint8_t> bytes, const std::s
     png_image_free(&image);
     return Fail(ErrorCode::kUnsupported, "PNG image is larger than 2^26 pixels", where);
   }
-  // At least a bit a pixel, and a byte a row that says how it is filtered.
+  // A row takes at least one bit a pixel and one filter byte.
   const std::uint64_t row_bytes = 1 + image.width / 8;
   if (row_bytes * image.height > kMaxDeflate * bytes.size()) {
     png_image_free(&image);

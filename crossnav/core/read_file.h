@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A whole file as bytes: the one way in which this program reads files that fit into memory.
+// Whole files as bytes. All readers of files that fit into memory use these functions.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bad data from outside is a value, not an exception: Result<T> holds a T or an Error that says
-// what is wrong and where. Programmer errors use check.h; "nothing found" is an optional or empty.
+// Results of operations on outside data. Result<T> holds a T or an Error with the reason and the
+// place; nothing is thrown. Programmer errors use check.h; "nothing found" is an optional or empty.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace crossnav {
 
-/// Closed list of what can be wrong with the outside world.
+/// Closed list of error codes for outside data.
 enum class ErrorCode {
   kNotFound,     ///< a file, scene, category or episode that does not exist
-  kMalformed,    ///< exists, but cannot be read as what it should be
-  kUnsupported,  ///< well formed, but uses something this program does not do
+  kMalformed,    ///< exists, but is not readable as the expected format
+  kUnsupported,  ///< well formed, but uses a feature that this program lacks
   kInvalid,      ///< readable, but a value is outside its range
   kMismatch,     ///< two inputs that do not belong together
-  kIo,           ///< the operating system refused
+  kIo,           ///< refused by the operating system
 };
 
-/// "not_found", as programs and other languages see it.
+/// "not_found", the spelling in JSON output and in Python.
 constexpr const char* NameOf(ErrorCode code) {
   switch (code) {
     case ErrorCode::kNotFound:
@@ -41,7 +41,7 @@ constexpr const char* NameOf(ErrorCode code) {
 
 struct Error {
   ErrorCode code = ErrorCode::kInvalid;
-  std::string what;   ///< what is wrong and what would help, one sentence
+  std::string what;   ///< reason and remedy, one sentence
   std::string where;  ///< file, and key, line or node inside it; may be empty
 
   /// "where: what", the form in which the program prints it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Random numbers that are the same on every platform: PCG32 seeded through SplitMix64. The
-// distributions of <random> differ between standard libraries, so ours are written out.
+// distributions are our own, because those of <random> differ between standard libraries.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 namespace crossnav {
 namespace {
 
-/// Index behind the string that opens at `at`; it may not be closed.
+/// Index behind the string that opens at `at`; accepts unclosed strings.
 std::size_t BehindString(std::string_view text, std::size_t at) {
   const char quote = text[at++];
   while (at < text.size() && text[at] != quote && (quote == '"' || text[at] != '\n')) {
@@ -41,7 +41,7 @@ Result<void> CheckJsonShape(std::string_view json, const std::string& where) {
     ++i;
     if (c == '{' || c == '[') {
       if (++depth > kMostNesting) return TooDeep(where);
-      // Lists may be as long as they are.
+      // Lists have no limit of length.
       members[static_cast<std::size_t>(depth)] = c == '{' ? 0 : INT_MIN;
     } else if (c == '}' || c == ']') {
       depth = std::max(0, depth - 1);
@@ -55,7 +55,7 @@ Result<void> CheckJsonShape(std::string_view json, const std::string& where) {
 
 namespace {
 
-/// How many bytes follow this one in a character of UTF-8; -1: none begins with it.
+/// Number of continuation bytes after the UTF-8 lead byte `lead`; -1: not a lead byte.
 int BytesBehind(unsigned char lead) {
   if (lead < 0x80) return 0;
   if (lead >> 5 == 6) return 1;
@@ -63,7 +63,7 @@ int BytesBehind(unsigned char lead) {
   return lead >> 3 == 30 ? 3 : -1;
 }
 
-/// The length of the character of UTF-8 at the beginning of `text`, which is not empty; 0: is none.
+/// Length of the UTF-8 character at the beginning of `text` (not empty); 0: invalid.
 std::size_t CharacterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const int rest = BytesBehind(byte(0));
@@ -74,7 +74,8 @@ std::size_t CharacterLength(std::string_view text) {
     if (byte(i) >> 6 != 2) return 0;
     code = code << 6 | (byte(i) & 0x3FU);
   }
-  constexpr std::uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};  // shorter forms are no UTF-8
+  constexpr std::uint32_t kLeast[] = {0, 0x80, 0x800,
+                                      0x10000};  // shorter forms are not valid UTF-8
   const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
   return code < kLeast[rest] || code > 0x10FFFF || is_surrogate ? 0 : length;
 }
@@ -98,13 +99,13 @@ std::string PlainReason(std::string_view message) {
 
 namespace {
 
-/// How deep brackets are nested behind `c`.
+/// Nesting depth behind `c`.
 int DepthBehind(char c, int depth) {
   if (c == '[' || c == '{') return depth + 1;
   return c == ']' || c == '}' ? std::max(0, depth - 1) : depth;
 }
 
-/// The end of the part of a key, or of the value, that begins at `i`.
+/// End of the part of a key, or of the value, that begins at `i`.
 std::size_t BehindPart(std::string_view toml, std::size_t i) {
   if (toml[i] == '"' || toml[i] == '\'') return BehindString(toml, i);
   while (i < toml.size() && IsKeyCharacter(toml[i])) ++i;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Limits of JSON and TOML texts, looked at before a library parses them: libraries go down nested
-// values by recursion, and some go through an object's keys one by one for each key. Texts within
-// the limits may still be malformed.
+// Limits of JSON and TOML texts, checked before a library parses them: libraries recurse into
+// nested values, and some search an object's keys linearly for each key. Texts within the limits
+// may still be malformed.
 #pragma once
 
 #include <string>
@@ -24,10 +24,10 @@ Result<void> CheckJsonShape(std::string_view json, const std::string& where);
 /// kMostNesting, or the text has more than kMostToml bytes. Errors name the line.
 Result<void> CheckTomlShape(std::string_view toml, const std::string& where);
 
-/// Whether JSON can hold the text.
+/// True if JSON can hold the text.
 bool IsUtf8(std::string_view text);
 
-/// A JSON library's message without the library's name for it at the front.
+/// Message of a JSON library without the library's own prefix.
 std::string PlainReason(std::string_view message);
 
 }  // namespace crossnav

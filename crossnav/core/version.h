@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The version of the library, of the program and of the Python package. CMakeLists.txt and
-// pyproject.toml read it here.
+// Version of the library, the program and the Python package. CMakeLists.txt and pyproject.toml
+// read it from here.
 #pragma once
 
 #define CROSSNAV_VERSION "0.2.0"

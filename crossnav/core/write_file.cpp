@@ -21,7 +21,7 @@ tl::unexpected<Error> Refuse(const fs::path& path, const std::string& reason) {
   return Fail(ErrorCode::kIo, "cannot be written (" + reason + ")", path.string());
 }
 
-/// The errno of the first thing that failed, or 0.
+/// Errno of the first failed call, or 0.
 int WriteAll(const fs::path& file, std::string_view bytes) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor < 0) return errno;
@@ -57,7 +57,7 @@ Result<fs::path> OutputPlace(const fs::path& path) {
 }
 
 Result<void> WriteFileAtomically(const fs::path& path, std::string_view bytes) {
-  static std::atomic<unsigned> serial{0};  // two threads, two temporary files
+  static std::atomic<unsigned> serial{0};  // distinguishes temporary files of two threads
   const auto place = OutputPlace(path);
   if (!place) return tl::unexpected(place.error());
   fs::path part = *place;

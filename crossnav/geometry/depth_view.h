@@ -42,7 +42,7 @@ class DepthView {
   float MaxReach() const { return max_reach_m_; }
 
   /// Per finest tile, row by row: at least the greatest reach within `radius_px` of each of its
-  /// pixels. Made when first asked for in a frame.
+  /// pixels. Computed at the first request in a frame.
   const float* Dilated(double radius_px);
 
   int tile_columns() const { return levels_[0].columns; }

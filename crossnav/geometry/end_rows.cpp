@@ -210,7 +210,7 @@ HWY_INLINE hn::Mask<Keys> Differ(RowPart a, RowPart b, int i) {
   return hn::Or(hn::Or(differ(a.x, b.x), differ(a.y, b.y)), differ(a.z, b.z));
 }
 
-// Where two voxels share no face, or a single one is missing; undefined where both are missing.
+// Whether two voxels share no face, or one of them is missing; undefined if both are missing.
 HWY_INLINE hn::Mask<Keys> Apart(RowPart a, RowPart b, int i) {
   const Keys d;
   const auto none = hn::Set(d, kNoEnd);

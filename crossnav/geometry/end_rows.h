@@ -19,7 +19,7 @@ struct RowRays {
   double depth_min_m = 0, depth_max_m = 0;
 };
 
-/// Where a pixel says nothing or ends nowhere, x is this.
+/// Value of x for a pixel without an end voxel.
 inline constexpr std::int32_t kNoEnd = std::numeric_limits<std::int32_t>::min();
 
 /// Room behind rows and lists of pixels: as many lanes as are used at most.

@@ -53,7 +53,7 @@ class FrameMarker {
 /// Turns the frame masks into evidence, lists the changes, and empties the masks.
 void MergeFrame(MapData& map);
 
-/// True where more passes would leave the count as it is.
+/// True if further passes would not change the count.
 bool IsSettled(const HitCount& count, const MapConfig& config);
 
 }  // namespace crossnav::geometry

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Inner loops of grazing_surface.h, vectorised with Highway, chosen at run time: surface segments
-// in gaps between pixels, and the voxels along them. Scalar references: BackProjectToVoxels and
-// WalkRay; double precision in the same order of operations, so that every instruction set gives
-// the same voxels. Internal.
+// Inner loops of grazing_surface.h, vectorised with Highway, chosen at run time. Internal.
+//
+// Scalar code for one gap, with inverse depths i(k) of the pixels k = -2..3 on its line; the gap is
+// between pixels 0 and 1:
+//   FindSegments: if the gap is not wide, or i(1) - i(0) equals the step on either side within half
+//     of it, the segment from pixel 0 to pixel 1. Else, for each side whose last two steps agree
+//     and recede, the segment from its pixel along that slope, to the other pixel or to the depth
+//     limit, unless the other pixel lies behind the extended plane.
+//   WalkSegments: WalkRay along each segment; keeps the voxels that may be in `wanted`.
+// References: LiteralSegments (tests/geometry/grazing_surface_simd_test.cpp), BackProjectToVoxels
+// and WalkRay. Double precision in the same order of operations: every instruction set gives the
+// same voxels.
 #pragma once
 
 #include <array>

@@ -28,6 +28,20 @@ std::vector<MapBlock> ExportBlocks(const VoxelMap& map) {
   return blocks;
 }
 
+void CountAsOld(const MapConfig& config, MapBlock* block) {
+  const auto most = static_cast<std::uint16_t>(std::max(config.max_hits, config.min_hits));
+  const auto old = static_cast<std::uint16_t>(std::min<int>(most, config.min_hits + 1));
+  const bool has_none = block->counts.empty();
+  block->counts.resize(kBlockVoxels);
+  for (int cell = 0; cell < kBlockVoxels; ++cell) {
+    HitCount& count = block->counts[static_cast<std::size_t>(cell)];
+    if (block->hit.Test(cell))
+      count = {old, 0};
+    else if (has_none && block->free.Test(cell))
+      count.passes = most;
+  }
+}
+
 Result<VoxelMap> ImportBlocks(const std::vector<MapBlock>& blocks, const MapConfig& config) {
   VoxelMap map(config);
   MapData& data = MapAccess::Of(map);

@@ -25,6 +25,10 @@ struct MapBlock {
 /// All blocks, in order of first observation. Cost O(blocks).
 std::vector<MapBlock> ExportBlocks(const VoxelMap& map);
 
+/// Counts of evidence that is of yesterday: one frame that looks through a surface does not remove
+/// it, a second one does. A block of `clearing = never` gets counts.
+void CountAsOld(const MapConfig& config, MapBlock* block);
+
 /// A map with this evidence and its states up to date. `where` of an error names the block.
 Result<VoxelMap> ImportBlocks(const std::vector<MapBlock>& blocks, const MapConfig& config);
 

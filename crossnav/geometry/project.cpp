@@ -345,7 +345,7 @@ class Projection {
   LaneFrame lanes_;
   VoxelKey start_key_;
   Vector3d fraction_;                    ///< of rays_.start() in its voxel
-  double nearest_m_ = 0;                 ///< voxels that begin nearer are asked one by one
+  double nearest_m_ = 0;                 ///< nearer voxels are tested individually
   Matrix3d to_camera_;                   ///< voxels from the camera -> camera frame [m]
   std::array<Vector3d, 4> inward_;       ///< normals of the image's side planes, camera frame
   std::array<Vector3d, 8> part_offset_;  ///< of a block's eight parts from its centre, camera frame

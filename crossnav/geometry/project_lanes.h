@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The inner loops of the projection (project.cpp), vectorised with Highway, chosen at run time:
-// 64 voxels against the depth image, then rows of pixels against the voxels that are left. In
-// float with a margin for rounding: certain results are exact, the rest is left to the caller.
+// Inner loops of the projection (project.cpp), vectorised with Highway, chosen at run time.
 // Internal.
+//
+// Scalar code for one voxel of the cube:
+//   1. Centre c in the camera frame, and its pixel. The ray of the nearest pixel passes the voxel
+//      if it misses c by less than the inner ball and ends behind the voxel.
+//   2. Else no ray passes if the voxel's picture is outside the image, or if every ray near it ends
+//      before the voxel (`dilated_m`).
+//   3. Else, for each ray of the picture or of some of its rows: slab test against the six faces;
+//      the ray's end must lie behind the voxel.
+// Reference: the literal walk of every ray, voxel by voxel (tests/geometry/reference_map.h, used by
+// IntegrateTest). Arithmetic in float with a margin for rounding: certain results are exact, the
+// caller decides the others in double.
 #pragma once
 
 #include <array>

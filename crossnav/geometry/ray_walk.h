@@ -22,8 +22,8 @@ inline VoxelKey KeyOfVoxelPoint(const Vector3d& p_vox) {
           static_cast<std::int32_t>(std::floor(p_vox.z()))};
 }
 
-/// Calls visit(key) for every voxel that the segment passes through short of the one that holds
-/// `end_vox`, in order from `start_vox`. Stops early if visit returns false. Cost O(voxels).
+/// Calls visit(key) for every voxel on the segment before the voxel of `end_vox`, in order from
+/// `start_vox`. Stops early if visit returns false. Cost O(voxels).
 template <class F>
 void WalkRay(const Vector3d& start_vox, const Vector3d& end_vox, F&& visit) {
   const VoxelKey start = KeyOfVoxelPoint(start_vox), end = KeyOfVoxelPoint(end_vox);

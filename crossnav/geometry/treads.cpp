@@ -2,89 +2,41 @@
 #include "crossnav/geometry/treads.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <tuple>
+
+#include "crossnav/geometry/depth_surface.h"
+#include "crossnav/geometry/level_patches.h"
+#include "crossnav/geometry/riser_faces.h"
 
 namespace crossnav::geometry {
 namespace {
 
-constexpr float kNearest_m = 0.2F, kFarthest_m = 5.0F;  // chosen: beyond, risers are noise
-constexpr double kLevel = 0.94;         // chosen: cosine, 20 degrees: noise and a tilted camera
-constexpr double kStep_m = 0.15;        // chosen: neighbours farther apart lie on two things
-constexpr double kSmooth_m = 0.01;      // chosen: between neighbours of one tread
-constexpr double kLeastArea_m2 = 0.02;  // chosen: a foot is 0.02 m2
-constexpr double kSameHeight_m = 0.03;  // chosen: parts of one tread
 constexpr double kLowRiser_m = 0.07, kHighRiser_m = 0.25;    // chosen: what people build
 constexpr double kShortTread_m = 0.15, kLongTread_m = 0.50;  // chosen: likewise
 constexpr double kRiserSpread_m = 0.04;                      // chosen: risers of one flight
-constexpr double kTreadSpread_m = 0.15;  // chosen: centres move where parts are hidden
-constexpr double kStraight = 0.8;        // chosen: cosine between steps
+constexpr double kTreadSpread_m = 0.10;  // chosen: fronts move where parts are hidden
 constexpr double kGroundShare = 2.0;     // chosen: ground is larger than two treads
-constexpr std::size_t kLeastLevels = 3;  // chosen: two equal risers
+constexpr double kSameHeight_m = 0.03;   // chosen: a tread and its riser's upper edge
+constexpr double kSameFront_m = 0.12;    // chosen: likewise; a tread's front may be hidden
+constexpr double kOverlap = 0.5;         // chosen: share of the narrower one of two treads
+constexpr double kOneWay = 0.985;        // chosen: cosine, 10 degrees
+constexpr double kEdgeShare = 0.05;      // chosen: stray points beyond an edge
+constexpr std::size_t kLeastLevels = 3;  // chosen: two equal risers, the ground's included
 
-/// Points of the picture, and how much level surface each stands for (0 = not level).
-struct Surface {
-  int width = 0, height = 0;
-  std::vector<Vector3d> p_world;
-  std::vector<double> area_m2;
-};
-
-bool IsMeasured(float depth_m) {
-  return depth_m >= kNearest_m && depth_m <= kFarthest_m;
-}
-
-Surface SurfaceOf(const DepthImage& depth_m, const CameraIntrinsics& camera,
-                  const Pose& T_world_camera, const MaskImage& mask) {
-  Surface s{depth_m.width, depth_m.height, {}, {}};
-  s.p_world.resize(depth_m.data.size());
-  s.area_m2.assign(depth_m.data.size(), 0);
-  for (int v = 0; v < s.height; ++v)
-    for (int u = 0; u < s.width; ++u)
-      s.p_world[v * s.width + u] =
-          T_world_camera * BackProjectPixel(camera, u, v, depth_m.At(u, v));
-  const int reach = std::max(1, s.width / 128);
-  for (int v = reach; v < s.height - reach; ++v)
-    for (int u = reach; u < s.width - reach; ++u) {
-      const std::array<int, 4> around = {v * s.width + u + reach, v * s.width + u - reach,
-                                         (v + reach) * s.width + u, (v - reach) * s.width + u};
-      const bool is_known = IsMeasured(depth_m.At(u, v)) && (mask.empty() || mask.At(u, v)) &&
-                            std::all_of(around.begin(), around.end(),
-                                        [&](int i) { return IsMeasured(depth_m.data[i]); });
-      if (!is_known) continue;
-      const Vector3d a = s.p_world[around[0]] - s.p_world[around[1]];
-      const Vector3d b = s.p_world[around[2]] - s.p_world[around[3]];
-      if (a.norm() > kStep_m || b.norm() > kStep_m) continue;
-      const Vector3d n = a.cross(b);
-      if (std::abs(n.z()) < kLevel * n.norm()) continue;
-      s.area_m2[v * s.width + u] = n.norm() / (4.0 * reach * reach);
-    }
-  return s;
-}
-
-/// A connected level patch.
-struct Patch {
-  std::vector<int> pixels;
+/// A tread as one direction sees it: by its patch, by its riser's face, or by both.
+struct Level {
   Tread tread;
+  double left_m = 0, right_m = 0;
+  bool has_face = false;
 };
 
-Patch TakePatch(const Surface& s, int seed, std::vector<bool>& is_taken) {
-  Patch patch;
-  patch.pixels = {seed};
-  is_taken[seed] = true;
-  for (std::size_t next = 0; next < patch.pixels.size(); ++next) {
-    const int at = patch.pixels[next], u = at % s.width, v = at / s.width;
-    const std::array<int, 4> beside = {u > 0 ? at - 1 : at, u + 1 < s.width ? at + 1 : at,
-                                       v > 0 ? at - s.width : at,
-                                       v + 1 < s.height ? at + s.width : at};
-    for (const int other : beside) {
-      if (is_taken[other] || s.area_m2[other] <= 0) continue;
-      if (std::abs(s.p_world[other].z() - s.p_world[at].z()) > kSmooth_m) continue;
-      is_taken[other] = true;
-      patch.pixels.push_back(other);
-    }
-  }
-  return patch;
-}
+/// What one picture shows, without a direction.
+struct Evidence {
+  DepthSurface surface;
+  std::vector<LevelPatch> patches;
+  std::vector<RiserFace> faces;
+};
 
 double MedianOf(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -92,126 +44,187 @@ double MedianOf(std::vector<double> values) {
   return *middle;
 }
 
-void Describe(const Surface& s, Patch& patch) {
-  std::vector<double> heights_m;
-  patch.tread = {};
-  for (const int i : patch.pixels) {
-    heights_m.push_back(s.p_world[i].z());
-    patch.tread.area_m2 += s.area_m2[i];
-    patch.tread.p_center_world += s.p_world[i] / static_cast<double>(patch.pixels.size());
-  }
-  patch.tread.height_m = MedianOf(std::move(heights_m));
+/// Lower and upper end of the pixels along an axis.
+std::pair<double, double> EndsOf(const DepthSurface& s, const std::vector<int>& pixels,
+                                 const Vector3d& axis) {
+  std::vector<double> along_m;
+  along_m.reserve(pixels.size());
+  for (const int i : pixels) along_m.push_back(s.p_world[i].dot(axis));
+  const auto at = [&](double share) {
+    const auto place = along_m.begin() +
+                       static_cast<std::ptrdiff_t>(share * static_cast<double>(along_m.size() - 1));
+    std::nth_element(along_m.begin(), place, along_m.end());
+    return *place;
+  };
+  const double low_m = at(kEdgeShare);
+  return {low_m, at(1 - kEdgeShare)};
 }
 
-/// By height; parts of one height less than a long tread's two lengths apart are one.
-std::vector<Patch> PatchesOf(const Surface& s) {
-  std::vector<Patch> patches;
-  std::vector<bool> is_taken(s.area_m2.size(), false);
-  for (int i = 0; i < static_cast<int>(s.area_m2.size()); ++i) {
-    if (is_taken[i] || s.area_m2[i] <= 0) continue;
-    Patch patch = TakePatch(s, i, is_taken);
-    Describe(s, patch);
-    if (patch.tread.area_m2 < kLeastArea_m2) continue;
-    const auto same = std::find_if(patches.begin(), patches.end(), [&](const Patch& other) {
-      const Vector3d d = other.tread.p_center_world - patch.tread.p_center_world;
-      return std::abs(other.tread.height_m - patch.tread.height_m) < kSameHeight_m &&
-             d.norm() < 2 * kLongTread_m;
+Level LevelOfFace(const DepthSurface& s, const RiserFace& face, const Vector3d& direction) {
+  Level level;
+  level.has_face = true;
+  for (const int i : face.pixels)
+    level.tread.p_center_world += s.p_world[i] / static_cast<double>(face.pixels.size());
+  level.tread.front_m = level.tread.p_center_world.dot(direction);
+  level.tread.p_center_world.z() = level.tread.height_m = face.high_m;
+  std::tie(level.left_m, level.right_m) =
+      EndsOf(s, face.pixels, direction.cross(Vector3d::UnitZ()));
+  return level;
+}
+
+Level LevelOfPatch(const DepthSurface& s, const LevelPatch& patch, const Vector3d& direction) {
+  Level level;
+  level.tread = {patch.height_m, EndsOf(s, patch.pixels, direction).first, patch.area_m2,
+                 patch.p_center_world};
+  std::tie(level.left_m, level.right_m) =
+      EndsOf(s, patch.pixels, direction.cross(Vector3d::UnitZ()));
+  return level;
+}
+
+double CommonOf(const Level& a, const Level& b) {
+  const double narrow_m = std::min(a.right_m - a.left_m, b.right_m - b.left_m);
+  const double common_m = std::min(a.right_m, b.right_m) - std::max(a.left_m, b.left_m);
+  return narrow_m > 0 ? common_m / narrow_m : 0;
+}
+
+/// By height. A face and the patch above it are one: its front, the patch's height and area.
+std::vector<Level> LevelsAlong(const Evidence& seen, const Vector3d& direction) {
+  std::vector<Level> levels;
+  for (const RiserFace& face : seen.faces)
+    if (-face.normal_world.dot(direction) >= kOneWay)
+      levels.push_back(LevelOfFace(seen.surface, face, direction));
+  for (const LevelPatch& patch : seen.patches) {
+    const Level above = LevelOfPatch(seen.surface, patch, direction);
+    const auto below = std::find_if(levels.begin(), levels.end(), [&](const Level& level) {
+      return level.has_face && level.tread.area_m2 == 0 &&
+             std::abs(level.tread.height_m - patch.height_m) <= kSameHeight_m &&
+             std::abs(level.tread.front_m - above.tread.front_m) <= kSameFront_m &&
+             CommonOf(level, above) >= kOverlap;
     });
-    if (same == patches.end()) {
-      patches.push_back(std::move(patch));
+    if (below == levels.end()) {
+      levels.push_back(above);
       continue;
     }
-    same->pixels.insert(same->pixels.end(), patch.pixels.begin(), patch.pixels.end());
-    Describe(s, *same);
+    const double front_m = below->tread.front_m;
+    below->tread = above.tread;
+    below->tread.front_m = front_m;
   }
-  std::sort(patches.begin(), patches.end(),
-            [](const Patch& a, const Patch& b) { return a.tread.height_m < b.tread.height_m; });
-  return patches;
+  std::sort(levels.begin(), levels.end(),
+            [](const Level& a, const Level& b) { return a.tread.height_m < b.tread.height_m; });
+  return levels;
 }
 
-Vector3d LevelStep(const Patch& from, const Patch& to) {
-  Vector3d step = to.tread.p_center_world - from.tread.p_center_world;
-  step.z() = 0;
-  return step;
-}
-
-bool IsStep(const Patch& from, const Patch& to) {
+bool IsStep(const Level& from, const Level& to) {
   const double riser_m = to.tread.height_m - from.tread.height_m;
-  const double tread_m = LevelStep(from, to).norm();
+  const double tread_m = to.tread.front_m - from.tread.front_m;
   return riser_m >= kLowRiser_m && riser_m <= kHighRiser_m && tread_m >= kShortTread_m &&
-         tread_m <= kLongTread_m;
+         tread_m <= kLongTread_m && CommonOf(from, to) >= kOverlap;
 }
 
-bool GoesOn(const Patch& a, const Patch& b, const Patch& c) {
-  const Vector3d first = LevelStep(a, b), second = LevelStep(b, c);
-  const double risers_m =
-      (b.tread.height_m - a.tread.height_m) - (c.tread.height_m - b.tread.height_m);
-  return std::abs(risers_m) <= kRiserSpread_m &&
-         std::abs(first.norm() - second.norm()) <= kTreadSpread_m &&
-         first.dot(second) >= kStraight * first.norm() * second.norm();
+bool GoesOn(const Level& a, const Level& b, const Level& c) {
+  const auto riser_m = [](const Level& from, const Level& to) {
+    return to.tread.height_m - from.tread.height_m;
+  };
+  const auto tread_m = [](const Level& from, const Level& to) {
+    return to.tread.front_m - from.tread.front_m;
+  };
+  return std::abs(riser_m(a, b) - riser_m(b, c)) <= kRiserSpread_m &&
+         std::abs(tread_m(a, b) - tread_m(b, c)) <= kTreadSpread_m;
 }
 
 /// The longest chain of treads; of equal ones the first.
-std::vector<std::size_t> LongestChain(const std::vector<Patch>& patches) {
-  std::vector<std::size_t> best;
-  for (std::size_t a = 0; a < patches.size(); ++a)
-    for (std::size_t b = a + 1; b < patches.size(); ++b) {
-      if (!IsStep(patches[a], patches[b])) continue;
-      std::vector<std::size_t> chain = {a, b};
-      for (std::size_t c = b + 1; c < patches.size(); ++c) {
-        const Patch &last = patches[chain.back()], &before = patches[chain[chain.size() - 2]];
-        if (IsStep(last, patches[c]) && GoesOn(before, last, patches[c])) chain.push_back(c);
-      }
+std::vector<Level> LongestChain(const std::vector<Level>& levels) {
+  std::vector<Level> best;
+  for (std::size_t a = 0; a < levels.size(); ++a)
+    for (std::size_t b = a + 1; b < levels.size(); ++b) {
+      if (!IsStep(levels[a], levels[b])) continue;
+      std::vector<Level> chain = {levels[a], levels[b]};
+      for (std::size_t c = b + 1; c < levels.size(); ++c)
+        if (IsStep(chain.back(), levels[c]) &&
+            GoesOn(chain[chain.size() - 2], chain.back(), levels[c]))
+          chain.push_back(levels[c]);
       if (chain.size() > best.size()) best = std::move(chain);
     }
   return best;
 }
 
-/// Whether the level before the flight is among `patches`: a riser below its lowest tread.
-bool HasGroundBelow(const std::vector<Patch>& patches, const Patch& lowest, double riser_m) {
-  return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
-    const double below_m = lowest.tread.height_m - patch.tread.height_m;
-    return std::abs(below_m - riser_m) <= kRiserSpread_m &&
-           patch.tread.area_m2 > lowest.tread.area_m2;
+/// Whether the level before the flight is seen: a riser below its lowest tread, and larger.
+bool HasGroundBelow(const Evidence& seen, const Tread& lowest, double riser_m) {
+  return std::any_of(seen.patches.begin(), seen.patches.end(), [&](const LevelPatch& patch) {
+    const double below_m = lowest.height_m - patch.height_m;
+    return std::abs(below_m - riser_m) <= kRiserSpread_m && patch.area_m2 > lowest.area_m2;
   });
 }
 
-double FrontOf(const Surface& s, const Patch& patch, const Vector3d& direction) {
-  std::vector<double> along_m;
-  for (const int i : patch.pixels) along_m.push_back(s.p_world[i].dot(direction));
-  const auto at = along_m.begin() + static_cast<std::ptrdiff_t>(along_m.size() / 20);
-  std::nth_element(along_m.begin(), at, along_m.end());
-  return *at;
+TreadFlight FlightAlong(const Evidence& seen, const Vector3d& direction) {
+  std::vector<Level> chain = LongestChain(LevelsAlong(seen, direction));
+  TreadFlight flight;
+  if (chain.size() < 2) return flight;
+  std::vector<double> risers_m, treads_m;
+  for (std::size_t k = 1; k < chain.size(); ++k)
+    risers_m.push_back(chain[k].tread.height_m - chain[k - 1].tread.height_m);
+  const double riser_m = MedianOf(std::move(risers_m));
+  const Level& first = chain.front();
+  const bool has_ground = !first.has_face && chain[1].tread.area_m2 > 0 &&
+                          first.tread.area_m2 > kGroundShare * chain[1].tread.area_m2;
+  const bool is_on_ground = !has_ground && HasGroundBelow(seen, first.tread, riser_m);
+  const bool has_patches = std::all_of(chain.begin(), chain.end(),
+                                       [](const Level& level) { return level.tread.area_m2 > 0; });
+  const bool is_stood_on = is_on_ground && has_patches;  // a box's face on a desk is no flight
+  if (chain.size() + (is_stood_on ? 1 : 0) < kLeastLevels) return flight;
+  if (has_ground) chain.erase(chain.begin());
+  flight.direction_world = direction;
+  flight.riser_m = riser_m;
+  for (const Level& level : chain) {
+    if (!flight.treads.empty())
+      treads_m.push_back(level.tread.front_m - flight.treads.back().front_m);
+    flight.treads.push_back(level.tread);
+  }
+  flight.tread_m = MedianOf(std::move(treads_m));
+  return flight;
+}
+
+/// Ways that a flight may lead: against a face, or from one patch to another that is a step off.
+std::vector<Vector3d> DirectionsOf(const Evidence& seen) {
+  std::vector<Vector3d> directions;
+  const auto add = [&](const Vector3d& direction) {
+    const bool is_known = std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) {
+      return d.dot(direction) >= kOneWay;
+    });
+    if (!is_known) directions.push_back(direction);
+  };
+  for (const RiserFace& face : seen.faces) add(-face.normal_world);
+  for (std::size_t a = 0; a < seen.patches.size(); ++a)
+    for (std::size_t b = a + 1; b < seen.patches.size(); ++b) {
+      Vector3d step = seen.patches[b].p_center_world - seen.patches[a].p_center_world;
+      const double riser_m = seen.patches[b].height_m - seen.patches[a].height_m;
+      step.z() = 0;
+      if (riser_m >= kLowRiser_m && riser_m <= kHighRiser_m && step.norm() >= kShortTread_m &&
+          step.norm() <= kLongTread_m)
+        add(step.normalized());
+    }
+  return directions;
 }
 
 }  // namespace
 
 TreadFlight FindTreads(const DepthImage& depth_m, const CameraIntrinsics& camera,
                        const Pose& T_world_camera, const MaskImage& mask) {
-  const Surface s = SurfaceOf(depth_m, camera, T_world_camera, mask);
-  const std::vector<Patch> patches = PatchesOf(s);
-  std::vector<std::size_t> chain = LongestChain(patches);
-  TreadFlight flight;
-  if (chain.size() < 2) return flight;
-  std::vector<double> risers_m, treads_m;
-  for (std::size_t k = 1; k < chain.size(); ++k)
-    risers_m.push_back(patches[chain[k]].tread.height_m - patches[chain[k - 1]].tread.height_m);
-  const double riser_m = MedianOf(risers_m);
-  const Patch& first = patches[chain.front()];
-  const bool has_ground = first.tread.area_m2 > kGroundShare * patches[chain[1]].tread.area_m2;
-  const bool is_on_ground = !has_ground && HasGroundBelow(patches, first, riser_m);
-  if (chain.size() + (is_on_ground ? 1 : 0) < kLeastLevels) return flight;
-  if (has_ground) chain.erase(chain.begin());
-  flight.direction_world = LevelStep(patches[chain.front()], patches[chain.back()]).normalized();
-  for (const std::size_t k : chain) {
-    flight.treads.push_back(patches[k].tread);
-    flight.treads.back().front_m = FrontOf(s, patches[k], flight.direction_world);
+  Evidence seen{SurfaceOf(depth_m, camera, T_world_camera, mask), {}, {}};
+  const Eigen::Matrix3d R_level_world = LevelBy(T_world_camera, &seen.surface);
+  seen.patches = LevelPatchesOf(seen.surface);
+  seen.faces = FindRiserFaces(seen.surface);
+  TreadFlight best;
+  for (const Vector3d& direction : DirectionsOf(seen)) {
+    TreadFlight flight = FlightAlong(seen, direction);
+    if (flight.treads.size() > best.treads.size()) best = std::move(flight);
   }
-  for (std::size_t k = 1; k < flight.treads.size(); ++k)
-    treads_m.push_back(flight.treads[k].front_m - flight.treads[k - 1].front_m);
-  flight.riser_m = riser_m;
-  flight.tread_m = MedianOf(std::move(treads_m));
-  return flight;
+  const Vector3d eye = T_world_camera.translation();
+  const Eigen::Matrix3d R_world_level = R_level_world.transpose();
+  best.direction_world = R_world_level * best.direction_world;
+  for (Tread& tread : best.treads)
+    tread.p_center_world = eye + R_world_level * (tread.p_center_world - eye);
+  return best;
 }
 
 }  // namespace crossnav::geometry

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Treads of a flight of stairs in one depth picture, finer than voxels: level patches that rise by
-// equal risers in one direction. No learning, no map. World frame, z up, metres.
+// equal risers in one direction, or faces of risers one behind the other, whichever shows more.
+// Heights are over the floor that is seen, levelled by it. No learning, no map. World frame, z up,
+// metres.
 #pragma once
 
 #include <vector>
@@ -14,7 +16,7 @@ namespace crossnav::geometry {
 struct Tread {
   double height_m = 0;                         ///< median of its points
   double front_m = 0;                          ///< lower end along the flight's direction
-  double area_m2 = 0;                          ///< as seen
+  double area_m2 = 0;                          ///< as seen; 0 where only its riser is
   Vector3d p_center_world = Vector3d::Zero();  ///< mean of its points
 };
 

@@ -39,7 +39,7 @@ int TextureOf(const aiMaterial& material, const world::FileLookup& lookup, world
   return it->second = static_cast<int>(out.model.textures.size()) - 1;
 }
 
-/// Per material of the file: its index in `out`, -1 where it is as good as invisible.
+/// Per material of the file: its index in `out`, -1 if it is nearly invisible.
 std::vector<int> AddMaterials(const aiScene& scene, const world::FileLookup& lookup,
                               world::NamedObj& out) {
   std::vector<int> index;
@@ -107,7 +107,8 @@ Result<world::NamedObj> ParseWithAssimp(const std::string& bytes, const std::str
         AddMesh(mesh, materials[mesh.mMaterialIndex], out);
     }
     for (const Vector3f& v : out.model.mesh.vertices) {
-      if (!v.allFinite()) return Fail(ErrorCode::kMalformed, "has a vertex that is none", where);
+      if (!v.allFinite())
+        return Fail(ErrorCode::kMalformed, "has a vertex that is not finite", where);
     }
     if (out.model.mesh.triangles.empty()) {
       return Fail(ErrorCode::kMalformed, "holds no triangles", where);

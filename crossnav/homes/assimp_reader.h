@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models in formats other than OBJ and glTF, through Assimp where the program is built with it.
+// Models in formats other than OBJ and glTF, through Assimp if the program is built with it.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace crossnav::homes {
 
-/// `extension` ("3ds", "dae") says what the bytes are. kUnsupported without Assimp.
+/// `extension` ("3ds", "dae") gives the format. kUnsupported without Assimp.
 Result<world::NamedObj> ParseWithAssimp(const std::string& bytes, const std::string& extension,
                                         const world::FileLookup& lookup, const std::string& where);
 

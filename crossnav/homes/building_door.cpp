@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which parts of an architect's door are its leaves: connected parts that stand in the way, and
-// what hangs inside or on them. IFC: a door opens towards +y of its own frame; SINGLE_SWING_LEFT
-// has its hinge at the lower x.
+// Finds the leaves of an architect's door: connected parts that block the passage, and parts
+// attached to them. IFC: a door opens towards +y of its own frame; SINGLE_SWING_LEFT has its hinge
+// at the lower x.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,8 +16,8 @@ namespace crossnav::homes {
 namespace {
 
 constexpr double kWeld_m = 1e-4;    // chosen: corners of one solid
-constexpr double kHandle_m = 0.15;  // chosen: what hangs on a leaf
-constexpr double kEdge_m = 0.01;    // chosen: of the lining, which ends where the door ends
+constexpr double kHandle_m = 0.15;  // chosen: reach of parts attached to a leaf
+constexpr double kEdge_m = 0.01;    // chosen: of the lining, which ends at the door's edge
 constexpr double kPin_m = 0.01;     // chosen: a hinge, half its width
 constexpr double kOpen_rad = std::numbers::pi / 2;
 
@@ -66,13 +66,13 @@ class Parts {
   std::vector<std::size_t> above_;
 };
 
-bool StandsInTheWay(const world::NamedObj& door, const HomePiece& piece, const Part& part) {
+bool BlocksPassage(const world::NamedObj& door, const HomePiece& piece, const Part& part) {
   world::ObjectModel model;
   model.mesh.vertices = door.model.mesh.vertices;
   for (const std::size_t t : part.triangles) {
     model.mesh.triangles.push_back(door.model.mesh.triangles[t]);
   }
-  HomePiece whole = piece;  // wherever across its wall the leaf hangs
+  HomePiece whole = piece;  // the leaf may hang anywhere across its wall
   whole.wall_from = 0;
   whole.wall_to = 1;
   return !IsFree(model, Pose::Identity(), whole, kHandle_m);
@@ -83,7 +83,7 @@ bool IsInside(const Box3& inner, const Box3& outer) {
          (inner.max.array() <= outer.max.array() + kHandle_m).all();
 }
 
-/// What hangs in or on the leaves, but for the lining around them.
+/// Adds parts in or on the leaves, without the lining around them.
 void AddAttached(std::vector<Part>& parts, const HomePiece& piece) {
   Box3 leaves;
   for (const Part& part : parts) {
@@ -132,7 +132,7 @@ class LeafNamer {
     for (const std::size_t t : triangles) door_.triangle_group[t] = group;
   }
 
-  /// A pin at the edge of the leaf, which turns towards +y.
+  /// A pin at the edge of the leaf that turns towards +y.
   void AddHinge(const Box3& leaf, int number, bool is_right) {
     const double x = is_right ? leaf.max.x() : leaf.min.x(), y = leaf.Center().y();
     world::ModelBuilder pin("");
@@ -164,7 +164,7 @@ class LeafNamer {
 void NameLeaves(world::NamedObj& door, HomePiece& piece, const std::string& opens) {
   if (door.model.mesh.triangles.empty()) return;
   std::vector<Part> parts = Parts(door.model.mesh).parts;
-  for (Part& part : parts) part.is_leaf = StandsInTheWay(door, piece, part);
+  for (Part& part : parts) part.is_leaf = BlocksPassage(door, piece, part);
   AddAttached(parts, piece);
   LeafNamer(door, piece).Name(parts, opens);
 }

@@ -33,7 +33,7 @@ constexpr const char* kKindNames[] = {"wall", "floor",     "roof",   "ceiling", 
                                       "ramp", "railing",   "window", "door",    "column",
                                       "beam", "furniture", "other"};
 
-/// Reads with the path of the key, so that an error can name it. The first error ends it.
+/// Reads with the path of the key, for errors. The first error stops the reading.
 class Reader {
  public:
   explicit Reader(std::string where) : where_(std::move(where)) {}
@@ -60,7 +60,7 @@ class Reader {
                    where_ + ": " + (at_.empty() ? "" : at_ + ".") + key};
   }
 
-  /// The values of a list; where there is none, an error and nothing.
+  /// Values of a list; empty, with an error, if there is no list.
   std::vector<const Json*> List(const Json& json, const char* key, std::size_t most) {
     std::vector<const Json*> values;
     if (error_) return values;
@@ -74,7 +74,7 @@ class Reader {
     return values;
   }
 
-  /// On one line, as it may stand in the log.
+  /// Text on one line, for the log.
   std::string Plain(const Json& json, const char* key) {
     if (!json.is_string() || json.get_ref<const std::string&>().size() > kMaxName) {
       Bad(key, "is no text of at most 1000 bytes");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A building as the reader of IFC files passes it on (docs/formats/building.md): storeys, spaces,
+// A building as delivered by the reader of IFC files (docs/formats/building.md): storeys, spaces,
 // elements with their triangles. World frame, z up, metres. Any bytes are safe to pass; errors name
 // the key.
 #pragma once
@@ -60,7 +60,7 @@ struct BuildingElement {
 };
 
 struct Building {
-  std::vector<std::string> notes;       ///< of the reader, for people
+  std::vector<std::string> notes;       ///< of the reader, free text
   std::vector<BuildingStorey> storeys;  ///< by height
   std::vector<BuildingSpace> spaces;
   std::vector<BuildingElement> elements;

@@ -15,10 +15,10 @@ namespace crossnav::homes {
 namespace {
 
 constexpr double kSameFloor_m = 0.05;   // chosen: as floors of one storey of a home
-constexpr double kBelow_m = 0.3;        // chosen: feet of elements stand below the floor's finish
+constexpr double kBelow_m = 0.3;        // chosen: feet of elements may be below the floor's finish
 constexpr double kLastStep_m = 0.35;    // chosen: a flight may end one riser below its floor
 constexpr double kHead_m = 2.1;         // chosen: headroom over a flight
-constexpr int kMostTriangles = 20'000;  // chosen: of one thing; as of models of .sh3d
+constexpr int kMostTriangles = 20'000;  // chosen: of an element; as of models of .sh3d
 constexpr std::size_t kMostListed = 6;
 
 struct KindLook {
@@ -88,7 +88,7 @@ class HomeMaker {
     return storey < 0 ? "level" : building_.storeys[static_cast<std::size_t>(storey)].name;
   }
 
-  /// The first of its names that says a type, else its first one; nullopt = nobody lives there.
+  /// The first of its names that gives a type, else its first name; nullopt = not a living space.
   static std::optional<std::string> RoomName(const BuildingSpace& space) {
     for (const std::string& name : space.names) {
       if (IsNoRoom(name)) return std::nullopt;
@@ -128,7 +128,7 @@ class HomeMaker {
     return static_cast<int>(levels.size()) - 1;
   }
 
-  /// Of a building without spaces: on each storey with doors, the ground inside the walls.
+  /// Rooms of a building without spaces: on each storey with doors, the ground inside the walls.
   void DrawRooms() {
     for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
       const int storey = static_cast<int>(i);
@@ -190,7 +190,7 @@ class HomeMaker {
     if (element.kind == ElementKind::kDoor) piece.kind = PieceKind::kOpening;
     const Vector2d x = element.axis, y(-x.y(), x.x());
     piece.angle_rad = std::atan2(x.y(), x.x());
-    Box3 box;  // along the axes of the piece
+    Box3 box;  // aligned with the axes of the piece
     for (const Vector3f& v : element.vertices) {
       const Vector2d p = v.head<2>().cast<double>();
       box.Add({p.dot(x), p.dot(y), static_cast<double>(v.z())});
@@ -214,7 +214,7 @@ class HomeMaker {
     home_.plan.pieces.push_back(std::move(piece));
   }
 
-  /// What it is by its names.
+  /// Names the piece by the element's names.
   static void NameThing(const BuildingElement& element, HomePiece& piece) {
     piece.raw_name = ThingNamed(element.names);
     if (!piece.raw_name.empty()) return;
@@ -254,7 +254,7 @@ class HomeMaker {
         piece.angle_rad);
   }
 
-  /// Up to the floor above, and the part of it that needs headroom cut out there.
+  /// Sets the height up to the floor above, and the cut-out that headroom needs there.
   void AsStairs(const world::NamedObj& model, HomePiece& piece) const {
     piece.kind = PieceKind::kStairs;
     const double foot = home_.plan.FloorOf(piece.level) + piece.bottom_m;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A building as architects write it -> a home: its spaces are the rooms, its elements are pieces
-// whose models stand as they are. Doors between spaces get the parts that OpenDoor turns.
+// An architect's building -> a home: its spaces are the rooms, its elements are pieces with
+// unchanged models. Doors between spaces get the named parts that OpenDoor turns.
 #pragma once
 
 #include "crossnav/homes/building_file.h"
@@ -15,15 +15,15 @@ struct BuildingHome {
 
 BuildingHome MakeHome(const Building& building);
 
-/// Names the parts of a door's model (in its piece's frame) as OpenDoor reads them, and gives the
-/// piece its sashes. `opens` is IfcDoorTypeOperationEnum.
+/// Names the parts of a door's model (in its piece's frame) in OpenDoor's convention, and adds
+/// sashes to the piece. `opens` is IfcDoorTypeOperationEnum.
 void NameLeaves(world::NamedObj& door, HomePiece& piece, const std::string& opens);
 
-/// Draws the floor of rooms that lack one: of all rooms of a storey without slabs, and of single
-/// ones. `scene` is the home as built so far; `plan.notes` says so.
+/// Adds missing floors: to all rooms of a storey without slabs, and to single rooms. `scene` is the
+/// home built so far; `plan.notes` reports it.
 void MendFloors(HomePlan& plan, const sim::Scene& scene);
 
-/// Adds thresholds where the floor has a gap in an inner door.
+/// Adds thresholds if the floor has a gap in an inner door.
 void MendThresholds(BuildingHome& home, const sim::Scene& scene);
 
 }  // namespace crossnav::homes

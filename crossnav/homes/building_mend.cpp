@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Floors that a building lacks: architects leave slabs out, or draw one for each room, so that
-// nothing lies under the doors.
+// Missing floors of a building: architects omit slabs, or draw one slab per room, which leaves gaps
+// under the doors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kBelow_m = 0.35, kAbove_m = 0.12;  // chosen: of a slab's top to a space's ground
 constexpr int kSamples = 16;                        // chosen: along each side of a room
-constexpr double kStoreyShare = 0.3;                // chosen: less ground is no slab of a storey
-constexpr double kRoomShare = 0.05;                 // chosen: less is no slab of a room
+constexpr double kStoreyShare = 0.3;                // chosen: below this share a storey has no slab
+constexpr double kRoomShare = 0.05;                 // chosen: below this share a room has no slab
 constexpr double kStorey_m = 0.3;
 
-/// Near-level triangles of a scene that a foot may stand on.
+/// Near-level, walkable triangles of a scene.
 class Ground {
  public:
   explicit Ground(const sim::Scene& scene) {
@@ -32,7 +32,7 @@ class Ground {
     }
   }
 
-  /// Those that reach into a height.
+  /// The triangles that reach into a height.
   Ground Near(double floor_m) const {
     Ground near;
     for (const auto& p : triangles_) {
@@ -60,7 +60,7 @@ class Ground {
   std::vector<std::array<Vector3d, 3>> triangles_;
 };
 
-/// Share of a room that has ground.
+/// Share of a room with ground.
 double ShareOf(const HomeRoom& room, const Ground& ground) {
   Vector2d low = room.outline.front(), high = low;
   for (const Vector2d& p : room.outline) {

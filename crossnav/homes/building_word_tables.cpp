@@ -34,7 +34,7 @@ constexpr ThingWord kThings[] = {
     {"lenestol", "armchair"}, {"tuoli", "chair"}, {"nojatuoli", "armchair"}, {"krzeslo", "chair"},
     {"fotel", "armchair"}, {"zidle", "chair"}, {"kreslo", "armchair"}, {"стул", "chair"},
     {"кресло", "armchair"}, {"椅", "chair"}, {"イス", "chair"}, {"チェア", "chair"},
-    // what is no chair
+    // furniture that is no chair
     {"stool", "stool"}, {"bar stool", "stool"}, {"bar chair stool", "stool"}, {"hocker", "stool"},
     {"tabouret", "stool"}, {"taburete", "stool"}, {"sgabello", "stool"}, {"kruk", "stool"},
     {"banco", "bench"}, {"bench", "bench"}, {"sitzbank", "bench"}, {"ottoman", "ottoman"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The words of building_words.h, as FoldedWords spells them.
+// The words of building_words.h, in the spelling of FoldedWords.
 #pragma once
 
 #include <span>

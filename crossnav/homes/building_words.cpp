@@ -16,9 +16,9 @@ constexpr std::string_view kLatin =
     "aaaaaaccccccccddddeeeeeeeeeegggggggghhhhiiiiiiiiiiiijjkkklllllllllln"
     "nnnnnnnnoooooooorrrrrrssssssssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
 static_assert(kLatin.size() == 0x180 - 0xC0);
-constexpr std::size_t kMinCompound = 5;  // chosen: "street" is no tree
+constexpr std::size_t kMinCompound = 5;  // chosen: "street" must not match "tree"
 
-/// The code point at `at`, which moves on; 0 for what is no UTF-8 of up to three bytes.
+/// The code point at `at`, which advances; 0 for invalid UTF-8 or more than three bytes.
 std::uint32_t Next(std::string_view text, std::size_t& at) {
   const auto byte = [&](std::size_t i) -> std::uint32_t {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
@@ -64,7 +64,7 @@ void AppendFolded(std::string& out, std::uint32_t code) {
   }
 }
 
-/// Whether the text from `end` on is the end of a word, or of its plural.
+/// Whether the text from `end` on is the end of a word or of its plural.
 bool IsEnd(std::string_view text, std::size_t end) {
   for (const std::string_view plural : {"", "s", "es", "n", "en"}) {
     if (text.substr(end, plural.size()) != plural) continue;
@@ -75,7 +75,8 @@ bool IsEnd(std::string_view text, std::size_t end) {
 }
 
 bool Holds(std::string_view text, std::string_view word) {
-  const bool has_spaces = static_cast<unsigned char>(word[0]) < 0xE0;  // between its words
+  // the word itself contains spaces
+  const bool has_spaces = static_cast<unsigned char>(word[0]) < 0xE0;
   for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
     if (!has_spaces) return true;
     const bool is_start = at == 0 || text[at - 1] == ' ';
@@ -84,7 +85,7 @@ bool Holds(std::string_view text, std::string_view word) {
   return false;
 }
 
-/// The entry with the longest word that `text` holds.
+/// The entry with the longest word contained in `text`.
 template <class Entry>
 const Entry* Longest(std::span<const Entry> table, std::string_view text) {
   const Entry* best = nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Words that architects write, in a dozen languages -> raw semantic names of things and types of
-// rooms. Texts are compared in small letters without accents; a word may end a longer one
-// ("Doppelbett"), since compounds name the thing last.
+// Architects' vocabulary in a dozen languages -> raw semantic names of objects and types of rooms.
+// Texts are compared in small letters without accents; a word may end a longer word ("Doppelbett"),
+// because compounds name the object last.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@
 
 namespace crossnav::homes {
 
-/// Small letters without accents; all but letters of any script becomes single spaces.
+/// Small letters without accents; each run of non-letters becomes one space.
 std::string FoldedWords(std::string_view utf8);
 
-/// The raw name that the first telling one of `names` has; empty where none says anything.
+/// Raw name of the first of `names` with a known word; empty if none has one.
 std::string ThingNamed(std::span<const std::string> names);
 
-/// The type that a room's name says, nullopt where it says none.
+/// Room type given by a room's name, nullopt if unknown.
 std::optional<world::RoomType> RoomTypeNamed(std::string_view name);
 
-/// Whether the name is that of a roof, a terrain or a shaft: nobody lives there.
+/// Whether the name is of a roof, a terrain or a shaft: not a living space.
 bool IsNoRoom(std::string_view name);
 
 }  // namespace crossnav::homes

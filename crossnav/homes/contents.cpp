@@ -13,7 +13,7 @@ namespace {
 constexpr std::uintmax_t kMaxArchive = 1U << 30;    // chosen: real homes have up to 200 MB
 constexpr std::uint64_t kMaxXml = 64U << 20;        // chosen: real ones have up to 5 MB
 constexpr std::uint64_t kMaxEntry = 256U << 20;     // chosen: one model or picture
-constexpr std::uint64_t kMaxUnpacked = 1ULL << 30;  // chosen: all that is read of one home
+constexpr std::uint64_t kMaxUnpacked = 1ULL << 30;  // chosen: total read from one home
 constexpr const char* kSaveAgain = "; open it in Sweet Home 3D 5.3 or newer and save it again";
 
 bool IsNamed(const std::string& entry, const std::string& home) {
@@ -40,7 +40,7 @@ Result<Contents> Contents::Open(const fs::path& file) {
   return contents;
 }
 
-/// The entry that describes the home: Home.xml, or of an archive of homes the one called `home`.
+/// The entry that describes the home: Home.xml, or in an archive of homes the entry called `home`.
 Result<std::string> Contents::HomeEntry(const std::string& home) const {
   if (home.empty() && zip_.Has("Home.xml")) return "Home.xml";
   std::vector<std::string> found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What lies in the archive of a home (.sh3d, or the .jar of Sweet Home 3D with its example homes):
-// entries by name, never written to disk, within a budget of unpacked bytes.
+// Content of a home's archive (.sh3d, or the .jar of Sweet Home 3D with its example homes): entries
+// by name, never written to disk, within a budget of unpacked bytes.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,17 @@ class Contents {
   /// kNotFound, kMalformed: no such file, no zip archive.
   static Result<Contents> Open(const std::filesystem::path& file);
 
-  /// Nothing in it, for homes that come without an archive.
+  /// An empty archive, for homes without one.
   static Contents Empty() { return Contents(world::ZipReader()); }
 
   struct Xml {
     std::string text, entry;
   };
-  /// The home's description: the entry Home.xml, or the .xml entry whose file name is `home` (with
-  /// or without its ending) where that is not empty.
+  /// The home's description: the entry Home.xml, or, if `home` is not empty, the .xml entry with
+  /// the file name `home` (with or without its ending).
   Result<Xml> HomeXml(const std::string& home) const;
 
-  /// An entry's bytes; nullopt where there is no such entry, where it is damaged or over budget.
+  /// An entry's bytes; nullopt if it is missing, damaged or over budget.
   std::optional<std::string> Read(const std::string& entry) const;
   const std::string& where() const { return where_; }
 

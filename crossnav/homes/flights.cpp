@@ -9,10 +9,10 @@
 namespace crossnav::homes {
 namespace {
 
-constexpr double kAround_m = 2.0;  // chosen: ground to start from and to arrive on
+constexpr double kAround_m = 2.0;  // chosen: ground before and after the flight
 constexpr double kRing_m = 0.35;   // chosen: a step away from the staircase
 constexpr double kRingStep_m = 0.25;
-constexpr double kMinRise_m = 0.5;  // chosen: less is a threshold, no storey
+constexpr double kMinRise_m = 0.5;  // chosen: less is a threshold
 
 /// The triangles of `scene` near a staircase, without names.
 sim::Scene Around(const sim::Scene& scene, const HomePiece& piece) {
@@ -81,7 +81,7 @@ Result<bool> IsClimbable(const sim::Scene& scene, const HomePlan& plan, const Fl
   const auto below = RingAt(*navmesh, piece, flight.foot_m);
   const auto above = RingAt(*navmesh, piece, flight.top_m);
   if (below.empty() || above.empty()) return false;
-  // Longer ways lead over another staircase.
+  // Longer paths use another staircase.
   const double limit_m =
       3 * (flight.top_m - flight.foot_m) + 4 * (piece.width_m + piece.depth_m + 2 * kAround_m);
   for (const Vector3d& from : below) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Staircases of a home as ways between storeys: whether one can climb them, and plain flights that
-// stand in for models one cannot (ladders, spirals with half a metre of tread, drawings in a box).
+// Staircases of a home as connections between storeys: a test whether they can be climbed, and
+// plain flights as substitutes for models that cannot (ladders, spirals with treads of half a
+// metre, drawings in a box).
 #pragma once
 
 #include <optional>
@@ -14,24 +15,24 @@ namespace crossnav::homes {
 /// A staircase that cuts through the floor above it.
 struct Flight {
   std::size_t piece = 0;         ///< index in HomePlan::pieces
-  double foot_m = 0, top_m = 0;  ///< heights of the floors that it joins
+  double foot_m = 0, top_m = 0;  ///< heights of the connected floors
 };
 
 /// Staircases with a floor above them, in the order of the plan.
 std::vector<Flight> FlightsOf(const HomePlan& plan);
 
-/// Whether the navmesh of the scene around a staircase leads from its foot to the floor above.
+/// Whether the navmesh of the scene around a staircase connects its foot to the floor above.
 Result<bool> IsClimbable(const sim::Scene& scene, const HomePlan& plan, const Flight& flight,
                          const sim::NavMeshSettings& settings);
 
-/// Flights of the piece's box, in its frame, the likeliest first: straight ones in the four
-/// directions (first in which `model` rises, where there is one), then spirals. Those that would be
-/// steeper than one can walk are left out.
+/// Flights within the piece's box, in its frame, the likeliest first: straight flights in the four
+/// directions (first the direction in which `model` rises, if given), then spirals. Flights that
+/// are too steep to walk are omitted.
 std::vector<world::NamedObj> PlainFlights(const HomePiece& piece, double rise_m,
                                           const world::NamedObj* model);
 
-/// Finds substitutes for the staircases of `plan` that cannot be climbed, and adds them to `given`;
-/// `notes` says for which, and for which none was found.
+/// Finds substitutes for staircases of `plan` that cannot be climbed, and adds them to `given`;
+/// `notes` lists replaced and unsolved staircases.
 Result<Substitutes> FixFlights(const HomePlan& plan, ModelStore& models,
                                const sim::NavMeshSettings& settings,
                                std::vector<std::string>& notes, Substitutes given = {});

@@ -18,15 +18,15 @@ namespace {
 
 using world::Rect;
 
-constexpr double kMargin_m = 1.0;      // chosen: around a room, to see what leads into it
-constexpr double kToWall_m = 0.08;     // Furnish keeps it to the middle of walls
-constexpr double kMost_m = 60;         // chosen: side of a room that is furnished
-constexpr double kStairsFree_m = 0.6;  // chosen: before the first tread and after the last
+constexpr double kMargin_m = 1.0;      // chosen: around a room, to see its entrances
+constexpr double kToWall_m = 0.08;     // Furnish keeps this distance to the middle of walls
+constexpr double kMost_m = 60;         // chosen: maximum side of a furnished room
+constexpr double kStairsFree_m = 0.6;  // chosen: before the first tread and after the last tread
 constexpr double kDoorFree_m = 0.85;   // as before doors of generated houses
 constexpr double kOpenFree_m = 0.5;    // chosen: where a room has no wall
 constexpr double kBody_m = 0.25;       // chosen: radius; the navmesh's is 0.10
 constexpr double kTallest_m = 2.1;
-constexpr double kKeptShare = 0.8;  // chosen: of the free ground stays in one piece
+constexpr double kKeptShare = 0.8;  // chosen: share of the free ground that stays connected
 constexpr int kAttempts = 10;
 constexpr std::size_t kMostCorners = 40;  // chosen: of a room, for its largest rectangle
 
@@ -86,7 +86,7 @@ Rect LargestRect(const Polygon& outline) {
   return best;
 }
 
-/// What a kind is left out for: names of things that are there already.
+/// Whether the names in `there` include the kind or an equivalent.
 bool IsThere(std::string_view kind, const std::set<std::string>& there) {
   static const std::map<std::string_view, std::vector<const char*>> kSame = {
       {"bed group", {"bed"}},
@@ -128,7 +128,7 @@ class RoomFurnisher {
     }
   }
 
-  /// The pieces, in the world frame; empty where none leaves the room open.
+  /// The pieces, in the world frame; empty if none leaves the room passable.
   std::vector<world::Placement> Furnish(world::RoomType type, std::uint64_t seed,
                                         const world::FurnitureSource& source) const {
     const world::HousePlan empty = ShadowOf(type);
@@ -157,7 +157,7 @@ class RoomFurnisher {
     return turned;
   }
 
-  /// The room alone, as the furnishing of generated houses sees it.
+  /// The room alone, as a plan for the furnishing of generated houses.
   world::HousePlan ShadowOf(world::RoomType type) const {
     world::HousePlan plan;
     const HomeLevel& level = plan_.levels[static_cast<std::size_t>(room_.level)];
@@ -173,7 +173,7 @@ class RoomFurnisher {
     return plan;
   }
 
-  /// Walls where something fixed stands behind the sides; where not, the way stays free.
+  /// Adds walls along sides with fixed structure behind them; other sides stay passable.
   void AddWalls(world::HousePlan& plan) const {
     const Vector2d corners[] = {
         {rect_.x0, rect_.y0}, {rect_.x1, rect_.y0}, {rect_.x1, rect_.y1}, {rect_.x0, rect_.y1}};
@@ -194,7 +194,7 @@ class RoomFurnisher {
     }
   }
 
-  /// `out` points to where there is no wall; zero where there is one.
+  /// `out` points to the open side; zero for a wall.
   static void AddRun(world::HousePlan& plan, const Vector2d& a, const Vector2d& b,
                      const Vector2d& out) {
     if ((b - a).norm() < 0.2) return;
@@ -243,7 +243,7 @@ class RoomFurnisher {
     }
   }
 
-  /// What stands in the room, holes in its floor, the ends of stairs.
+  /// Adds furniture, holes in the floor and the ends of stairs.
   void AddCells(world::HousePlan& plan) const {
     const Rect in = rect_.Grown(-0.1);
     const int reach = static_cast<int>(kStairsFree_m / RoomMap::kCell_m);
@@ -278,7 +278,7 @@ class RoomFurnisher {
     plan.taken.push_back(box);
   }
 
-  /// Whether all that was one walkable part still is, but for what stands on it.
+  /// Whether every walkable part stays connected, apart from the cells under the pieces.
   bool StaysOpen(const world::HousePlan& plan, const std::vector<int>& before) const {
     std::vector<Rect> bodies;
     for (const world::Placement& p : plan.furniture) {
@@ -287,8 +287,8 @@ class RoomFurnisher {
       bodies.push_back({b.min.x(), b.min.y(), b.max.x(), b.max.y()});
     }
     const auto after = map_.PartsOf(map_.Walkable(kBody_m, bodies));
-    std::map<int, std::map<int, int>> split;  // cells of a part before in parts after
-    std::map<int, std::set<int>> outer;       // the same for those outside the room
+    std::map<int, std::map<int, int>> split;  // cells of each part before, by part after
+    std::map<int, std::set<int>> outer;       // likewise outside the room
     for (int y = 0; y < map_.ny(); ++y) {
       for (int x = 0; x < map_.nx(); ++x) {
         const std::size_t i = map_.Index(x, y);

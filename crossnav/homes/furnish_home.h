@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Furnishes the rooms of a home by their names, around what is drawn in them already.
-// Deterministic.
+// Furnishes the rooms of a home by their names, around the existing pieces. Deterministic.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +12,8 @@
 
 namespace crossnav::homes {
 
-/// Adds to `plan.furnishing`. `scene` is the home as it is built. Doors and what leads through a
-/// room stay open; `notes` says which rooms stay as they are.
+/// Adds to `plan.furnishing`. `scene` is the built home. Doors and passages through a room stay
+/// open; `notes` lists the rooms without changes.
 void FurnishHome(HomePlan& plan, const sim::Scene& scene, std::uint64_t seed,
                  const world::FurnitureSource& source, std::vector<std::string>& notes);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands in and around a room, seen from above, in cells of 5 cm: where furniture may go and
-// where people walk. The room's own frame: turned so that its walls lie along x and y; metres.
+// Occupancy of a room and its surroundings, from above, in cells of 5 cm: space for furniture and
+// walkways. The room's own frame: rotated so that its walls are along x and y; metres.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ class RoomMap {
   static constexpr double kCell_m = 0.05;
   struct Cell {
     bool has_ground = false;
-    bool has_stairs = false;             ///< up to a storey below, or above
-    bool has_wall = false;               ///< something fixed at the height of a picture
-    float low_m = 1e9F, high_m = -1e9F;  ///< of what stands above the floor, against the floor
+    bool has_stairs = false;             ///< down to a storey below, or up
+    bool has_wall = false;               ///< fixed structure at the height of a picture
+    float low_m = 1e9F, high_m = -1e9F;  ///< of objects above the floor, relative to the floor
   };
 
   /// `T_room_world` turns about the world's z axis.
@@ -36,10 +36,10 @@ class RoomMap {
   Vector2d MiddleOf(int x, int y) const {
     return {area_.x0 + (x + 0.5) * kCell_m, area_.y0 + (y + 0.5) * kCell_m};
   }
-  /// Cell of a point; outside of the map the nearest one.
+  /// Cell of a point; outside the map the nearest cell.
   const Cell& At(const Vector2d& p) const;
 
-  /// Cells with ground where a person of a radius has room, besides `more`.
+  /// Cells with ground and room for a person of this radius, with `more` as additional obstacles.
   std::vector<bool> Walkable(double radius_m, const std::vector<world::Rect>& more) const;
   /// Walkable cells by connected part, 1, 2, ...; 0 = not walkable.
   std::vector<int> PartsOf(const std::vector<bool>& walkable) const;

@@ -43,7 +43,7 @@ class FinishUser {
 constexpr double kOwnReach_m = 0.05;    // chosen: the thickness of a handle
 constexpr double kOtherReach_m = 0.45;  // chosen: to step aside from an open leaf
 
-/// Opens the inner door `index` without barring another one.
+/// Opens the inner door `index` without blocking another door.
 std::string OpenInnerDoor(const HomePlan& plan, std::size_t index,
                           const std::vector<std::size_t>& doors, world::NamedObj& obj) {
   const HomePiece& piece = plan.pieces[index];
@@ -63,7 +63,7 @@ std::string OpenInnerDoor(const HomePlan& plan, std::size_t index,
   return OpenDoor(obj, piece, is_free);
 }
 
-/// Nothing to see: Sweet Home 3D's markers of light.
+/// An invisible piece: Sweet Home 3D's markers of light.
 bool IsMarker(const HomePiece& piece) {
   const std::string_view id = piece.catalog_id;
   return id.find("ightSource") != id.npos;

@@ -12,13 +12,13 @@
 
 namespace crossnav::homes {
 
-/// Models that stand in for those of the plan, by index of the piece, in the piece's own frame.
+/// Substitute models by index of the piece, in the piece's own frame.
 using Substitutes = std::map<std::size_t, world::NamedObj>;
 
-/// Whether the piece is a door that leads from one room into another.
+/// Whether the piece is a door between two rooms.
 bool IsInnerDoor(const HomePlan& plan, const HomePiece& piece);
 
-/// What could not be shown as drawn is added to `notes`.
+/// Deviations from the plan are added to `notes`.
 sim::Scene BuildHome(const HomePlan& plan, ModelStore& models, const Substitutes& substitutes,
                      std::vector<std::string>& notes);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A home as Sweet Home 3D describes it: levels, walls, rooms, pieces of furniture. World frame: x
-// as in the plan, y up the page (the file's y runs down it), z up; metres; angles counter-clockwise
-// seen from above. Read by home_xml.h, built by home_builder.h.
+// A home in Sweet Home 3D's terms: levels, walls, rooms, pieces of furniture. World frame: x as in
+// the plan, y up the page (the file's y points down), z up; metres; angles counter-clockwise seen
+// from above. Read by home_xml.h, built by home_builder.h.
 #pragma once
 
 #include <optional>
@@ -63,7 +63,7 @@ enum class PieceKind { kFurniture, kOpening, kStairs };
 struct HomePiece {
   PieceKind kind = PieceKind::kFurniture;
   std::string name, catalog_id;
-  std::string raw_name;  ///< semantic name; empty = by the other two
+  std::string raw_name;  ///< semantic name; empty = derived from catalogue id and name
   std::string model;     ///< entry of the archive; empty = none
   int level = 0;
   Vector2d center = Vector2d::Zero();
@@ -86,13 +86,14 @@ struct HomePlan {
   std::vector<HomeWall> walls;
   std::vector<HomeRoom> rooms;
   std::vector<HomePiece> pieces;
-  std::vector<world::Placement> furnishing;  ///< that was added to the plan
-  std::vector<std::string> notes;            ///< what was left out, for people
+  std::vector<world::Placement> furnishing;  ///< added to the plan
+  std::vector<std::string> notes;            ///< omissions, free text
 
   double FloorOf(int level) const { return levels[static_cast<std::size_t>(level)].floor_m; }
 };
 
-/// Where the footprint's point (x to the right, y to the back of the piece, from its centre) lies.
+/// Plan position of the footprint's point (x to the right, y to the back of the piece, from its
+/// centre).
 inline Vector2d OnPlan(const HomePiece& piece, double x, double y) {
   return piece.center + Eigen::Rotation2Dd(piece.angle_rad) * Vector2d(x, y);
 }

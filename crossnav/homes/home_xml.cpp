@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMaxNumber = 1e6;          // chosen: 10 km in the file's centimetres
 constexpr std::size_t kMaxParts = 200'000;  // chosen: elements of one home
-// What is built goes through walls, rooms and openings against each other.
+// The builder compares walls, rooms and openings pairwise.
 constexpr std::size_t kMaxLevels = 64;        // chosen: a tower
 constexpr std::size_t kMaxWalls = 5000;       // chosen: real homes have up to 500
 constexpr std::size_t kMaxRooms = 500;        // chosen: real homes have up to 100
@@ -25,7 +25,7 @@ constexpr std::size_t kMaxCorners = 500;      // chosen: of one room
 constexpr std::size_t kMaxAllCorners = 5000;  // chosen: of all rooms
 constexpr std::size_t kMaxOpenings = 1000;    // chosen: real homes have up to 200
 constexpr std::size_t kMaxStairs = 100;       // chosen: real homes have up to 10
-constexpr std::size_t kMaxCutCorners = 200;   // chosen: of the hole that a staircase makes
+constexpr std::size_t kMaxCutCorners = 200;   // chosen: of the hole of a staircase
 constexpr int kMaxDepth = 32;                 // chosen: groups in groups
 
 using Node = pugi::xml_node;
@@ -40,7 +40,7 @@ std::optional<double> ToNumber(std::string_view text) {
   return value;
 }
 
-/// "AARRGGBB" in hexadecimal; a colour that cannot be read is none.
+/// "AARRGGBB" in hexadecimal; nullopt for an unreadable colour.
 std::optional<Rgb8> ColourOf(const Node& node, const char* key) {
   const std::string_view text = node.attribute(key).value();
   std::uint32_t argb = 0;
@@ -55,7 +55,7 @@ bool IsTrue(const Node& node, const char* key, bool otherwise) {
   return text.empty() ? otherwise : text == "true";
 }
 
-/// Reads one home; the first thing that is wrong ends it.
+/// Reads one home; the first error stops it.
 class HomeReader {
  public:
   explicit HomeReader(std::string where) : where_(std::move(where)) {}
@@ -88,7 +88,7 @@ class HomeReader {
                    where_ + ": " + element + ">"};
   }
 
-  /// The attribute's number; 0 and an error where it is no number.
+  /// The attribute's number; 0 and an error if it is no number.
   double Number(const Node& node, const char* key, std::optional<double> otherwise) {
     const auto attribute = node.attribute(key);
     if (!attribute) {
@@ -123,7 +123,7 @@ class HomeReader {
     return error_.has_value();
   }
 
-  /// Whether there is one more than `most` of something; it is an error then.
+  /// Records an error and returns true if there are more than `most` elements.
   bool IsAbove(const Node& node, std::size_t count, std::size_t most, const char* what) {
     if (count >= most) Bad(node, fmt::format("the home has more than {} {}", most, what));
     return error_.has_value();
@@ -138,7 +138,7 @@ class HomeReader {
       level.floor_m = Length(node, "elevation", std::nullopt);
       level.height_m = Extent(node, "height", wall_height_m_);
       level.slab_m = std::max(0.01, Extent(node, "floorThickness", 0.12));
-      // "visible" only says which level the plan showed last.
+      // "visible" only stores the level that the plan showed last.
       level.is_viewable = IsTrue(node, "viewable", true);
       if (!level.is_viewable) {
         plan_.notes.push_back("level '" + level.name + "' is hidden in the plan and left out");
@@ -170,7 +170,7 @@ class HomeReader {
     return !plan_.levels[static_cast<std::size_t>(level)].is_viewable;
   }
 
-  /// Many plans have walls and no rooms: the ground inside the walls is then the floor.
+  /// Plans without rooms: the ground inside the walls becomes the floor.
   void DrawRooms() {
     for (std::size_t i = 0; i < plan_.levels.size(); ++i) {
       HomeRoom room;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Home.xml of Sweet Home 3D -> HomePlan. Any bytes are safe to pass; what cannot be read is an
-// error that names the element and its attribute.
+// Home.xml of Sweet Home 3D -> HomePlan. Any bytes are safe to pass; errors name the element and
+// its attribute.
 #pragma once
 
 #include <string>

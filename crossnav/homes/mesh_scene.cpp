@@ -49,17 +49,18 @@ bool Matches(const std::string& name, const std::string& pattern) {
   return name.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
 }
 
-/// Gives triangles to instances.
+/// Assigns triangles to instances.
 class Claims {
  public:
   Claims(const PartedModel& model, const ObjectsFile& objects)
       : model_(model), objects_(objects), instance_(model.mesh.triangles.size(), 0) {}
 
-  /// Those of the parts of object `i`, and of what hangs below them. Returns how many.
+  /// Claims the triangles of the parts of object `i` and of their descendants. Returns their
+  /// number.
   std::size_t ByParts(std::size_t i) {
     std::vector<bool> is_named(model_.parts.size(), false);
     for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-      const auto& part = model_.parts[p];  // parents stand before their children
+      const auto& part = model_.parts[p];  // parents come before their children
       is_named[p] = part.parent >= 0 && is_named[static_cast<std::size_t>(part.parent)];
       for (const auto& pattern : objects_.objects[i].parts) {
         is_named[p] = is_named[p] || Matches(part.name, pattern);
@@ -75,7 +76,7 @@ class Claims {
     return claimed;
   }
 
-  /// Those that are free and have their centre in the box of object `i`.
+  /// Claims the free triangles with their centre in the box of object `i`.
   std::size_t ByBox(std::size_t i) {
     const ObjectBox& box = *objects_.objects[i].box;
     const Vector3d up = objects_.is_y_up ? Vector3d::UnitY() : Vector3d::UnitZ();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A 3D model of a whole home (OBJ, glTF) and the file that names its objects -> a scene in the
-// world frame. Triangles that no object names belong to one instance "unknown".
+// world frame. Unnamed triangles belong to one instance "unknown".
 #pragma once
 
 #include <filesystem>
@@ -27,12 +27,12 @@ struct PartedModel {
   std::vector<std::string> notes;
 };
 
-/// .obj with its MTL and pictures beside it, .glb, .gltf.
+/// .obj with its MTL and pictures in the same folder, .glb, .gltf.
 Result<PartedModel> ReadPartedModel(const std::filesystem::path& file);
 
-/// Objects claim the triangles of their parts (first come), then boxes what is left and has its
-/// centre inside. An object that claims nothing is an error that names it. `where` is the file of
-/// the objects.
+/// Objects claim the triangles of their parts (first come), then boxes claim the rest with its
+/// centre inside. An object without triangles is an error that names it. `where` is the file of the
+/// objects.
 Result<sim::Scene> NameObjects(PartedModel model, const ObjectsFile& objects,
                                const std::string& where);
 

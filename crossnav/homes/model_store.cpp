@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaxModelPicture_px = 256;  // chosen: furniture fills a part of a 640 px picture
 constexpr int kMaxWallPicture_px = 512;
-constexpr std::size_t kBudget = 20'000;           // chosen: as the largest kept in furniture packs
+constexpr std::size_t kBudget = 20'000;  // chosen: as the largest models in furniture packs
 constexpr std::size_t kMaxTriangles = 2'000'000;  // chosen: of one model
 
 std::string ExtensionOf(const std::string& name) {
@@ -26,7 +26,7 @@ std::string ExtensionOf(const std::string& name) {
   return extension;
 }
 
-/// What the bytes are, by their beginning; `otherwise` where that does not tell.
+/// Format of the bytes by their signature; `otherwise` if that is unknown.
 std::string FormatOf(const std::string& bytes, const std::string& otherwise) {
   if (bytes.rfind("PK\x03\x04", 0) == 0) return "zip";
   if (bytes.rfind("glTF", 0) == 0) return "glb";
@@ -35,7 +35,7 @@ std::string FormatOf(const std::string& bytes, const std::string& otherwise) {
   return otherwise == "dae" || otherwise == "3ds" || otherwise == "lws" ? otherwise : "obj";
 }
 
-/// A name in a model file, as the archive would write it.
+/// A name in a model file, in the archive's spelling.
 std::string Joined(const std::string& folder, std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   while (name.rfind("./", 0) == 0) name.erase(0, 2);
@@ -44,7 +44,7 @@ std::string Joined(const std::string& folder, std::string name) {
 
 Result<world::NamedObj> FromGlb(const std::string& bytes, const std::string& where) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  // A folder that cannot exist: a model in an archive names no files outside it.
+  // A folder that cannot exist: a model in an archive must not name files outside it.
   auto gltf = sim::ParseGlb({data, bytes.size()}, where, "/dev/null");
   if (!gltf) return tl::unexpected(gltf.error());
   world::NamedObj out;
@@ -83,7 +83,7 @@ Result<world::NamedObj> FromZip(const std::string& bytes, const std::string& whe
   return Fail(ErrorCode::kUnsupported, "holds no model that is read", where);
 }
 
-/// Doors need their named parts; of other models the triangles may become fewer.
+/// Doors keep all triangles, because they need their named parts; other models are simplified.
 void Lighten(world::NamedObj& obj) {
   const bool is_moving =
       std::any_of(obj.group_names.begin(), obj.group_names.end(),
@@ -153,7 +153,7 @@ const sim::Texture* ModelStore::Picture(const std::string& entry) {
 }
 
 std::optional<Rgb8> BuiltInColour(const std::string& material) {
-  // Chosen by what the names say and where they are used: no MTL file comes with these models.
+  // Chosen by the names and their use: these models come without an MTL file.
   static const std::map<std::string, Rgb8, std::less<>> kColours = {
       {"white", {242, 242, 240}},       {"white.001", {242, 242, 240}},
       {"flwhite", {240, 240, 238}},     {"flwhite1", {240, 240, 238}},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The 3D models of a home's pieces: read from its archive (OBJ; glTF; 3DS, Collada and others where
-// Assimp is built in; also inside zip files), each once. A model's own frame: y up, front towards
-// +z, any unit.
+// 3D models of a home's pieces: read once each from its archive (OBJ; glTF; 3DS, Collada and others
+// if built with Assimp; also inside zip files). A model's own frame: y up, front towards +z, any
+// unit.
 #pragma once
 
 #include <map>
@@ -17,10 +17,10 @@ class ModelStore {
  public:
   explicit ModelStore(const Contents& contents) : contents_(contents) {}
 
-  /// nullptr where the model cannot be used; `why` then says so.
+  /// nullptr for an unusable model; `why` then gives the reason.
   const world::NamedObj* Find(const std::string& entry, std::string& why);
 
-  /// A picture of the archive, nullptr where it cannot be used.
+  /// A picture of the archive, nullptr if unusable.
   const sim::Texture* Picture(const std::string& entry);
 
  private:
@@ -33,11 +33,11 @@ class ModelStore {
   std::map<std::string, std::optional<sim::Texture>> pictures_;
 };
 
-/// The model in `bytes`, whatever its format; `lookup` gives the files it names.
+/// The model in `bytes`, of any format; `lookup` supplies the files that it names.
 Result<world::NamedObj> ParseModel(const std::string& bytes, const world::FileLookup& lookup,
                                    const std::string& where);
 
-/// Colour of a built-in material of Sweet Home 3D's own models, which have no MTL files.
+/// Colour of a built-in material of Sweet Home 3D's own models, which lack MTL files.
 std::optional<Rgb8> BuiltInColour(const std::string& material);
 
 }  // namespace crossnav::homes

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 constexpr std::size_t kMaxObjects = 100'000;  // chosen: far above any house
 constexpr double kMaxNumber = 1e6;
 
-/// Reads with the path of the key, so that an error can name it.
+/// Reads with the path of the key, for errors.
 class Reader {
  public:
   explicit Reader(std::string where) : where_(std::move(where)) {}

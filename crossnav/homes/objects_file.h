@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The JSON file that says which parts of a 3D model are which objects (docs/formats/objects.md).
-// Any bytes are safe to pass; errors name the key.
+// JSON file that maps parts of a 3D model to objects (docs/formats/objects.md). Any bytes are safe
+// to pass; errors name the key.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace crossnav::homes {
 
-/// A box in the file's frame and units; upright, turned about the file's up axis.
+/// A box in the file's frame and units; upright, rotated about the file's up axis.
 struct ObjectBox {
   Vector3d center = Vector3d::Zero(), size = Vector3d::Zero();
   double yaw_rad = 0;
@@ -21,7 +21,7 @@ struct ObjectBox {
 struct NamedObject {
   std::string id;                  ///< for messages; may be empty
   std::string name;                ///< raw semantic name
-  std::vector<std::string> parts;  ///< names in the model file; "Chair*" = all that begin so
+  std::vector<std::string> parts;  ///< names in the model file; "Chair*" = all with this prefix
   std::optional<ObjectBox> box;
   int region = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Doors inside a home stand open: a home is imported to walk through it. Models of Sweet Home 3D
-// name their moving parts "sweethome3d_opening_on_hinge_1_..." and "sweethome3d_hinge_1".
+// Opens the inner doors of a home, so that rooms are connected. Models of Sweet Home 3D name their
+// moving parts "sweethome3d_opening_on_hinge_1_..." and "sweethome3d_hinge_1".
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -50,7 +50,7 @@ std::map<int, Parts> PartsNamed(const world::NamedObj& obj, std::string_view mar
   return parts;
 }
 
-/// Turns triangles about an upright axis. They get vertices of their own.
+/// Rotates triangles about an upright axis. They get separate vertices.
 void Turn(sim::TriangleMesh& mesh, const std::vector<std::size_t>& triangles, const Vector3d& axis,
           double angle_rad) {
   const Eigen::AngleAxisd turn(angle_rad, Vector3d::UnitZ());
@@ -86,7 +86,7 @@ void Remove(world::NamedObj& obj, const std::vector<std::size_t>& triangles) {
   obj.triangle_group.resize(kept);
 }
 
-/// How far a leaf with its hinge at x (from the middle) turns.
+/// Opening angle of a leaf with its hinge at x (from the middle).
 double SwingOf(const HomePiece& piece, double hinge_x) {
   const double share = hinge_x / std::max(piece.width_m, 1e-6) + 0.5;
   const double from_left = piece.is_mirrored ? 1 - share : share;
@@ -130,7 +130,7 @@ bool RemoveLeaves(world::NamedObj& obj) {
   return true;
 }
 
-/// Sliding leaves stand behind the first one.
+/// Moves sliding leaves behind the first leaf.
 bool ParkSliders(world::NamedObj& obj) {
   auto sliders = PartsNamed(obj, kSlider);
   if (sliders.empty()) return false;
@@ -143,7 +143,7 @@ bool ParkSliders(world::NamedObj& obj) {
   return true;
 }
 
-/// A frame of the opening's size.
+/// Replaces the model by a frame of the opening's size.
 void UsePlainFrame(world::NamedObj& obj, const HomePiece& piece) {
   const Rgb8 colour =
       obj.model.materials.empty() ? Rgb8{206, 190, 164} : obj.model.materials.front().colour;

@@ -22,7 +22,7 @@ void Colour(world::NamedObj& obj, const HomePiece& piece) {
 /// Pitch and roll about the middle of the box; the lowest point stays on the ground.
 void Tilt(sim::TriangleMesh& mesh, const HomePiece& piece) {
   if (std::abs(piece.pitch_rad) < 1e-6 && std::abs(piece.roll_rad) < 1e-6) return;
-  // The model's x is ours, its z (to the front) is our -y. Pitch wins where both are given.
+  // The model's x is the world's x, its z (to the front) is -y. Pitch takes precedence over roll.
   const Eigen::AngleAxisf turn =
       std::abs(piece.pitch_rad) >= 1e-6
           ? Eigen::AngleAxisf(static_cast<float>(-piece.pitch_rad), Vector3f::UnitX())

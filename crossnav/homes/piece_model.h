@@ -16,20 +16,20 @@ namespace crossnav::homes {
 /// `obj` with the piece's size and colours.
 world::NamedObj Fitted(const world::NamedObj& obj, const HomePiece& piece);
 
-/// A box of the piece's size, where there is no model.
+/// A box of the piece's size, for pieces without a model.
 world::NamedObj BoxFor(const HomePiece& piece);
 
-/// Where a fitted model stands in the world.
+/// Pose of a fitted model in the world.
 Pose PoseOf(const HomePlan& plan, const HomePiece& piece);
 
-/// Whether nothing of `model` (at `T_door_model` in the frame of the door's piece) is in the way of
-/// those who walk through the door, up to `reach_m` before and behind the wall.
+/// Whether `model` (at `T_door_model` in the frame of the door's piece) leaves the passage through
+/// the door free, up to `reach_m` before and behind the wall.
 bool IsFree(const world::ObjectModel& model, const Pose& T_door_model, const HomePiece& door,
             double reach_m);
 
-/// Opens a door that one cannot walk through, so that `is_free` holds: turns the leaves that the
-/// model names to either side or takes them out, parks sliding ones, else puts a plain frame in its
-/// place. Returns what was done, for people; empty = it was open already.
+/// Opens a blocked door so that `is_free` holds: turns the model's named leaves to either side or
+/// removes them, moves sliding leaves aside, else substitutes a plain frame. Returns a description
+/// of the change; empty = the door was open already.
 std::string OpenDoor(world::NamedObj& obj, const HomePiece& piece,
                      const std::function<bool(const world::ObjectModel&)>& is_free);
 

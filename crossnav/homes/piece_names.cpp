@@ -72,11 +72,11 @@ constexpr Known kCatalogue[] = {
     {"workLamp", "table lamp"},
 };
 
-/// Pieces under this name say nothing else by their catalogue id.
+/// Catalogue ids of generic shapes, which carry no meaning.
 constexpr std::string_view kShapes[] = {"eTeks#texturableBox", "eTeks#texturableCylinder",
                                         "eTeks#texturableTriangle", "eTeks#lightSource"};
 
-/// Names that are no goal of the benchmark but often end one, and other spellings.
+/// Names that are no goal of the benchmark but are frequent last words, and other spellings.
 constexpr Known kWords[] = {
     {"bedside table", "bedside table"},
     {"nightstand", "nightstand"},
@@ -168,7 +168,7 @@ std::string RawNameOf(const HomePiece& piece) {
   }
   if (!is_shape && id.rfind(kOwn, 0) == 0) {
     const auto known = Find(std::begin(kCatalogue), std::end(kCatalogue), id.substr(kOwn.size()));
-    // "Bedside table" may stand for a low table that the owner calls so.
+    // Owners also use "bedside table" for other low tables.
     const std::string named = RawNameFor(piece.name);
     const bool is_renamed = known.find("table") != known.npos && named.find("table") != named.npos;
     if (!known.empty()) return is_renamed ? named : std::string(known);

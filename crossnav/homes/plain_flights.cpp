@@ -10,10 +10,11 @@ namespace crossnav::homes {
 namespace {
 
 constexpr double kRiser_m = 0.19;     // chosen: a house's usual step
-constexpr double kMinTread_m = 0.14;  // chosen: below it the navmesh ends
-constexpr double kMinSpiral_m = 1.1;  // chosen: diameter; narrower ones have no tread to stand on
+constexpr double kMinTread_m = 0.14;  // chosen: minimum of the navmesh
+constexpr double kMinSpiral_m = 1.1;  // chosen: diameter; narrower spirals have no walkable tread
 constexpr double kPole_m = 0.06;
-constexpr double kSector_rad = std::numbers::pi / 3;  // of a spiral: the landing above, the way in
+// of a spiral: the landing above, the entry below
+constexpr double kSector_rad = std::numbers::pi / 3;
 constexpr int kOrientations = 8;
 constexpr Rgb8 kWood{150, 110, 75};
 
@@ -22,13 +23,13 @@ int RisersFor(double rise_m) {
 }
 
 /// The piece's frame seen along the direction of climbing.
-struct Way {
+struct ClimbFrame {
   Vector2d along, across;  ///< unit vectors
   double run_m = 0, width_m = 0;
 };
 
 /// 0 to the back, 1 to the front, 2 to the right, 3 to the left.
-Way WayOf(const HomePiece& piece, int direction) {
+ClimbFrame ClimbFrameOf(const HomePiece& piece, int direction) {
   const double sign = direction % 2 == 0 ? 1 : -1;
   if (direction < 2) return {{0, sign}, {-sign, 0}, piece.depth_m, piece.width_m};
   return {{sign, 0}, {0, sign}, piece.width_m, piece.depth_m};
@@ -44,22 +45,22 @@ std::optional<world::NamedObj> Finished(world::ModelBuilder& builder) {
 }
 
 std::optional<world::NamedObj> Straight(const HomePiece& piece, double rise_m, int direction) {
-  const Way way = WayOf(piece, direction);
+  const ClimbFrame frame = ClimbFrameOf(piece, direction);
   const int risers = RisersFor(rise_m), treads = risers - 1;
-  const double tread_m = way.run_m / treads;
-  if (tread_m < kMinTread_m || way.width_m < 0.4) return std::nullopt;
+  const double tread_m = frame.run_m / treads;
+  if (tread_m < kMinTread_m || frame.width_m < 0.4) return std::nullopt;
   world::ModelBuilder builder("");
   builder.Colour(piece.colour.value_or(kWood));
   for (int i = 0; i < treads; ++i) {
-    const Vector2d a = way.along * (i * tread_m - 0.5 * way.run_m);
-    const Vector2d b = a + way.along * tread_m, side = way.across * (0.5 * way.width_m);
+    const Vector2d a = frame.along * (i * tread_m - 0.5 * frame.run_m);
+    const Vector2d b = a + frame.along * tread_m, side = frame.across * (0.5 * frame.width_m);
     const Polygon tread = {a - side, b - side, b + side, a + side};
     builder.mesh.AddPrism(tread, 0, (i + 1) * rise_m / risers);
   }
   return Finished(builder);
 }
 
-/// Treads around a pole; the sector around `exit_rad` is the way in below and the landing above.
+/// Treads around a pole; the sector around `exit_rad` is the entry below and the landing above.
 std::optional<world::NamedObj> Spiral(const HomePiece& piece, double rise_m, double exit_rad,
                                       bool is_clockwise) {
   const Vector2d radius(0.5 * piece.width_m, 0.5 * piece.depth_m);
@@ -89,10 +90,10 @@ std::optional<world::NamedObj> Spiral(const HomePiece& piece, double rise_m, dou
   return Finished(builder);
 }
 
-/// How much higher the far end of the model is than the near end, in a direction.
+/// Height of the model's far end above its near end, in a direction.
 double RiseAlong(const world::NamedObj& model, const HomePiece& piece, int direction,
                  double rise_m) {
-  const Way way = WayOf(piece, direction);
+  const ClimbFrame frame = ClimbFrameOf(piece, direction);
   double weight[2] = {}, height[2] = {};
   const auto& mesh = model.model.mesh;
   for (const auto& t : mesh.triangles) {
@@ -100,7 +101,7 @@ double RiseAlong(const world::NamedObj& model, const HomePiece& piece, int direc
                    c = mesh.vertices[t[2]].cast<double>();
     const Vector3d normal = (b - a).cross(c - a), center = (a + b + c) / 3;
     if (std::abs(normal.z()) < 0.8 * normal.norm() || center.z() > rise_m + 0.1) continue;
-    const double s = center.head<2>().dot(way.along) / way.run_m;
+    const double s = center.head<2>().dot(frame.along) / frame.run_m;
     if (std::abs(s) < 0.15) continue;
     const int end = s > 0 ? 1 : 0;
     weight[end] += normal.norm();

@@ -9,7 +9,7 @@ namespace crossnav::homes {
 namespace {
 
 constexpr double kSame_m = 1e-4;       // chosen: points closer than this are one
-constexpr double kMinPiece_m2 = 1e-5;  // chosen: slivers below 10 mm2 are nobody's floor
+constexpr double kMinPiece_m2 = 1e-5;  // chosen: slivers below 10 mm2 are dropped
 
 double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -75,7 +75,7 @@ std::vector<Polygon> Triangulate(const Polygon& polygon) {
     const std::size_t n = rest.size();
     std::size_t ear = 0;
     while (ear < n && !IsEar(rest, ear)) ++ear;
-    if (ear == n) {  // crosses itself: give up a corner
+    if (ear == n) {  // crosses itself: drops a corner
       ear = 0;
     } else {
       triangles.push_back({rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]});

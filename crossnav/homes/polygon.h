@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Polygons of a floor plan: triangles of concave ones, cutting, subtracting. Metres, seen from
-// above; counter-clockwise unless said otherwise. What comes out of Triangulate and Subtract are
-// convex pieces that do not overlap.
+// Polygons of a floor plan: triangulation of concave polygons, cutting, subtraction. Metres, seen
+// from above; counter-clockwise unless said otherwise. Triangulate and Subtract give convex pieces
+// that do not overlap.
 #pragma once
 
 #include <span>
@@ -17,17 +17,17 @@ using Polygon = std::vector<Vector2d>;
 /// > 0 for counter-clockwise.
 double SignedArea(const Polygon& polygon);
 
-/// Counter-clockwise, without repeated points and without points on a straight line; empty where
-/// nothing of an area is left.
+/// Counter-clockwise, without repeated and collinear points; empty without an area.
 Polygon Cleaned(const Polygon& polygon);
 
-/// Triangles of a simple polygon (of any orientation); of one that crosses itself, some.
+/// Triangles of a simple polygon of any orientation; a polygon that crosses itself gives an
+/// incomplete set.
 std::vector<Polygon> Triangulate(const Polygon& polygon);
 
 /// The part of the convex `piece` on the left of the line from `a` to `b`.
 Polygon LeftOf(const Polygon& piece, const Vector2d& a, const Vector2d& b);
 
-/// The shared part of two convex polygons, empty where there is none.
+/// Intersection of two convex polygons; may be empty.
 Polygon Shared(const Polygon& a, const Polygon& b);
 
 /// `pieces` (convex) without `holes` (convex).

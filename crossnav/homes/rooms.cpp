@@ -10,7 +10,7 @@ namespace {
 constexpr double kSameHeight_m = 0.05;  // chosen: floors of one storey
 constexpr Rgb8 kFloorColour{190, 184, 176}, kCeilingColour{240, 240, 238};
 
-/// What staircases cut out of a slab between z0 and z1.
+/// Cut-outs of staircases in a slab between z0 and z1.
 std::vector<Polygon> Cuts(const HomePlan& plan, double z0, double z1) {
   std::vector<Polygon> cuts;
   for (const HomePiece& piece : plan.pieces) {
@@ -29,7 +29,7 @@ std::vector<Polygon> Cuts(const HomePlan& plan, double z0, double z1) {
   return cuts;
 }
 
-/// What later rooms of the same height cover already.
+/// Area covered by later rooms of the same height.
 std::vector<Polygon> Covered(const HomePlan& plan, std::size_t room, bool HomeRoom::*has) {
   std::vector<Polygon> covered;
   for (std::size_t i = room + 1; i < plan.rooms.size(); ++i) {

@@ -25,7 +25,7 @@ bool IsNameCharacter(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
 }
 
-/// The input's name as a scene's: letters, digits and underscores.
+/// The input's name in the alphabet of scene names: letters, digits and underscores.
 std::string NameOf(const std::string& stem) {
   std::string name;
   for (const char c : stem) name.push_back(IsNameCharacter(c) && c != '.' ? c : '_');
@@ -47,7 +47,7 @@ std::optional<SceneNumber> ParseSceneId(const std::string& id) {
   return SceneNumber{number, id.substr(dash + 1)};
 }
 
-/// The id of the scene of this name in `dir`, else the next free number.
+/// Id of the scene of this name in `dir`, else the next free number.
 std::string SceneIdFor(const std::string& name, const fs::path& dir) {
   if (ParseSceneId(name)) return name;
   int last = 0;
@@ -74,7 +74,7 @@ Result<std::string> CheckedName(const std::string& name) {
               "--name");
 }
 
-/// Writes into a folder beside the final one and renames it, so that none is ever half written.
+/// Writes a temporary folder and renames it, so that no scene is ever half written.
 Result<fs::path> WriteWholeScene(const sim::Scene& scene, const fs::path& dir) {
   fs::path target = dir / scene.id;
   const fs::path part = dir / ("." + scene.id + ".part");
@@ -99,7 +99,7 @@ Result<fs::path> WriteWholeScene(const sim::Scene& scene, const fs::path& dir) {
   return target;
 }
 
-/// Storeys of the plan: heights at which rooms have a floor of some size.
+/// Storeys of the plan: heights of rooms with a floor of some size.
 std::vector<Storey> StoreysOf(const HomePlan& plan) {
   constexpr double kMinArea_m2 = 4;  // chosen: as the floors of the navmesh
   std::vector<Storey> storeys;
@@ -114,7 +114,7 @@ std::vector<Storey> StoreysOf(const HomePlan& plan) {
     }
     same->area_m2 += SignedArea(room.outline);
   }
-  // A flat roof may be drawn as a room; nobody lives where no ceiling, door or window is.
+  // A flat roof may be drawn as a room; a storey without ceiling, door and window is not lived in.
   const auto is_lived_in = [&](const Storey& s) {
     const auto is_here = [&](int level) { return std::abs(plan.FloorOf(level) - s.floor_m) < 0.3; };
     return std::any_of(plan.pieces.begin(), plan.pieces.end(),
@@ -134,7 +134,7 @@ std::vector<Storey> StoreysOf(const HomePlan& plan) {
   return storeys;
 }
 
-/// Storeys that the navmesh has a floor for which can be reached.
+/// Marks storeys with a reachable floor of the navmesh.
 void MarkReached(ImportReport& report) {
   for (Storey& storey : report.storeys) {
     for (const auto& floor : report.floors) {
@@ -145,7 +145,7 @@ void MarkReached(ImportReport& report) {
   }
 }
 
-/// The scene of a home, furnished where that is asked for.
+/// The scene of a home, furnished on request.
 Result<sim::Scene> Finished(const ImportOptions& options, HomePlan& plan, ModelStore& models,
                             const Substitutes& substitutes, ImportReport& report,
                             const std::string& where) {
@@ -179,7 +179,7 @@ Result<sim::Scene> ReadHome(const ImportOptions& options, ImportReport& report) 
   return Finished(options, *plan, models, *substitutes, report, where);
 }
 
-/// A building that the reader of IFC files passed on.
+/// A building from the reader of IFC files.
 Result<sim::Scene> ReadBuilding(const ImportOptions& options, ImportReport& report) {
   const std::string where = options.input.string();
   const auto building = ParseBuilding(options.building, where);

@@ -9,20 +9,20 @@
 
 namespace crossnav::homes {
 
-/// Makes a finish the scene's current material; the colour is that of surfaces without one.
+/// Makes a finish the scene's current material; `otherwise` is the colour of surfaces without a
+/// finish.
 using UseFinish = std::function<void(const Finish&, Rgb8 otherwise)>;
 
-/// Part of a level's slab that belongs to the floor; the rest is the ceiling's below. [0, 1]
+/// Share of a level's slab that belongs to the floor; the rest belongs to the ceiling below. [0, 1]
 inline constexpr double kFloorShare = 0.6;
 
-/// Thickness of what lies between the ceiling of `level` and the next floor above, or of a roof
-/// [m].
+/// Thickness between the ceiling of `level` and the next floor above, or of a roof [m].
 double SlabAbove(const HomePlan& plan, int level);
 
-/// The room of `level` (or of one at the same height) at `p`, -1 where there is none.
+/// The room of `level` (or of a level at the same height) at `p`, -1 without a room.
 int RoomAt(const HomePlan& plan, int level, const Vector2d& p);
 
-/// Floors and ceilings, with the cut-outs of the staircases that pass through them.
+/// Floors and ceilings, with the cut-outs of staircases.
 void BuildRooms(const HomePlan& plan, const UseFinish& use, world::SceneBuilder& scene);
 
 void BuildWalls(const HomePlan& plan, const UseFinish& use, world::SceneBuilder& scene);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outlines of floor cut-outs, written as SVG paths (M L H V C Q A Z, absolute and relative).
+// Outlines of floor cut-outs as SVG paths (M L H V C Q A Z, absolute and relative).
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace crossnav::homes {
 
-/// Closed outlines with curves as short lines, as written (y is not turned); nullopt where the text
-/// is not such a path.
+/// Closed outlines with curves as short lines, in the file's coordinates (y is not flipped);
+/// nullopt if the text is no such path.
 std::optional<std::vector<Polygon>> ParseSvgPath(std::string_view text);
 
 }  // namespace crossnav::homes

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walls are cut into upright columns along their centre line: at every corner of an arc and at both
-// jambs of every opening. In a column, what no opening takes is solid.
+// Cuts walls into upright columns along their centre line: at every corner of an arc and at both
+// jambs of every opening. A column is solid outside its openings.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,8 +30,7 @@ std::optional<Vector2d> Meet(const Vector2d& p, const Vector2d& d, const Vector2
   return Vector2d(p + d * ((w.x() * e.y() - w.y() * e.x()) / det));
 }
 
-/// Corners of a wall seen from above: at each point of its centre line one on the left and one on
-/// the right.
+/// Corners of a wall seen from above: a left and a right corner at each point of its centre line.
 struct Outline {
   std::vector<Vector2d> centre, left, right;
 };
@@ -51,7 +50,7 @@ Outline OutlineOf(const HomeWall& wall) {
   return o;
 }
 
-/// Moves the corners at one end of `wall` onto the sides of the wall it is joined to.
+/// Moves the corners at one end of `wall` onto the sides of the joined wall.
 void Mitre(const HomeWall& wall, bool at_end, const HomeWall& other, Outline& o) {
   const std::size_t end = at_end ? o.centre.size() - 1 : 0;
   const std::size_t inner = at_end ? end - 1 : 1;
@@ -61,14 +60,14 @@ void Mitre(const HomeWall& wall, bool at_end, const HomeWall& other, Outline& o)
                           (theirs.centre.back() - o.centre[end]).norm();
   const std::size_t n = theirs.centre.size();
   const std::size_t near = from_start ? 0 : n - 1, far = from_start ? 1 : n - 2;
-  const Vector2d their_way = theirs.centre[far] - theirs.centre[near];
-  // Walking on from this wall into the other one, left stays left.
+  const Vector2d their_direction = theirs.centre[far] - theirs.centre[near];
+  // Left stays left along the joined walls.
   const bool same_side = at_end == from_start;
   const auto& on_left = same_side ? theirs.left : theirs.right;
   const auto& on_right = same_side ? theirs.right : theirs.left;
   const double limit = 2 * std::max(wall.thickness_m, other.thickness_m);
   const auto move = [&](Vector2d& corner, const Vector2d& on_other) {
-    const auto p = Meet(corner, along, on_other, their_way);
+    const auto p = Meet(corner, along, on_other, their_direction);
     if (p && (*p - corner).norm() <= limit) corner = *p;
   };
   move(o.left[end], on_left[near]);
@@ -80,7 +79,7 @@ struct Hole {
   double z0 = 0, z1 = 0;
 };
 
-/// What the openings of the home cut out of the part of a wall between two points.
+/// Holes of the home's openings in the part of a wall between two points.
 std::vector<Hole> HolesIn(const HomePlan& plan, const Vector2d& a, const Vector2d& b,
                           double thickness_m, bool is_arc) {
   std::vector<Hole> holes;
@@ -91,7 +90,7 @@ std::vector<Hole> HolesIn(const HomePlan& plan, const Vector2d& a, const Vector2
     if (piece.kind != PieceKind::kOpening) continue;
     const Vector2d across = OnPlan(piece, 1, 0) - piece.center;
     const double turned = std::abs(d.x() * across.y() - d.y() * across.x());
-    if (turned > (is_arc ? 0.75 : 0.35)) continue;  // stands across the wall
+    if (turned > (is_arc ? 0.75 : 0.35)) continue;  // not parallel to the wall
     const double x = 0.5 * piece.width_m;
     const double y1 = (0.5 - piece.wall_from) * piece.depth_m;
     const double y0 = (0.5 - std::max(piece.wall_to, piece.wall_from + 0.01)) * piece.depth_m;
@@ -119,7 +118,7 @@ std::vector<Hole> HolesIn(const HomePlan& plan, const Vector2d& a, const Vector2
   return holes;
 }
 
-/// One straight part of a wall, with its four corners.
+/// A straight part of a wall, with its four corners.
 struct Part {
   Vector2d a, b;  // centre line
   Vector2d left_a, left_b, right_a, right_b;
@@ -188,7 +187,7 @@ class PartBuilder {
     Solid(column, z, 1e9);
   }
 
-  /// From `low` to `high` or the sloping top, whichever comes first.
+  /// Adds a solid from `low` to `high` or to the sloping top, whichever is lower.
   void Solid(const Part& c, double low, double high) {
     const double za = std::min(high, c.top_a), zb = std::min(high, c.top_b);
     if (std::max(za, zb) - low < 1e-3) return;

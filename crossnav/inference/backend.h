@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inference libraries behind one small interface; the list of them is in backends.cpp. ONNX
-// Runtime is linked where CMake found it; OpenVINO is loaded at run time. Their exceptions end here
-// and become errors.
+// Inference libraries behind a small interface; backends.cpp lists them. ONNX Runtime is linked if
+// CMake found it; OpenVINO is loaded at run time. Their exceptions become errors here.
 #pragma once
 
 #include <map>
@@ -15,34 +14,34 @@
 
 namespace crossnav::inference {
 
-/// A network made ready to run. Not thread-safe.
+/// A network ready to run. Not thread-safe.
 class Session {
  public:
   virtual ~Session() = default;
   virtual const std::vector<Port>& inputs() const = 0;
   virtual const std::vector<Port>& outputs() const = 0;
-  /// `inputs` in the order of inputs(), of those shapes. Outputs in the order of outputs().
+  /// `inputs` in the order and with the shapes of inputs(). Outputs in the order of outputs().
   virtual Result<std::vector<Tensor>> Run(std::span<const Tensor> inputs) = 0;
 };
 
 struct SessionOptions {
-  std::string backend = "auto";         ///< name of one; auto = the first that has the provider
-  std::string provider = "cpu";         ///< what computes: cpu, cuda or tensorrt
-  int threads = 1;                      ///< more than one may change the last bits
-  std::map<std::string, Shape> shapes;  ///< of inputs whose shape the file leaves open
+  std::string backend = "auto";  ///< name of a backend; auto = the first that has the provider
+  std::string provider = "cpu";  ///< execution device: cpu, cuda or tensorrt
+  int threads = 1;               ///< more than one may change the last bits
+  std::map<std::string, Shape> shapes;  ///< of inputs with open shapes in the file
 };
 
 struct Backend {
   const char* name;
   bool is_available;                   ///< built in (ONNX Runtime), or found at run time (OpenVINO)
-  std::string version;                 ///< of the library; empty where it is not available
-  std::vector<std::string> providers;  ///< that the library has; empty where it is not available
-  std::string get;                     ///< how to have it
+  std::string version;                 ///< of the library; empty if not available
+  std::vector<std::string> providers;  ///< of the library; empty if not available
+  std::string get;                     ///< how to install it
   Result<std::unique_ptr<Session>> (*open)(const std::string& onnx, const SessionOptions& options,
                                            const std::string& where);
 };
 
-/// All that there could be, the default first.
+/// All known backends, the default first.
 const std::vector<Backend>& Backends();
 
 /// Opens an ONNX file's content with the backend that the options name. Errors begin with `where`.

@@ -39,7 +39,7 @@ bool HasProvider(const Backend& backend, const std::string& provider) {
   return std::find(all.begin(), all.end(), provider) != all.end();
 }
 
-/// Why none of the backends that could be taken runs a network.
+/// Error with the reason for each backend that was tried.
 tl::unexpected<Error> NoBackend(const SessionOptions& options, const std::string& where) {
   const auto& all = Backends();
   std::vector<std::string> names, available;

@@ -14,11 +14,10 @@ namespace crossnav::inference {
 namespace {
 
 constexpr std::uintmax_t kMostBytes = 64U << 20U;
-constexpr std::size_t kMerges = 49152 - 256 - 2;  // that CLIP uses of its file
+constexpr std::size_t kMerges = 49152 - 256 - 2;  // number of merges that CLIP uses of its file
 constexpr const char* kWordEnd = "</w>";
 
-/// The visible character that stands for each byte, in UTF-8; and the bytes in the order of CLIP's
-/// vocabulary.
+/// The visible character for each byte, in UTF-8; and the bytes in the order of CLIP's vocabulary.
 struct ByteTable {
   std::array<std::string, 256> text;
   std::vector<int> order;
@@ -72,7 +71,7 @@ class ClipTokenizer : public Tokenizer {
     ids_.emplace(token, static_cast<std::int32_t>(ids_.size()));
   }
 
-  /// The pattern of CLIP: contractions, runs of letters, single digits, runs of anything else.
+  /// CLIP's pattern: contractions, runs of letters, single digits, runs of anything else.
   static std::vector<std::string> Words(std::string_view raw) {
     const std::u32string text = Lower(Nfc(FromUtf8(raw)));
     const auto is_rest = [](char32_t c) {
@@ -87,7 +86,7 @@ class ClipTokenizer : public Tokenizer {
       if (end == i)
         while (end < text.size() && is_rest(text[end])) ++end;
       if (end == i) {
-        ++i;  // a blank
+        ++i;  // skips a space
         continue;
       }
       words.push_back(ToUtf8(std::u32string_view(text).substr(i, end - i)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Our network (networks/): colour, depth and height above the foot in; goal centres, boxes, masks,
-// stairs and dense features out. It runs once a frame, whoever of its four parts asks first. A
-// second network, where the card has one, draws the mask in each box that it is asked for.
+// stairs and dense features out. It runs once a frame, at the first call to any of its four parts.
+// An optional second network of the card draws the mask in each requested box.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using perception::PixelBox;
 
 enum Output { kHeat, kBox, kMask, kStairs, kDense };
 
-/// The same for the same frame.
+/// Equal for equal frames.
 XXH128_hash_t HashOf(const Observation& obs) {
   const Eigen::Matrix4d pose = obs.T_world_camera.matrix();
   const CameraIntrinsics& K = obs.camera;
@@ -153,7 +153,7 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     return ToFrameSize(plane, rows, cols, placement_, card_.input, width, height, box);
   }
 
-  /// What the second network says of `box`: the share of the object, by pixels of the frame within
+  /// Output of the second network for `box`: the share of the object, by pixels of the frame within
   /// the box.
   Result<Image<float>> Drawn(const PixelBox& box, int width, int height) {
     const Tensor& mask = outputs_[kMask];
@@ -186,7 +186,7 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
                        box);
   }
 
-  /// Cells whose heat is the greatest of the 3 x 3 around them, with their boxes [input px].
+  /// Cells with the greatest heat of the 3 x 3 around them, with their boxes [input px].
   std::vector<FoundBox> Peaks(int label) const {
     const Tensor &heat = outputs_[kHeat], &box = outputs_[kBox];
     const int rows = static_cast<int>(heat.shape[2]), cols = static_cast<int>(heat.shape[3]);
@@ -206,7 +206,7 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     return out;
   }
 
-  /// Of equal neighbours the first one is the peak.
+  /// Of equal neighbours the first is the peak.
   static bool IsPeak(const float* heat, int rows, int cols, int x, int y) {
     const int own = y * cols + x;
     for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, rows - 1); ++ny)
@@ -217,7 +217,7 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     return true;
   }
 
-  /// The class that the box was found for; of a box from elsewhere, the one that fills it most.
+  /// Class for which the box was found; for other boxes, the class that fills it most.
   int LabelIn(const PixelBox& box) const {
     for (const auto& [known, label] : found_)
       if (known.u0 == box.u0 && known.v0 == box.v0 && known.u1 == box.u1 && known.v1 == box.v1)
@@ -255,10 +255,10 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
   std::optional<Network> masks_;
   TextTable texts_;
   double camera_height_m_;
-  std::optional<XXH128_hash_t> seen_;  // of the frame that outputs_ are of
+  std::optional<XXH128_hash_t> seen_;  // frame of outputs_
   std::vector<Tensor> inputs_, outputs_;
   Placement placement_;
-  std::vector<Found> found_;  // boxes that were given for this frame
+  std::vector<Found> found_;  // boxes returned for this frame
 };
 
 }  // namespace

@@ -10,12 +10,12 @@
 namespace crossnav::inference {
 namespace {
 
-constexpr double kMiddle = 0.5;    // chosen: side of the part that the object surely covers
-constexpr double kGap = 0.06;      // chosen: of the depth, where one surface ends (0.12 m at 2 m)
+constexpr double kMiddle = 0.5;    // chosen: side of the part that the object certainly covers
+constexpr double kGap = 0.06;      // chosen: of the depth, gap between surfaces (0.12 m at 2 m)
 constexpr double kMinGap_m = 0.1;  // chosen: a voxel
 constexpr double kStep = 0.03;     // chosen: of the depth, between neighbours of one surface
-constexpr double kMinShare = 0.3;  // chosen: of the middle, that makes a cluster the object
-constexpr int kStride = 2;         // chosen: of the pixels that depths are collected from
+constexpr double kMinShare = 0.3;  // chosen: minimum share of the middle for the object's cluster
+constexpr int kStride = 2;         // chosen: sampling of depths
 constexpr std::array<std::pair<int, int>, 4> kNeighbours = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 bool IsMeasured(float d) {
@@ -27,7 +27,7 @@ struct Range {
   double share = 0;  // of the depths in the middle
 };
 
-/// The nearest cluster of the middle's depths that is large enough, or else the largest.
+/// The nearest cluster of the middle's depths that is large enough, or else the largest cluster.
 Range ClusterOf(std::vector<float> depths, std::size_t places) {
   std::sort(depths.begin(), depths.end());
   Range best;
@@ -48,7 +48,7 @@ Range ClusterOf(std::vector<float> depths, std::size_t places) {
 
 namespace {
 
-/// Calls visit(u, v) for every `stride`th pixel of the middle of the box, each way.
+/// Calls visit(u, v) for every `stride`th pixel of the middle of the box, in rows and columns.
 template <class F>
 void ForEachInMiddle(const perception::PixelBox& box, int stride, F&& visit) {
   const int inset_u = static_cast<int>((box.u1 - box.u0) * (1 - kMiddle) / 2);
@@ -75,7 +75,7 @@ perception::Detection DepthMask(const DepthImage& depth_m, perception::Detection
   if (depths.empty()) return detection;
   const Range range = ClusterOf(std::move(depths), places);
 
-  // From the middle's pixels of the cluster outwards, over steps in depth that a surface can have.
+  // Grows from the cluster's pixels in the middle outwards, over depth steps within a surface.
   std::vector<std::pair<int, int>> open;
   const auto add = [&](int u, int v) {
     detection.mask.At(u, v) = 1;

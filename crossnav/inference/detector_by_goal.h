@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Several detectors as one: the first that has a label for the goal answers. The paper's: YOLOv7
-// for the classes of COCO, YOLO-World for every other goal.
+// Several detectors as one: the first detector with a label for the goal answers. The paper's:
+// YOLOv7 for the classes of COCO, YOLO-World for every other goal.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace crossnav::inference {
 
-/// A detector has no label for a goal where it answers kUnsupported; any other error ends the
-/// search. The error of the last detector stands where none has. One detector stays itself, none is
-/// nullptr.
+/// kUnsupported from a detector passes the goal to the next; any other error ends the search. If no
+/// detector has a label, the last error is returned. A single detector is returned itself; none
+/// gives nullptr.
 std::unique_ptr<perception::Detector> MakeDetectorByGoal(
     std::vector<std::unique_ptr<perception::Detector>> detectors);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Detectors that end in labels, boxes and scores in the frame's own pixels: DEIM, D-FINE, RT-DETR
-// as their public exporters write them. Inputs `images` and `orig_target_sizes` (width, height).
+// Detectors with labels, boxes and scores in the frame's own pixels as output: DEIM, D-FINE,
+// RT-DETR from their public exporters. Inputs `images` and `orig_target_sizes` (width, height).
 #include <algorithm>
 #include <cmath>
 

@@ -12,7 +12,7 @@ constexpr std::array kFamilies = {
     Family{"detr", "DEIM, D-FINE or RT-DETR with labels, boxes and scores", "detector",
            &OpenDetrDetector},
     Family{"yolov8", "YOLOv8, YOLOv11 or YOLO-World with baked words", "detector", &OpenYolo8},
-    Family{"yolov8-seg", "the same with masks", "detector segmenter", &OpenYolo8Segment},
+    Family{"yolov8-seg", "YOLOv8 with masks", "detector segmenter", &OpenYolo8Segment},
     Family{"yolo-world", "YOLO-World that is given its words", "detector", &OpenYoloWorld},
     Family{"yolov7", "YOLOv7 with its grid", "detector", &OpenYolo7},
     Family{"yolov7-end2end", "YOLOv7 that suppresses doubles itself", "detector",

@@ -7,7 +7,7 @@
 namespace crossnav::inference {
 namespace {
 
-constexpr float kLetterboxGrey = 114;  // of 255, what the YOLO family pads with
+constexpr float kLetterboxGrey = 114;  // of 255, the padding of the YOLO family
 
 /// The source pixels of one target pixel, with weights that sum to 1.
 struct Taps {
@@ -32,7 +32,7 @@ std::vector<Taps> TapsOf(int from, int to, bool antialias) {
     for (int k = first; k <= last; ++k) {
       const double weight = std::max(0.0, 1 - std::abs(k + 0.5 - centre) / reach);
       const bool is_inside = k >= 0 && k < from;
-      if (antialias && !is_inside) continue;  // what is outside does not count, as in Pillow
+      if (antialias && !is_inside) continue;  // pixels outside do not count, as in Pillow
       const int clamped = std::clamp(k, 0, from - 1);
       weights[static_cast<std::size_t>(clamped - out.first)] += weight;
       total += weight;
@@ -165,7 +165,7 @@ Tensor HeightTensor(const Observation& obs, double camera_height_m, const ModelC
                     const char* name) {
   Tensor out = OnePlane(input, name);
   const CameraIntrinsics& K = obs.camera;
-  // World z of a point less that of the foot, which is the camera's height below the camera.
+  // World z of a point minus z of the foot, which is the camera's height below the camera.
   const Eigen::RowVector3d up = obs.T_world_camera.linear().row(2);
   const double height_m = CameraHeightOf(obs, camera_height_m);
   ForNearest(obs.depth_m.width, obs.depth_m.height, input, [&](std::size_t index, int u, int v) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From an observation to what a network takes, and from its maps back to the frame's pixels. The
-// one place where sizes change. Pixel centres are at half positions in both, edges are clamped.
+// Conversion of an observation to a network's input, and of its maps back to the frame's pixels.
+// All resizing is here. Pixel centres are at half positions in both, edges are clamped.
 #pragma once
 
 #include <vector>
@@ -13,36 +13,36 @@
 
 namespace crossnav::inference {
 
-/// Where the frame lies in the network's input: input px = frame px * scale + offset.
+/// Place of the frame in the network's input: input px = frame px * scale + offset.
 struct Placement {
   double scale_x = 1, scale_y = 1;
   double offset_x = 0, offset_y = 0;
 
-  /// A box in input pixels, as a box in the frame, clipped to it; empty where nothing remains.
+  /// A box in input pixels as a box in the frame, clipped to it; may be empty.
   perception::PixelBox ToFrame(double left, double top, double right, double bottom, int width,
                                int height) const;
 };
 
 Placement PlacementOf(const ModelCard::Input& input, int width, int height);
 
-/// The picture as the card wants it: 1 x 3 x height x width, or 1 x height x width x 3. What the
-/// picture does not cover of a letterbox is filled with 114 of 255.
+/// The picture in the card's layout: 1 x 3 x height x width, or 1 x height x width x 3. The
+/// uncovered part of a letterbox is filled with 114 of 255.
 Tensor ColourTensor(const RgbImage& rgb, const ModelCard::Input& input, const char* name);
 
-/// 1 x 1 x height x width [m], the nearest pixel; 0 where nothing was measured.
+/// 1 x 1 x height x width [m], the nearest pixel; 0 without a measurement.
 Tensor DepthTensor(const DepthImage& depth_m, const ModelCard::Input& input, const char* name);
 
 /// 1 x 1 x height x width: height of the seen point above the robot's foot [m], of the same pixels;
-/// 0 where nothing was measured.
+/// 0 without a measurement.
 Tensor HeightTensor(const Observation& obs, double camera_height_m, const ModelCard::Input& input,
                     const char* name);
 
-/// A map of `rows` x `cols` numbers as an image of the frame's size, bilinear, where the map covers
-/// the input that `placement` describes.
+/// A map of `rows` x `cols` numbers, which covers the input described by `placement`, as an image
+/// of the frame's size, bilinear.
 Image<float> ToFrameSize(const float* map, int rows, int cols, const Placement& placement,
                          const ModelCard::Input& input, int width, int height);
 
-/// The same within a box alone; 0 outside it.
+/// Likewise within a box only; 0 outside it.
 Image<float> ToFrameSize(const float* map, int rows, int cols, const Placement& placement,
                          const ModelCard::Input& input, int width, int height,
                          const perception::PixelBox& box);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Networks that answer by grid: SegFormer and its like (`pixel_values` -> `logits`), of which the
-// sum of some classes is stairs; and dense image features (`image` -> `features`) in either layout.
+// Networks with grids as output: SegFormer and similar (`pixel_values` -> `logits`), with stairs as
+// the sum of some classes; and dense image features (`image` -> `features`) in either layout.
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// MobileSAM and its like as networks/paper/export.py writes it, in two files: an encoder of the
-// picture (`image` -> `embeddings`), run once a frame, and a decoder of one box (`embeddings`,
-// `box` in input pixels -> `mask` logits on a grid over the input, `quality`).
+// MobileSAM and similar networks in two files, as exported by networks/paper/export.py: an encoder
+// of the picture (`image` -> `embeddings`), run once a frame, and a decoder of one box
+// (`embeddings`, `box` in input pixels -> `mask` logits on a grid over the input, `quality`).
 #include <algorithm>
 #include <cmath>
 
@@ -57,7 +57,7 @@ class BoxMaskModel : public Model, public std::enable_shared_from_this<BoxMaskMo
     return {};
   }
 
-  /// SAM fills what the picture does not cover with the mean colour, 0 after normalisation.
+  /// SAM fills the area outside the picture with the mean colour, 0 after normalisation.
   void ClearOutside(const RgbImage& rgb, Tensor& image) const {
     const int width = card_.input.width, height = card_.input.height;
     const int right = static_cast<int>(std::lround(rgb.width * placement_.scale_x));
@@ -84,7 +84,7 @@ class BoxMaskModel : public Model, public std::enable_shared_from_this<BoxMaskMo
 
   ModelCard card_;
   Network encoder_, decoder_;
-  RgbImage seen_;  // that embeddings_ are of
+  RgbImage seen_;  // picture of embeddings_
   Tensor embeddings_;
   Placement placement_;
 };

@@ -21,7 +21,7 @@ constexpr int kMostSide = 4096;                                 // chosen: of an
 constexpr int kMostClasses = 100000;                            // chosen: LVIS has 1203
 constexpr int kStride = 4;  // of the maps of the family `crossnav`
 
-/// One table of the card: typed access that remembers the first problem and the keys it knows.
+/// A table of the card: typed access that keeps the first problem and the known keys.
 class Section {
  public:
   Section(const toml::table* table, std::string name, std::string where)
@@ -50,6 +50,12 @@ class Section {
   void Number(const char* key, double& target, double lo, double hi) {
     const toml::node* node = Find(key);
     if (node != nullptr) Take(*node, key, target, lo, hi);
+  }
+  void Number(const char* key, std::optional<double>& target, double lo, double hi) {
+    if (double value = 0; Find(key) != nullptr) {
+      Number(key, value, lo, hi);
+      target = value;
+    }
   }
   /// A number for each of `count`, or one for all of them.
   void Numbers(const char* key, std::vector<double>& target, double lo, double hi,
@@ -126,7 +132,7 @@ class Section {
       target.push_back(*value);
     }
   }
-  /// The table of this name; an empty one where there is none.
+  /// The table of this name; empty if absent.
   Section Inner(const char* key) {
     const toml::node* node = Find(key);
     if (node != nullptr && !node->is_table()) Complain(key, "must be a table");
@@ -199,12 +205,12 @@ Result<void> ReadOutput(Section section, ModelCard::Output& output, Ports& ports
   return section.Finish();
 }
 
-// chosen: of a chosen score, what counts as weak, and what is told at all.
+// chosen: weak and minimum scores, as shares of a chosen score.
 constexpr double kWeakShare = 0.75, kScoreShare = 0.5;
 
 Result<void> ReadThresholds(Section section, std::size_t labels, ModelCard::Thresholds& t) {
   section.Numbers("heat", t.accept, 0, 1, labels);
-  if (!t.accept.empty()) {  // of our networks: the scores that were chosen, and what follows
+  if (!t.accept.empty()) {  // of our networks: the chosen scores, and thresholds derived from them
     for (const double score : t.accept) t.weak.push_back(kWeakShare * score);
     t.score = kScoreShare * *std::min_element(t.accept.begin(), t.accept.end());
   }
@@ -248,6 +254,14 @@ Result<void> ReadText(Section section, const std::filesystem::path& folder, Mode
   return section.Finish();
 }
 
+Result<void> ReadRetrieval(Section section, ModelCard::Retrieval& retrieval) {
+  section.Number("min_similarity", retrieval.min_similarity, -1, 1);
+  section.Number("min_z_score", retrieval.min_z_score, 0, 100);
+  section.Number("min_peak_share", retrieval.min_peak_share, 0, 1);
+  section.Number("present_from", retrieval.present_from, 0, 1);
+  return section.Finish();
+}
+
 Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path& path) {
   ModelCard card;
   card.path = path;
@@ -259,7 +273,7 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
   top.Text("licence", card.licence);
   top.Text("source", card.source);
   top.Texts("labels", card.labels);
-  top.Texts("goals", card.labels);  // the same, in cards of our networks
+  top.Texts("goals", card.labels);  // as labels, in cards of our networks
   for (const char* for_people : {"name", "limits", "data", "figures"}) top.Skip(for_people);
   std::string decoder;
   top.Text("decoder", decoder);
@@ -276,7 +290,8 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
       ReadInput(top.Inner("input"), card.input, card.ports),
       ReadOutput(top.Inner("output"), card.output, card.ports),
       ReadThresholds(top.Inner("thresholds"), card.labels.size(), card.thresholds),
-      ReadText(top.Inner("text"), folder, card.text)};
+      ReadText(top.Inner("text"), folder, card.text),
+      ReadRetrieval(top.Inner("retrieval"), card.retrieval)};
   if (auto ok = top.Finish(); !ok) return tl::unexpected(ok.error());
   for (const auto& part : parts)
     if (!part) return tl::unexpected(part.error());
@@ -301,6 +316,25 @@ Result<ModelCard> ReadModelCard(const std::filesystem::path& path) {
   }
 }
 
+std::string WithRetrieval(std::string_view card, std::string_view section) {
+  constexpr std::string_view kHead = "[retrieval]";
+  std::string before, after;
+  bool is_own = false, is_behind = false;
+  for (std::size_t at = 0; at < card.size();) {
+    const std::size_t end = std::min(card.find('\n', at), card.size() - 1) + 1;
+    const std::string_view line = card.substr(at, end - at);
+    if (line.starts_with('[')) {
+      is_behind = is_behind || is_own;
+      is_own = line.starts_with(kHead);
+    }
+    if (!is_own) (is_behind ? after : before) += line;
+    at = end;
+  }
+  while (before.ends_with("\n\n")) before.pop_back();
+  if (!before.empty() && !before.ends_with('\n')) before += '\n';
+  return before + "\n" + std::string(section) + (after.empty() ? "" : "\n") + after;
+}
+
 Result<std::string> ReadNetworkFile(const ModelCard& card) {
   auto bytes = ReadFile(card.file, kMostBytes);
   if (!bytes) {
@@ -317,7 +351,7 @@ Result<std::string> ReadNetworkFile(const ModelCard& card) {
 }
 
 double ConfidenceOf(const ModelCard::Thresholds& t, int label, double score) {
-  constexpr double kWeak = 0.60, kAccept = 0.70;  // the policy's, secondary and first
+  constexpr double kWeak = 0.60, kAccept = 0.70;  // the policy's secondary and first confidence
   const auto i = static_cast<std::size_t>(label);
   if (i >= t.accept.size()) return score;
   const double weak = t.weak[i], accept = t.accept[i];

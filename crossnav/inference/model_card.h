@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What has to be known of a network file to use it, in a TOML file beside it (docs/networks.md):
-// which adapter, what goes in, what the numbers that come out mean, and which bytes exactly.
+// Description of a network file, in a TOML file beside it (docs/networks.md): the adapter, the
+// inputs, the meaning of the outputs, and the hash of the bytes.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crossnav/core/result.h"
@@ -23,7 +25,7 @@ struct ModelCard {
   struct Input {
     int width = 0, height = 0;                 ///< [px]
     std::string resize = "plain";              ///< plain | letterbox | corner
-    bool antialias = true;                     ///< average over the pixels that become one
+    bool antialias = true;                     ///< average over the pixels that merge
     std::string colour = "rgb";                ///< rgb | bgr
     double scale = 1.0 / 255;                  ///< of a byte, before mean and deviation
     std::array<double, 3> mean{0, 0, 0};       ///< subtracted, by channel of `colour`
@@ -32,16 +34,16 @@ struct ModelCard {
   } input;
 
   struct Output {
-    int classes = 0;                 ///< that the network knows; 0 = as many as labels
+    int classes = 0;                 ///< known to the network; 0 = as many as labels
     int rows = 0, cols = 0;          ///< of dense features
     int dim = 0;                     ///< of dense features, or number of mask prototypes
     std::string layout = "hwc";      ///< of dense features: hwc | chw
-    int top = 0;                     ///< boxes that a detector gives; 0 = any number
+    int top = 0;                     ///< number of boxes of a detector; 0 = any
     std::vector<int> stair_classes;  ///< from 0
   } output;
 
   std::vector<std::string> labels;  ///< of the classes, in order
-  /// What the file calls an input or output of the family `crossnav`, where not as the family does.
+  /// Names of the file's inputs and outputs that differ from those of the family `crossnav`.
   std::map<std::string, std::string> ports;
 
   std::string PortName(const std::string& port) const {
@@ -50,27 +52,33 @@ struct ModelCard {
   }
 
   struct Thresholds {
-    double score = 0.3;  ///< below it nothing is a detection
-    /// Score of each label that counts as the policy's confidence 0.60, and as its 0.70; empty =
-    /// the score counts as it is.
+    double score = 0.3;  ///< minimum score of a detection
+    /// Score of each label that maps to the policy's confidence 0.60, and to 0.70; empty = the
+    /// score is used unchanged.
     std::vector<double> weak, accept;
-    double nms_iou = 0.6;  ///< overlap from which two boxes of a class are one object
-    double mask = 0.5;     ///< probability from which a pixel belongs to a mask
-    double stairs = 0.25;  ///< probability that counts as the policy's 0.25
+    double nms_iou = 0.6;  ///< overlap above which two boxes of a class are one object
+    double mask = 0.5;     ///< minimum probability of a mask's pixel
+    double stairs = 0.25;  ///< probability that maps to the policy's 0.25
   } thresholds;
 
   struct Text {
     std::filesystem::path table;               ///< .npy, a row for each name; empty = none
-    std::vector<std::string> names;            ///< or
-    std::filesystem::path names_file;          ///< the same in a file, one a line
-    std::filesystem::path encoder;             ///< ONNX file for texts that the table does not have
+    std::vector<std::string> names;            ///< names, or
+    std::filesystem::path names_file;          ///< a file of names, one a line
+    std::filesystem::path encoder;             ///< ONNX file for texts that the table lacks
     std::string sha256;                        ///< of that file
     std::string tokenizer;                     ///< clip | wordpiece
     std::filesystem::path vocabulary;          ///< of the tokenizer
-    int length = 77;                           ///< numbers that the encoder takes
+    int length = 77;                           ///< length of the encoder's input
     std::string padding = "end";               ///< end (the tokenizer's own) | zero
     std::vector<std::string> templates{"{}"};  ///< "{}" stands for the text
   } text;
+
+  /// Of an encoder, as `crossnav networks calibrate` measured it; nullopt = never measured.
+  struct Retrieval {
+    std::optional<double> min_similarity, min_z_score, min_peak_share;  ///< as in QueryConfig
+    std::optional<double> present_from;  ///< match from which a text is present
+  } retrieval;
 
   /// The second file of a network that has two.
   struct Second {
@@ -84,14 +92,19 @@ struct ModelCard {
 /// Errors name the card and the key: unknown, missing, of the wrong type or out of range.
 Result<ModelCard> ReadModelCard(const std::filesystem::path& path);
 
+/// The text of a card with `section`, lines of TOML that begin with "[retrieval]", in place of its
+/// own section of that name, or behind everything else. All other bytes stay.
+std::string WithRetrieval(std::string_view card, std::string_view section);
+
 /// The content of the card's file; an error where it is not the one that the card was written for.
 Result<std::string> ReadNetworkFile(const ModelCard& card);
 
-/// What a detector's score for a label is worth on the policy's scale: straight lines through
-/// (0, 0), (weak, 0.60), (accept, 0.70) and (1, 1), or the score itself.
+/// Policy confidence of a detector's score for a label: piecewise linear through (0, 0), (weak,
+/// 0.60), (accept, 0.70) and (1, 1), or the score itself.
 double ConfidenceOf(const ModelCard::Thresholds& thresholds, int label, double score);
 
-/// What a probability of stairs is worth: lines through (0, 0), (thresholds.stairs, 0.25), (1, 1).
+/// Maps probabilities of stairs: piecewise linear through (0, 0), (thresholds.stairs, 0.25), (1,
+/// 1).
 void ScaleStairs(const ModelCard::Thresholds& thresholds, std::vector<float>& probability);
 
 }  // namespace crossnav::inference

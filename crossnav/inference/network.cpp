@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;  // protobuf's own limit
 
-/// Whether a tensor of `is` can be one of `wanted`; a rank that is not known (no sides) can.
+/// Whether a tensor of shape `is` can match `wanted`; an unknown rank (no sides) can.
 bool Fits(const Shape& is, const Shape& wanted) {
   if (is.empty()) return true;
   if (is.size() != wanted.size()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A network from a file: opened only if it has the inputs and outputs that its adapter asks for,
+// A network from a file: opened only if it has the inputs and outputs that its adapter requires,
 // then run with named tensors. Same inputs, same bits. Not thread-safe.
 #pragma once
 
@@ -14,24 +14,23 @@
 
 namespace crossnav::inference {
 
-/// What an adapter asks of a file: ports by name, with -1 for a side that may be anything.
+/// Requirements of an adapter: ports by name, with -1 for any size of a side.
 struct Signature {
   std::vector<Port> inputs;   ///< all of them; their shapes must be fixed
-  std::vector<Port> outputs;  ///< those that are used
+  std::vector<Port> outputs;  ///< outputs in use
 };
 
 class Network {
  public:
-  /// Errors name the file: not there, too large (over 2 GiB), no ONNX, other ports than
-  /// `signature`.
+  /// Errors name the file: missing, too large (over 2 GiB), no ONNX, other ports than `signature`.
   static Result<Network> Open(const std::filesystem::path& path, const Signature& signature,
                               SessionOptions options = {});
-  /// The same from the content of a file; `where` is its name in errors.
+  /// Opens the content of a file; `where` is its name in errors.
   static Result<Network> FromBytes(const std::string& onnx, const Signature& signature,
                                    SessionOptions options, std::string where);
 
   /// `inputs` and result in the order of the signature. Errors name the file: an output of another
-  /// shape than promised, or with a number that is not finite.
+  /// shape than declared, or with a number that is not finite.
   Result<std::vector<Tensor>> Run(std::span<const Tensor> inputs);
 
   const std::string& where() const { return where_; }

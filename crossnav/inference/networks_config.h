@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which networks answer for perception from pixels: the names of their cards (docs/networks.md).
+// Networks of perception from pixels: the names of their cards (docs/networks.md).
 #pragma once
 
 #include <string>
@@ -7,10 +7,12 @@
 namespace crossnav::inference {
 
 struct NetworksConfig {
-  std::string dir;  ///< folder of cards and files; empty = the one that comes with crossnav
-  // One network of our own answers all; chosen: it is in the repository.
-  std::string detector = "crossnav_small";   ///< or several: the first that has the goal
-  std::string segmenter = "crossnav_small";  ///< or depth: the depth cluster in the box, no file
+  std::string dir;  ///< folder of cards and files; empty = the folder shipped with crossnav
+  // Our own network in all roles; chosen: it is in the repository.
+  /// or several: the first with a label for the goal answers
+  std::string detector = "crossnav_small";
+  /// or depth: the depth cluster in the box, without a file
+  std::string segmenter = "crossnav_small";
   std::string stairs = "crossnav_small";
   std::string encoder = "crossnav_small";
   std::string backend = "auto";  ///< auto | openvino | onnxruntime

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/inference/onnxruntime_backend.h"
 
-#define ORT_API_MANUAL_INIT  // a library older than its header is an error here, not a crash
+#define ORT_API_MANUAL_INIT  // a library older than its header gives an error instead of a crash
 #include <onnxruntime_cxx_api.h>
 
 #include <algorithm>
@@ -12,21 +12,21 @@
 namespace crossnav::inference {
 namespace {
 
-/// Names in settings, and the library's.
+/// Names in settings, and in the library.
 constexpr std::array<std::pair<const char*, const char*>, 3> kProviders = {
     {{"cpu", "CPUExecutionProvider"},
      {"cuda", "CUDAExecutionProvider"},
      {"tensorrt", "TensorrtExecutionProvider"}}};
 
-/// Whether the library is as new as the header that this was compiled with.
+/// Whether the library is at least as new as the header at compile time.
 bool HasApi() {
   static const OrtApi* api = OrtGetApiBase()->GetApi(ORT_API_VERSION);
   if (api != nullptr) Ort::InitApi(api);
   return api != nullptr;
 }
 
-/// Messages can begin with places in the library's source, which "[ONNXRuntimeError] : 1 : FAIL : "
-/// ends, and go on with a page of addresses: the rest of their first line.
+/// Messages can begin with source locations, which "[ONNXRuntimeError] : 1 : FAIL : " ends, and
+/// continue with a page of addresses: keeps the rest of the first line.
 std::string Reason(const std::exception& error) {
   constexpr std::size_t kMost = 300;
   const std::string text = error.what();
@@ -39,12 +39,13 @@ std::string Reason(const std::exception& error) {
 }
 
 Ort::Env& TheEnv() {
-  static Ort::Env env(ORT_LOGGING_LEVEL_FATAL, "crossnav");  // errors are ours to say
+  static Ort::Env env(ORT_LOGGING_LEVEL_FATAL, "crossnav");  // errors are returned, not printed
   return env;
 }
 
 /// Debian 13's library writes hundreds of lines ("Schema error: ...") to std::cerr at the first
-/// network, as its ONNX has the operators already. They mean nothing; what is wrong is thrown.
+/// network, because its ONNX has the operators already. They are meaningless; real errors are
+/// thrown.
 class Silence {
  public:
   Silence() : before_(std::cerr.rdbuf(nullptr)) {}
@@ -56,7 +57,7 @@ class Silence {
   std::streambuf* before_;
 };
 
-/// Options of a provider, made and freed by the library.
+/// Options of a provider, allocated and freed by the library.
 template <class T>
 using Owned = std::unique_ptr<T, void (*)(T*)>;
 
@@ -65,7 +66,7 @@ void AppendCuda(Ort::SessionOptions& options) {
   Ort::ThrowOnError(Ort::GetApi().CreateCUDAProviderOptions(&made));
   const Owned<OrtCUDAProviderOptionsV2> cuda(
       made, [](auto* p) { Ort::GetApi().ReleaseCUDAProviderOptions(p); });
-  // No choice of kernels by the clock, and no rounding of inputs to 10 bits.
+  // Neither timing-dependent choice of kernels nor rounding of inputs to 10 bits.
   const std::array keys = {"cudnn_conv_algo_search", "use_tf32"};
   const std::array values = {"DEFAULT", "0"};
   Ort::ThrowOnError(
@@ -81,7 +82,7 @@ void AppendTensorRt(Ort::SessionOptions& options) {
   options.AppendExecutionProvider_TensorRT_V2(*tensorrt);
 }
 
-/// May fail where the library was made with a provider whose own libraries are not here.
+/// May fail if the library was built with a provider whose own libraries are missing.
 Result<void> AppendProvider(const std::string& provider, Ort::SessionOptions& options) {
   try {
     if (provider == "tensorrt") AppendTensorRt(options);
@@ -90,7 +91,7 @@ Result<void> AppendProvider(const std::string& provider, Ort::SessionOptions& op
   } catch (const std::exception& error) {
     return Fail(ErrorCode::kUnsupported,
                 "\"" + provider + "\" cannot be loaded (" + Reason(error) +
-                    "); install what it needs, or set networks.provider = cpu",
+                    "); install its requirements, or set networks.provider = cpu",
                 "networks.provider");
   }
 }
@@ -235,10 +236,10 @@ Result<std::unique_ptr<Session>> OpenWithOnnxRuntime(const std::string& onnx,
                                                      const SessionOptions& options,
                                                      const std::string& where) {
   if (!HasApi())
-    return Fail(
-        ErrorCode::kUnsupported,
-        "ONNX Runtime " + OnnxRuntimeVersion() + " is older than what crossnav was built with",
-        where);
+    return Fail(ErrorCode::kUnsupported,
+                "ONNX Runtime " + OnnxRuntimeVersion() +
+                    " is older than the version that crossnav was built with",
+                where);
   try {
     auto own = OptionsOf(options);
     if (auto ok = AppendProvider(options.provider, own); !ok) return tl::unexpected(ok.error());

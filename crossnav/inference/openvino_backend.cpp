@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plugin libcrossnav_openvino.so, the only code that is linked to OpenVINO.
+// The plugin libcrossnav_openvino.so, the only code linked to OpenVINO.
 #include "crossnav/inference/openvino_plugin.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace crossnav::inference {
 namespace {
 
-/// The library's messages are a page long and begin with places in its own source: the last line
-/// that says anything.
+/// OpenVINO's messages are a page long and begin with source locations: keeps the last informative
+/// line.
 std::string Reason(const std::exception& error) {
   std::string text = error.what(), last;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -77,7 +77,7 @@ std::vector<float> FromOpenVino(const ov::Tensor& from) {
   throw std::runtime_error("an output is of type " + type.get_type_name());
 }
 
-/// Gives inputs that leave sides open the wanted shape, where that fits.
+/// Gives inputs with open sides the wanted shape, if it fits.
 void FixShapes(ov::Model& model, const std::map<std::string, Shape>& wanted) {
   std::map<std::string, ov::PartialShape> shapes;
   for (const auto& input : model.inputs()) {
@@ -96,7 +96,7 @@ class OpenVinoSession : public Session {
       : where_(std::move(where)) {
     auto model = TheCore().read_model(onnx, ov::Tensor());
     FixShapes(*model, options.shapes);
-    // Pinned, every process's first stream is on the same core, and the caller with it.
+    // Without pinning: pinned, every process's first stream and its caller would share one core.
     compiled_ = TheCore().compile_model(model, "CPU", ov::inference_num_threads(options.threads),
                                         ov::num_streams(1), ov::hint::enable_cpu_pinning(false),
                                         ov::hint::inference_precision(ov::element::f32));

@@ -57,7 +57,7 @@ std::string LastLoadError() {
 }
 
 /// OpenVINO's libraries stay loaded to the end of the process. Its TBB is loaded first: a library
-/// that was loaded under the same name already serves both.
+/// already loaded under the same name serves both.
 bool LoadOpenVino(const fs::path& folder) {
   const auto load = [&](const char* name) {
     const fs::path file = folder.empty() ? fs::path(name) : folder / name;

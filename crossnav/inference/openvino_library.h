@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenVINO as found at run time: in CROSSNAV_OPENVINO, beside an installed Python package, in a
-// Python environment, where scripts/setup.sh puts it, or on the system's own library path.
+// Locates OpenVINO at run time: in CROSSNAV_OPENVINO, beside an installed Python package, in a
+// Python environment, in the folder of scripts/setup.sh, or on the system's library path.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@
 namespace crossnav::inference {
 
 struct OpenVinoLibrary {
-  const OpenVinoPlugin* plugin = nullptr;  ///< null where there is none
-  std::string missing;                     ///< what to do then, for messages
+  const OpenVinoPlugin* plugin = nullptr;  ///< null if missing
+  std::string missing;                     ///< remedy, for messages
 };
 
-/// Found at the first call, once a process.
+/// Located at the first call, once a process.
 const OpenVinoLibrary& TheOpenVino();
 
-/// Folders that may hold OpenVINO's libraries, in the order in which they are tried. `program_dir`
-/// is the folder of the running program.
+/// Folders that may hold OpenVINO's libraries, in search order. `program_dir` is the folder of the
+/// running program.
 std::vector<std::filesystem::path> OpenVinoFolders(const std::filesystem::path& program_dir);
 
 }  // namespace crossnav::inference

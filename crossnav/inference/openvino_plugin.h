@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The only link between crossnav and libcrossnav_openvino.so, which is loaded when a network is
-// first asked for. Both are of one build: the version is compared before anything else is called.
+// The only link between crossnav and libcrossnav_openvino.so, which is loaded when the first
+// network is opened. Both are of one build: the version is compared before any other call.
 #pragma once
 
 #include "crossnav/inference/backend.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an opened network can do for perception. Each adapter (one file each, listed in
-// families.cpp) makes the parts that its kind of network has; the others stay empty.
+// Parts of perception that an opened network provides. Each adapter (one file each, listed in
+// families.cpp) makes the parts of its kind of network; the others stay empty.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace crossnav::inference {
 
-/// An opened network, shared by all that is made from it. Not thread-safe.
+/// An opened network, shared by all its parts. Not thread-safe.
 class Model {
  public:
   virtual ~Model() = default;
@@ -24,7 +24,7 @@ class Model {
   virtual std::unique_ptr<perception::DenseEncoder> MakeEncoder() { return nullptr; }
 };
 
-/// What a dense encoder is called in saved memories: the network's name and the begin of its hash.
+/// Name of a dense encoder in saved memories: the network's name and the beginning of its hash.
 std::string EncoderNameOf(const ModelCard& card);
 
 /// The parts of a model `M` that has the method of the same name, and shares it.
@@ -92,25 +92,25 @@ using OpenModel = Result<std::shared_ptr<Model>> (*)(const ModelCard& card,
 
 struct Family {
   const char* name;   ///< as in cards
-  const char* what;   ///< it is, for people
-  const char* parts;  ///< it has: some of "detector segmenter stairs encoder"
+  const char* what;   ///< description for users
+  const char* parts;  ///< provided parts: some of "detector segmenter stairs encoder"
   OpenModel open;
 };
 
 /// All adapters.
 std::span<const Family> Families();
 
-/// The adapter of a card; an error that lists them where there is none.
+/// The adapter of a card; else an error that lists all adapters.
 Result<const Family*> FamilyOf(const ModelCard& card);
 
 /// Opens the card's file with its adapter.
 Result<std::shared_ptr<Model>> Open(const ModelCard& card, const ModelOptions& options);
 
-/// Reads and checks the card's file and opens it with `signature`: what every adapter begins with.
+/// Reads and checks the card's file and opens it with `signature`: common start of all adapters.
 Result<Network> OpenNetwork(const ModelCard& card, const Signature& signature,
                             const ModelOptions& options);
 
-/// The same for the card's second file.
+/// Likewise for the card's second file.
 Result<Network> OpenDecoder(ModelCard card, const Signature& signature,
                             const ModelOptions& options);
 

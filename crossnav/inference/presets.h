@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Networks that are chosen together by one name (docs/networks.md, "Presets").
+// Sets of networks under one name (docs/networks.md, "Presets").
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace crossnav::inference {
 
 struct Preset {
   const char* name;
-  const char* what;  ///< it is for
+  const char* what;  ///< purpose, for users
   const char* detector;
   const char* segmenter;
   const char* stairs;
@@ -22,14 +22,14 @@ struct Preset {
 };
 
 std::span<const Preset> Presets();
-/// nullptr where there is none of this name.
+/// nullptr for an unknown name.
 const Preset* FindPreset(std::string_view name);
 
 void Apply(const Preset& preset, NetworksConfig& config);
 bool IsSame(const Preset& preset, const NetworksConfig& config);
 
-/// The first file that a network of `preset` lacks; nullopt where all are there. `dir` and
-/// `file_dirs` as in NetworkSet::Read.
+/// The first missing file of `preset`; nullopt if none is missing. `dir` and `file_dirs` as in
+/// NetworkSet::Read.
 std::optional<std::filesystem::path> MissingFile(
     const Preset& preset, const std::filesystem::path& dir,
     const std::vector<std::filesystem::path>& file_dirs = {});

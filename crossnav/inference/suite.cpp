@@ -48,8 +48,8 @@ bool HasPart(const Family& family, std::string_view part) {
   return parts.find(" " + std::string(part) + " ") != std::string::npos;
 }
 
-/// Inference libraries crash on some damaged files that still parse, so what runs is a file that
-/// somebody vouched for.
+/// Inference libraries crash on some damaged files that still parse; therefore only files with the
+/// hash of their card run.
 Result<void> HasHash(const ModelCard& card, const char* key, const std::string& hash,
                      const std::string& bytes) {
   if (!hash.empty()) return {};

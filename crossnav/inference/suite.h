@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The networks that a configuration names, as a perception suite. Cards are read first, so that
-// what is wrong is said before anything runs; files are opened when a suite is made, once a
-// process.
+// The configured networks as a perception suite. Cards are read first, so that errors appear before
+// anything runs; files are opened when a suite is made, once a process.
 #pragma once
 
 #include <filesystem>
@@ -19,14 +18,14 @@ namespace crossnav::inference {
 
 inline constexpr std::string_view kDepthSegmenter = "depth";  ///< the segmenter without a file
 
-/// "crossnav_small" -> dir/crossnav_small.toml; a path of a card stays as it is.
+/// "crossnav_small" -> dir/crossnav_small.toml; a path of a card stays unchanged.
 std::filesystem::path CardPath(const std::filesystem::path& dir, const std::string& name);
 
-/// Folders of network files that are not beside their cards: the one that CROSSNAV_NETWORKS names,
-/// then crossnav/networks in $XDG_DATA_HOME (~/.local/share).
+/// Folders of network files that are not beside their cards: the folder in CROSSNAV_NETWORKS, then
+/// crossnav/networks in $XDG_DATA_HOME (~/.local/share).
 std::vector<std::filesystem::path> FileDirs();
 
-/// Points `card.file`, where it is not beside its card, to the file of that name in `dirs` or
+/// If `card.file` is not beside its card, points it to the file of that name in `dirs` or
 /// FileDirs().
 void FindFile(ModelCard& card, const std::vector<std::filesystem::path>& dirs = {});
 
@@ -35,24 +34,23 @@ Result<std::vector<std::filesystem::path>> ListCards(const std::filesystem::path
 
 class NetworkSet {
  public:
-  /// Reads the cards that `config` names, below `dir`, and hashes their files. An empty name is a
-  /// part that is left out. Opens no network:
-  /// this may be called before processes are forked. Errors: a card, a part that its family lacks,
-  /// a file that is not there or not the card's. Files that are not beside their cards are looked
-  /// for in `file_dirs` and FileDirs().
+  /// Reads the cards that `config` names, below `dir`, and hashes their files. An empty name omits
+  /// the part. Opens no network, so that it may be called before a fork. Errors: a card, a part
+  /// that its family lacks, a missing file or a file with another hash. Files that are not beside
+  /// their cards are searched in `file_dirs` and FileDirs().
   static Result<NetworkSet> Read(const NetworksConfig& config, const std::filesystem::path& dir,
                                  const std::vector<std::filesystem::path>& file_dirs = {});
 
-  /// A suite over networks that are opened at the first call. One suite at a time. Parts that are
-  /// left out are null, which an agent cannot do with: see IsComplete.
+  /// A suite over networks, which are opened at the first call. One suite at a time. Omitted parts
+  /// are null, and an agent needs all: see IsComplete.
   Result<perception::PerceptionSuite> MakeSuite(double camera_height_m);
 
-  /// An error that names the first part that is left out.
+  /// Error that names the first omitted part.
   Result<void> IsComplete() const;
 
-  /// SHA-256 of each file that is used, by name of its card.
+  /// SHA-256 of each file in use, by name of its card.
   const std::map<std::string, std::string>& hashes() const { return hashes_; }
-  /// As the suite's encoder will be called.
+  /// Name of the suite's encoder.
   const std::string& encoder_name() const { return encoder_name_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What goes into a network and what comes out: named numbers with a shape. All are float32 here; a
-// backend converts to and from what the file declares (integers up to 2^24 are exact).
+// Tensors: inputs and outputs of a network, named numbers with a shape. All are float32 here; a
+// backend converts to and from the file's type (integers up to 2^24 are exact).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ inline std::int64_t CountOf(const Shape& shape) {
   return count;
 }
 
-/// "1x3x320x320", with ? for a side that is not fixed (-1).
+/// "1x3x320x320", with ? for an open side (-1).
 std::string ShapeText(const Shape& shape);
 
 struct Tensor {
@@ -27,11 +27,11 @@ struct Tensor {
   std::vector<float> data;  ///< row-major
 };
 
-/// A tensor that a network takes or gives, as its file declares it.
+/// Declaration of an input or output in the file.
 struct Port {
   std::string name;
-  Shape shape;                             ///< -1 = not fixed
-  std::vector<std::string> other_names{};  ///< that the file has for it, too
+  Shape shape;                             ///< -1 = open
+  std::vector<std::string> other_names{};  ///< further names in the file
 };
 
 }  // namespace crossnav::inference

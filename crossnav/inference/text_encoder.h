@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text vectors from a network: any text, in the space of the image features that it was trained
-// with. Texts are put into the card's templates first ("a photo of a {}."), and the mean of the
-// unit vectors is taken.
+// Text vectors from a network: any text, in the space of its image features. The vector of a text
+// is the mean of the unit vectors over the card's templates ("a photo of a {}.").
 #pragma once
 
 #include <map>
@@ -21,7 +20,7 @@ class TextEncoder {
   /// dim. Errors name the file.
   static Result<TextEncoder> Open(const ModelCard& card, int dim, const ModelOptions& options);
 
-  /// Unit vector; asked once for a text, remembered afterwards.
+  /// Unit vector; computed once for a text, then cached.
   Result<std::vector<float>> Of(std::string_view text);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a card's text vectors come from: its table, its text network, or the network where the
-// table has none.
+// Source of a card's text vectors: its table, its text network, or the table with the network for
+// missing texts.
 #pragma once
 
 #include <optional>
@@ -14,10 +14,10 @@ namespace crossnav::inference {
 
 class TextSource {
  public:
-  /// Vectors of `dim` numbers. Errors name the file, or the key that is missing.
+  /// Vectors of `dim` numbers. Errors name the file, or the missing key.
   static Result<TextSource> Open(const ModelCard& card, int dim, const ModelOptions& options);
 
-  /// Unit vector of `text`. Error: there is a table alone, and it has none.
+  /// Unit vector of `text`. Error: there is only a table, and it lacks the text.
   Result<std::vector<float>> Of(std::string_view text);
 
  private:

@@ -8,7 +8,7 @@
 namespace crossnav::inference {
 namespace {
 
-/// False for a vector without direction.
+/// False for a zero vector.
 bool Normalize(std::vector<float>& v) {
   double squared = 0;
   for (const float x : v) squared += static_cast<double>(x) * x;

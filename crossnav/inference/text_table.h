@@ -13,14 +13,14 @@ namespace crossnav::inference {
 
 class TextTable {
  public:
-  /// Reads the card's table. Errors name the file; one where the vectors are not `dim` long, unless
+  /// Reads the card's table. Errors name the file, also for vectors that are not `dim` long, unless
   /// that is 0.
   static Result<TextTable> Read(const ModelCard& card, int dim);
 
   int dim() const { return static_cast<int>(vectors_.begin()->second.size()); }
 
-  /// Unit vector of `text`: of its own name where the table has it, else the mean of all names that
-  /// mean the same category (core/category_table.h). Error: the table has neither.
+  /// Unit vector of `text`: of its own name if the table has it, else the mean of all names of the
+  /// same category (core/category_table.h). Error: the table has neither.
   Result<std::vector<float>> Of(std::string_view text) const;
 
   const perception::NamedVectors& vectors() const { return vectors_; }

@@ -22,7 +22,7 @@ constexpr char32_t kLCount = 19, kVCount = 21, kTCount = 28, kSCount = kLCount *
 
 struct Range {
   char32_t first = 0, last = 0;
-  std::vector<char32_t> to;  ///< what `first` maps to, or the class of all
+  std::vector<char32_t> to;  ///< image of `first`, or the class of the range
 };
 
 struct Tables {
@@ -34,7 +34,7 @@ char32_t Hex(const std::string& text) {
   return static_cast<char32_t>(std::stoul(text, nullptr, 16));
 }
 
-/// "a-b=c+d", with "-b" and "=c+d" where they are needed.
+/// "a-b=c+d", with optional "-b" and "=c+d".
 Range ParseRange(const std::string& item) {
   const auto equals = item.find('=');
   const std::string from = item.substr(0, equals);
@@ -84,7 +84,7 @@ const std::vector<Range>& Row(std::string_view name) {
   return row->second;
 }
 
-/// What `c` maps to in a row of mappings; empty = itself.
+/// Image of `c` in a row of mappings; empty = itself.
 std::u32string Mapped(const std::vector<Range>& row, char32_t c) {
   const Range* range = Find(row, c);
   if (range == nullptr) return {};
@@ -112,7 +112,7 @@ int ClassOf(char32_t c) {
   return range == nullptr ? 0 : static_cast<int>(range->to[0]);
 }
 
-/// 0 where the two do not compose.
+/// 0 if the two do not compose.
 char32_t Compose(char32_t a, char32_t b) {
   if (a >= kLBase && a < kLBase + kLCount && b >= kVBase && b < kVBase + kVCount)
     return kSBase + ((a - kLBase) * kVCount + (b - kVBase)) * kTCount;
@@ -123,7 +123,7 @@ char32_t Compose(char32_t a, char32_t b) {
   return it == All().composed.end() ? 0 : it->second;
 }
 
-/// One character and the number of bytes that it took.
+/// A character and its number of bytes.
 std::pair<char32_t, std::size_t> TakeChar(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -210,7 +210,7 @@ std::u32string Nfc(std::u32string_view text) {
   const std::u32string apart = Nfd(text);
   std::u32string out;
   std::size_t starter = std::u32string::npos;
-  int last_class = 0;  // of what stands between the starter and here
+  int last_class = 0;  // of the last character between the starter and here
   for (const char32_t c : apart) {
     const int own = ClassOf(c);
     if (starter != std::u32string::npos) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tokenizers must know of characters (config/unicode.txt): classes, lower case, canonical
+// Character data of the tokenizers (config/unicode.txt): classes, lower case, canonical
 // composition. Texts are UTF-8 outside and code points inside.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace crossnav::inference {
 
-/// Bytes that are no UTF-8 become U+FFFD.
+/// Invalid bytes become U+FFFD.
 std::u32string FromUtf8(std::string_view text);
 std::string ToUtf8(std::u32string_view text);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The words that YOLO-World looks for: the card's labels, and a goal that none of them means.
+// Vocabulary of YOLO-World: the card's labels, plus a goal that no label means.
 #pragma once
 
 #include <string_view>
@@ -12,12 +12,12 @@ namespace crossnav::inference {
 
 class Vocabulary {
  public:
-  /// Asks for the vectors of all labels, so that an error is seen before anything runs.
+  /// Computes the vectors of all labels, so that an error appears before anything runs.
   static Result<Vocabulary> Open(const ModelCard& card, const ModelOptions& options);
 
   /// The network's input `texts`, 1 x output.classes x output.dim, and in `labels` the places of
-  /// the goal's words. Places that are left over repeat a word, which changes nothing: the network
-  /// takes the best word of each cell. Error: there is no place or no vector for the goal.
+  /// the goal's words. Remaining places repeat a word, without effect: the network takes the best
+  /// word of each cell. Error: no place or no vector for the goal.
   Result<Tensor> With(std::string_view goal, std::vector<int>& labels);
 
  private:

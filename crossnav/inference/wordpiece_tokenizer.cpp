@@ -81,7 +81,7 @@ class WordPieceTokenizer : public Tokenizer {
   std::int32_t Padding() const override { return padding; }
 
  private:
-  /// The longest known piece first, again and again; [UNK] where one part is not known.
+  /// Greedy longest match of known pieces; [UNK] if a part is unknown.
   void AppendWord(const std::u32string& word, std::vector<std::int32_t>& out) const {
     const std::size_t before = out.size();
     for (std::size_t from = 0; from < word.size();) {

@@ -24,7 +24,7 @@ FoundBox Framed(const Sized& box, double score, int label, std::size_t index) {
           index};
 }
 
-/// The best wanted class of a box, if no other class is better and it is good enough.
+/// The best wanted class of a box, if no other class scores higher and the score suffices.
 template <class ScoreOf>
 void AddBest(const Wanted& wanted, int classes, const ScoreOf& score_of, const Sized& box,
              std::size_t index, std::vector<FoundBox>& out) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the outputs of the YOLO family mean, as boxes in input pixels. Pure.
+// Decodes the outputs of the YOLO family to boxes in input pixels. Pure.
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace crossnav::inference {
 
-/// Which classes are wanted, and from which score.
+/// Wanted classes, with their minimum scores.
 struct Wanted {
   std::vector<int> labels;
   double score = 0;
 };
 
 /// YOLOv8, YOLOv11, YOLO-World: 1 x (4 + classes + rest) x N; rows of centre, size, class
-/// probabilities and what else there is (mask coefficients).
+/// probabilities and the rest (mask coefficients).
 std::vector<FoundBox> BoxesOfYolo8(const Tensor& output, int classes, const Wanted& wanted);
 
 /// YOLOv7 as exported with its grid: 1 x N x (5 + classes); centre, size, objectness,
@@ -32,7 +32,7 @@ std::vector<FoundBox> BoxesOfEndToEnd(const Tensor& output, const Wanted& wanted
 std::vector<FoundBox> BoxesOfYoloX(const Tensor& output, int classes, int width, int height,
                                    const Wanted& wanted);
 
-/// Cells of those three grids: the N of YOLOX.
+/// Number of cells of the three grids: the N of YOLOX.
 std::int64_t CellsOfYoloX(int width, int height);
 
 }  // namespace crossnav::inference

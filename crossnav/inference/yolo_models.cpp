@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The YOLO family, as public exporters write it: input `images`; YOLOv8 and later `output0` and, to
-// segment, `output1` with the prototypes of masks; YOLOv7 and YOLOX `output`. YOLO-World can take
-// the vectors of its words as a second input, `texts`.
+// The YOLO family, in the layout of public exporters: input `images`; YOLOv8 and later `output0`
+// and, for segmentation, `output1` with the prototypes of masks; YOLOv7 and YOLOX `output`.
+// YOLO-World can take the vectors of its words as a second input, `texts`.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -61,7 +61,7 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
     return out;
   }
 
-  /// Of a box that the last Detect gave; the prototypes of masks mean nothing for others.
+  /// For boxes of the last Detect only: the prototypes of masks belong to that frame.
   Result<void> Segment(const Observation& obs, Detection& detection) const {
     const auto known = std::find_if(found_.begin(), found_.end(), [&](const Found& f) {
       const PixelBox &a = f.box, &b = detection.box;
@@ -101,7 +101,7 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
       case Kind::kYolo8:
       case Kind::kYolo8Segment:
         return BoxesOfYolo8(output, card_.output.classes, wanted);
-      case Kind::kYoloWorld: {  // places that are left over repeat a word: they are no classes
+      case Kind::kYoloWorld: {  // remaining places repeat a word: they are no classes
         const int labels = static_cast<int>(card_.labels.size());
         return BoxesOfYolo8(output, std::max(labels, wanted.labels.back() + 1), wanted);
       }
@@ -135,7 +135,7 @@ class YoloModel : public Model, public std::enable_shared_from_this<YoloModel> {
   ModelCard card_;
   Network network_;
   std::optional<Vocabulary> words_;  // of YOLO-World
-  std::vector<Tensor> outputs_;      // of the frame that Detect saw last
+  std::vector<Tensor> outputs_;      // of the last frame of Detect
   std::vector<Found> found_;
   Placement placement_;
 };

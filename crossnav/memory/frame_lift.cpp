@@ -62,7 +62,7 @@ std::int32_t CellWeights::AddSlot() {
   return size() - 1;
 }
 
-// Rows come from above and pixels from the left, but a voxel may grow to the left as it goes down.
+// Rows arrive from above and pixels from the left, but a voxel may extend to the left further down.
 CellWeights::Patch& CellWeights::OtherPatch(Head& head, const Run& run) {
   Patch* patch = &head.patch;
   if (patch->v_cell != kNowhere) {
@@ -93,7 +93,7 @@ std::span<const CellShare> CellWeights::Shares(std::int32_t slot, double divisor
   const Patch& patch = heads_[slot].patch;
   const double factor = 1 / divisor;
   shares_.resize(kPatchRows * kPatchCols);
-  if (patch.next < 0) {  // as for most: the cells are different and in their order
+  if (patch.next < 0) {  // common case: the cells are distinct and in order
     std::size_t count = 0;
     for (int v = 0; v < kPatchRows; ++v)
       for (int u = 0; u < kPatchCols; ++u) {

@@ -17,7 +17,7 @@ namespace crossnav::memory {
 
 /// Where image columns (or rows) fall in the grid: half-pixel centres, edges clamped.
 struct GridAxis {
-  struct Factors {  // side by side, to be multiplied at once
+  struct Factors {  // adjacent, to be multiplied at once
     double one = 1;
     double fraction = 0;  ///< [0, 1) towards the next cell, rounded to float
   };
@@ -29,11 +29,11 @@ struct GridAxis {
   static GridAxis Make(int pixels, int cells);
 };
 
-/// Sums over neighbouring pixels of an image row that lie in one interval of cells, each in two
-/// subtractions: what came before within the interval is kept for every pixel.
+/// Prefix sums of an image row: sums over neighbouring pixels of one cell interval, each by two
+/// subtractions.
 class RowSums {
  public:
-  /// `quality`: of the row, as many as `u` has pixels; kept.
+  /// `quality`: values of the row, one for each pixel of `u`; kept by reference.
   void Reset(const float* quality, const GridAxis& u);
 
   struct Sums {
@@ -48,21 +48,21 @@ class RowSums {
   }
 
  private:
-  // chosen: far above the rounding of a sum, so that what is faint beside what is bright counts.
+  // chosen: far above the rounding of a sum, so that faint pixels beside bright pixels count.
   static constexpr double kLost = 1e-8;
   Sums Literally(int first, int last) const;
 
   const float* quality_ = nullptr;
   const GridAxis::Factors* factors_ = nullptr;
-  std::vector<Sums> before_;  // by pixel + interval: one more place for each interval
+  std::vector<Sums> before_;  // by pixel + interval: each interval has one extra place
 };
 
-/// Weights of the cells that each voxel touches. Slots are small numbers, one for each voxel.
+/// Weights of the grid cells that each voxel touches. Slots number the voxels of a frame from 0.
 class CellWeights {
  public:
   void Reset(const GridAxis& u, const GridAxis& v);
 
-  /// A new slot.
+  /// Adds a slot and returns its number.
   std::int32_t AddSlot();
   std::int32_t size() const { return static_cast<std::int32_t>(heads_.size()); }
 
@@ -93,8 +93,8 @@ class CellWeights {
   std::size_t Bytes() const;
 
  private:
-  // A few neighbouring cells, as many as the intervals of most voxels touch. Those outside the grid
-  // have weight zero: at the grid's edge fractions are zero.
+  // Patch of neighbouring cells, sized for the intervals of most voxels. Cells outside the grid
+  // have weight zero, because fractions at the grid's edge are zero.
   static constexpr int kPatchRows = 3, kPatchCols = 4;
   struct Patch {
     std::int32_t v_cell = kNowhere, u_cell = kNowhere;  // of weight[0][0]
@@ -116,7 +116,7 @@ class CellWeights {
 
   int u_cells_ = 0, v_cells_ = 0;
   std::vector<Head> heads_;
-  std::vector<Patch> more_;    // of voxels so near that one is too small
+  std::vector<Patch> more_;    // further patches of voxels near the camera
   std::vector<double> dense_;  // per grid cell, zero between calls
   std::vector<std::int32_t> touched_;
   std::vector<CellShare> shares_;

@@ -33,7 +33,7 @@ FieldStats StatsOf(std::span<const float> field, int peak_count) {
   std::partial_sort(values.begin(), values.begin() + count, values.end(), std::greater<>());
   stats.peak = std::accumulate(values.begin(), values.begin() + count, 0.0) / count;
   for (float& v : values) v = static_cast<float>(std::abs(v - stats.median));
-  // The floor keeps a field of equal values from calling rounding errors outstanding.
+  // Lower bound: without it rounding errors would stand out in a field of equal values.
   stats.deviation = std::max(1.4826 * MedianOf(values), 1e-3);
   return stats;
 }
@@ -50,7 +50,7 @@ std::vector<std::int64_t> StandoutRows(std::span<const float> field, std::span<c
   return rows;
 }
 
-// Index of each member voxel, for neighbour look-up.
+// Indices of the member voxels of a block, for neighbour look-up.
 struct MemberBlock {
   std::array<std::int32_t, geometry::kBlockVoxels> member;
   MemberBlock() { member.fill(-1); }
@@ -61,7 +61,7 @@ std::int32_t Root(std::vector<std::int32_t>& parent, std::int32_t i) {
   return i;
 }
 
-// Half of the ball's offsets; the other half is found from the neighbour's side.
+// Half of the ball's offsets; the neighbour's own search covers the other half.
 std::vector<VoxelKey> ForwardOffsets(double radius_vox) {
   const int r = CellsFloor(radius_vox, 1.0);
   std::vector<VoxelKey> offsets;
@@ -111,7 +111,7 @@ std::vector<std::vector<std::int64_t>> ClusterRows(const SemanticMemory& memory,
   return groups;
 }
 
-// The camera position from which most of the cluster was best seen, by frame confidence.
+// Camera position with the best views of most of the cluster, weighted by frame confidence.
 Vector3d BestView(const SemanticMemory& memory, std::span<const std::int64_t> rows) {
   struct View {
     std::array<float, 3> p;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Query-conditioned retrieval (paper, "Query-Conditioned 3D Retrieval"): the voxels whose
-// similarity stands out, clustered in 3D, best four first. Pure functions of the memory. Standing
-// out: a robust z-score against the whole field (median and MAD), an absolute floor on the cosine,
-// and a share of the field's own peak, so that look-alikes do not crowd out the real thing. Score
-// of a cluster: mean excess of its best quarter over the field's median, in robust deviations,
-// times log2(1 + voxels). The best quarter forgives blurred borders; the logarithm prefers a body
-// to a few stray voxels without letting a large look-alike beat a small true one.
+// Query-conditioned retrieval (paper, "Query-Conditioned 3D Retrieval"): voxels with outstanding
+// similarity, clustered in 3D, best four first. Pure functions of the memory. Outstanding: a robust
+// z-score against the whole field (median and MAD), an absolute floor on the cosine, and a share of
+// the field's own peak, so that look-alikes do not crowd out the object. Score of a cluster: mean
+// excess of its best quarter over the field's median, in robust deviations, times log2(1 + voxels).
+// The best quarter tolerates blurred borders; the logarithm prefers bodies to stray voxels without
+// letting a large look-alike beat a small object.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ void Visit(V& visit, QueryConfig& c) {
   visit("cluster_radius_vox", c.cluster_radius_vox, 1.0, 20.0);
 }
 
-/// What a goal is held against by the contrastive relevancy.
+/// Background prompts that compete with a goal in the contrastive relevancy.
 inline constexpr std::array<const char*, 5> kBackgroundPrompts = {"wall", "floor", "ceiling",
                                                                   "furniture", "thing"};  // chosen
 
@@ -51,21 +51,21 @@ struct MemoryCluster {
   std::vector<VoxelKey> voxels;                ///< their keys, sorted
   Vector3d p_center_world = Vector3d::Zero();  ///< centre, weighted by excess similarity [m]
   Box3 box;                                    ///< [m]
-  double score = 0;       ///< as described above; comparable within one query only
+  double score = 0;       ///< see the head of this file; comparable within one query only
   double similarity = 0;  ///< mean cosine of the best quarter [-1, 1]
-  Vector3d p_best_view_world = Vector3d::Zero();  ///< camera position it was best seen from [m]
+  Vector3d p_best_view_world = Vector3d::Zero();  ///< camera position of the best view [m]
   double best_view_yaw_rad = 0;                   ///< from there to the centre
-  double best_view_pitch_rad = 0;                 ///< the same; positive looks up
+  double best_view_pitch_rad = 0;                 ///< likewise; positive looks up
 };
 
-/// The field that ranks: cosine, or with `relevancy = contrastive` and at least one background
-/// vector min_b softmax(contrast * (cos text, cos b)) in [0, 1]; row order.
+/// Field used for ranking, in row order: cosine, or with `relevancy = contrastive` and at least one
+/// background vector min_b softmax(contrast * (cos text, cos b)) in [0, 1].
 std::vector<float> RelevancyField(const SemanticMemory& memory, std::span<const float> text,
                                   const QueryConfig& config,
                                   std::span<const std::vector<float>> background = {});
 
-/// Best `top_k` clusters for `text`, best first. Empty memory or nothing that stands out: empty.
-/// `background` holds text vectors for the contrastive relevancy; unused by cosine.
+/// Best `top_k` clusters for `text`, best first. Empty if the memory is empty or no voxel stands
+/// out. `background` holds text vectors for the contrastive relevancy; unused by cosine.
 std::vector<MemoryCluster> Query(const SemanticMemory& memory, std::span<const float> text,
                                  const QueryConfig& config,
                                  std::span<const std::vector<float>> background = {});

@@ -11,7 +11,8 @@
 namespace crossnav::memory {
 namespace {
 
-// Row `v` with zero where depth is invalid, between two zeros; all zeros outside the image.
+// Copies row `v` with zero for invalid depth and a zero on either side; all zeros outside the
+// image.
 void CopyRow(const DepthImage& depth_m, int v, std::vector<float>& row) {
   if (v < 0 || v >= depth_m.height) {
     std::fill(row.begin(), row.end(), 0.0f);
@@ -29,7 +30,7 @@ void PrefetchRow(const DepthImage& depth_m, int v) {
   PrefetchBytes(row.data(), row.size());
 }
 
-// A difference per pixel shrinks as 1 / width, and width / fx is the field of view alone.
+// Differences per pixel shrink as 1 / width; width / fx depends on the field of view alone.
 double DefaultGradientScale(const CameraIntrinsics& camera) {
   constexpr double kPaperWidth_px = 640;
   const double width_px = camera.width_px;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// eq:supp_observation_quality, one row of the image after the other: what is asked for is used
-// while it is in the first cache.
+// eq:supp_observation_quality, row by row: a row is used while it is in the first-level cache.
 #pragma once
 
 #include <vector>
@@ -14,11 +13,11 @@ namespace crossnav::memory {
 
 class QualityRows {
  public:
-  /// `depth_m` is kept.
+  /// `depth_m` is kept by reference.
   void Reset(const DepthImage& depth_m, const CameraIntrinsics& camera, const FusionConfig& config);
 
   /// Quality of the pixels of row `v`, 0 where depth is invalid; valid until the next call. Rows
-  /// may be asked for in any order; from above to below is fastest.
+  /// may be requested in any order; top to bottom is fastest.
   const float* Row(int v);
 
   std::size_t Bytes() const;
@@ -26,8 +25,8 @@ class QualityRows {
  private:
   const DepthImage* depth_m_ = nullptr;
   QualityFactors factors_{};
-  static constexpr int kNone = -2;  // nor the row above the first
-  int v_ = kNone;                   // the row that `row_` holds
+  static constexpr int kNone = -2;  // neither a row nor the row above the first
+  int v_ = kNone;                   // row held by `row_`
   std::vector<float> above_, row_, below_, quality_;
 };
 

@@ -9,8 +9,9 @@
 namespace crossnav::memory {
 namespace {
 
-constexpr std::size_t kBestRows = 20;     // chosen: four clusters of the least size
-constexpr std::size_t kChanceShare = 10;  // chosen: a tenth; more are walls, which can be asked for
+constexpr std::size_t kBestRows = 20;  // chosen: four clusters of the minimum size
+constexpr std::size_t kChanceShare =
+    10;  // chosen: a tenth; walls, a valid query, are a larger share
 
 // Measured on development houses by benchmarks/query_calibration.cpp (docs/cli.md, "Is it there?").
 constexpr std::array<std::pair<std::string_view, double>, 2> kPresentFrom = {
@@ -65,10 +66,9 @@ std::optional<double> PresentFrom(std::string_view encoder) {
   return std::nullopt;
 }
 
-Verdict Judge(const QueryMatch& match, std::string_view encoder) {
-  const auto from = PresentFrom(encoder);
-  if (!from) return Verdict::kUnknown;
-  return match.best >= *from ? Verdict::kPresent : Verdict::kAbsent;
+Verdict Judge(const QueryMatch& match, std::optional<double> present_from) {
+  if (!present_from) return Verdict::kUnknown;
+  return match.best >= *present_from ? Verdict::kPresent : Verdict::kAbsent;
 }
 
 }  // namespace crossnav::memory

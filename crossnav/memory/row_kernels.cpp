@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Arrays of vectors need a known size, which these do not have.
+// Disables targets with vectors of unknown size: arrays of vectors need a known size.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 // This file is compiled once per instruction set by the include below.
 #undef HWY_TARGET_INCLUDE
@@ -35,7 +35,7 @@ HWY_INLINE hn::Vec<D> LoadElements(D d, const float* p) {
   return hn::LoadU(d, p);
 }
 
-// Stores and returns what a later load will give.
+// Stores elements and returns their values after rounding to the element type.
 template <class D>
 HWY_INLINE hn::Vec<D> StoreElements(D d, hn::Vec<D> v, std::uint16_t* p) {
   const hn::Rebind<std::uint16_t, D> du;
@@ -51,7 +51,7 @@ HWY_INLINE hn::Vec<D> StoreElements(D d, hn::Vec<D> v, float* p) {
   return v;
 }
 
-// Sum of a vector, halved again and again: lane i meets lane i + half.
+// Tree sum of a vector: lane i adds lane i + half, then the halves recursively.
 template <class D>
 HWY_INLINE float SumTree(D d, hn::Vec<D> v) {
 #if HWY_TARGET != HWY_SCALAR
@@ -67,14 +67,15 @@ HWY_INLINE float SumTree(D d, hn::Vec<D> v) {
   return lanes[0];
 }
 
-// The 32 virtual lanes, halved five times: the same order on every instruction set.
+// Sum of the 32 virtual lanes in five halvings: the same order on every instruction set.
 HWY_INLINE float SumBlock(hn::Vec<Wide>* v) {
   for (std::size_t half = kVectors / 2; half > 0; half /= 2)
     for (std::size_t k = 0; k < half; ++k) v[k] = hn::Add(v[k], v[k + half]);
   return SumTree(Wide(), v[0]);
 }
 
-// `kBlocks` blocks of kRowPad elements from `i` on: what a share costs is spread over them.
+// Fuses `kBlocks` blocks of kRowPad elements from `i` on; each share is loaded once for all of
+// them.
 template <std::size_t kBlocks, class T>
 HWY_INLINE void FuseBlocks(T* HWY_RESTRICT row, int i, int dim, float keep,
                            const float* HWY_RESTRICT grid, std::span<const CellShare> shares,
@@ -124,7 +125,7 @@ constexpr std::uintptr_t kPrefetchBytes = 8192;  // chosen: measured, 6 % above 
 
 template <class T>
 HWY_INLINE void PrefetchAhead(const T* p) {
-  // As an integer, since this may lie past the end of the rows.
+  // As an integer, because the address may lie past the end of the rows.
   const auto at = reinterpret_cast<std::uintptr_t>(p) + kPrefetchBytes;
   hwy::Prefetch(reinterpret_cast<const T*>(at));  // NOLINT(performance-no-int-to-ptr)
 }
@@ -162,7 +163,7 @@ void DotFloat(const float* rows, int stride, std::size_t count, const float* tex
   DotRowsT(rows, stride, count, text, out);
 }
 
-// Products of neighbours meet in 32 bits; integers add up to the same in any order.
+// Products of adjacent elements add up in 32 bits; integer sums do not depend on the order.
 void DotCompact(const std::int8_t* HWY_RESTRICT rows, int stride, std::size_t count,
                 const std::int16_t* HWY_RESTRICT text, std::int32_t* HWY_RESTRICT out) {
   const hn::CappedTag<std::int16_t, kRowPad> d16;
@@ -262,9 +263,9 @@ HWY_INLINE hn::Vec<D> Gradient(D d, hn::Vec<D> before, hn::Vec<D> center, hn::Ve
   return hn::Mul(step, scale);
 }
 
-// 2^x to a relative 1e-7, for -126 <= x < 128: x cut into a whole number, which goes to the
-// exponent, and the rest, at most a half, of which this is the polynomial of degree five whose
-// largest relative error (7.5e-8) is least, by Remez's method.
+// 2^x to a relative 1e-7, for -126 <= x < 128. The whole part of x goes to the exponent; the
+// fraction, at most a half, goes through the minimax polynomial of degree five (largest relative
+// error 7.5e-8, by Remez's method).
 template <class D>
 HWY_INLINE hn::Vec<D> PowerOfTwo(D d, hn::Vec<D> x) {
   const auto whole = hn::NearestInt(x);
@@ -286,7 +287,7 @@ HWY_INLINE void QualityAt(D d, const DepthRows& depth, int u, const QualityFacto
   const auto gy =
       Gradient(d, hn::LoadU(d, depth.above + u + 1), center, hn::LoadU(d, depth.below + u + 1));
   const auto norm = hn::Sqrt(hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy)));
-  // 2^87 is far above what matters and far below overflow.
+  // 2^87 is far above any relevant value and far below overflow.
   const auto x2 = hn::Min(hn::Mul(norm, hn::Set(d, f.gradient)), hn::Set(d, 87.0f));
   const auto off = hn::Sub(hn::Set(d, f.preferred_m), center);
   const auto e =
@@ -338,7 +339,7 @@ float FuseRow(float* row, int dim, float keep, const float* grid,
 }
 void PrefetchBytes(const std::byte* begin, std::size_t bytes) {
   constexpr std::size_t kCacheLine = 64;
-  // Into the second cache, which waits for more lines at a time than the first.
+  // Prefetches into the second-level cache, which allows more outstanding lines than the first.
   constexpr int kToRead = 0, kSecondCache = 2;
   for (std::size_t i = 0; i < bytes; i += kCacheLine)
     __builtin_prefetch(begin + i, kToRead, kSecondCache);
@@ -357,7 +358,7 @@ void DotRows(const std::int8_t* rows, int stride, std::size_t count, const std::
 float ToCompact(std::span<const float> in, std::int8_t* out) {
   float largest = 0;
   for (float x : in) largest = std::max(largest, std::abs(x));
-  // Below this nothing is left of a feature, and 127 / largest would overflow.
+  // Rows below this count as zero: 127 / largest would overflow.
   constexpr float kNothing = 1e-30f;
   const bool is_zero = largest <= kNothing;
   HWY_DYNAMIC_DISPATCH(ConvertToCompact)(in, is_zero ? 0 : 127 / largest, out);

@@ -15,7 +15,7 @@ namespace crossnav::memory {
 
 void AdviseHugePages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-  // Only advice: a refusal changes speed alone.
+  // A refusal of the advice affects speed only.
   (void)madvise(begin, bytes, MADV_HUGEPAGE);
 #endif
 }
@@ -51,7 +51,7 @@ void RowPool::Copy(std::int64_t from, std::int64_t to) {
 
 void RowPool::Truncate(std::int64_t size) {
   inverse_norms_.resize(size);
-  // One chunk is kept, so that a row that comes and goes costs no allocation.
+  // One chunk is kept: a row that comes and goes costs no allocation.
   const auto needed = static_cast<std::size_t>((size + kChunkRows - 1) / kChunkRows);
   if (chunks_.size() > needed + 1) chunks_.resize(needed + 1);
 }

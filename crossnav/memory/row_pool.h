@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows of one element size in chunks that never move: growing costs no copy and no second buffer.
-// What a row means is the owner's business; a factor travels with each. Readers may share it while
-// nobody writes.
+// The owner defines the content of a row; each row has a factor. Readers may share it while nobody
+// writes.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace crossnav::memory {
 
-/// Asks the system to back `bytes` at `begin` with huge pages, where it can: a query reads every
-/// row once, and small pages cost it a third. No effect on results.
+/// Asks the system to back `bytes` at `begin` with huge pages where possible: a query reads every
+/// row once, and small pages cost a third of its time. No effect on results.
 void AdviseHugePages(void* begin, std::size_t bytes);
 
 class RowPool {
@@ -34,12 +34,12 @@ class RowPool {
   void Copy(std::int64_t from, std::int64_t to);
   void Truncate(std::int64_t size);
 
-  /// Rows of one chunk lie side by side.
+  /// Elements of a row; rows of one chunk are adjacent.
   template <class T>
   T* At(std::int64_t row) const {
     return reinterpret_cast<T*>(chunks_[row / kChunkRows].get() + (row % kChunkRows) * RowBytes());
   }
-  void Prefetch(std::int64_t row) const;  ///< has it read from memory meanwhile
+  void Prefetch(std::int64_t row) const;  ///< prefetches the row
   float InverseNorm(std::int64_t row) const { return inverse_norms_[row]; }
   void SetInverseNorm(std::int64_t row, double squared_norm);  ///< 0 for a row of zeros
 

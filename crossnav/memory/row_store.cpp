@@ -23,7 +23,7 @@ void Permute(std::vector<T>& values, std::span<const std::int64_t> order) {
   values = std::move(moved);
 }
 
-// A unit text as whole numbers, fine enough that its rounding is below that of half precision.
+// Unit text as integers, with less rounding than half precision.
 struct WholeText {
   std::vector<std::int16_t> values;
   float scale = 0;  // text_i is about scale * values_i
@@ -37,7 +37,7 @@ WholeText ToWhole(std::span<const float> unit) {
   }
   WholeText out{std::vector<std::int16_t>(unit.size(), 0), 0};
   if (largest <= 0) return out;
-  // Rounding adds at most half to each of the numbers.
+  // Rounding adds at most half to each number.
   const double room = kMaxCompactText - static_cast<double>(unit.size());
   const double per_unit = std::min(32767 / largest, room / sum);
   CROSSNAV_CHECK(per_unit > 0, "fewer features than whole numbers can hold");
@@ -267,7 +267,8 @@ void RowStore::Reorder(std::span<const std::int64_t> order) {
     }
     return;
   }
-  // Along each cycle of the permutation, with one row set aside: no second copy of all rows.
+  // In-place permutation: follows each cycle with one row set aside, without a second copy of all
+  // rows.
   std::vector<bool> is_placed(order.size(), false);
   const std::int64_t aside = order.empty() ? 0 : full_.Append();
   for (std::size_t start = 0; start < order.size(); ++start) {

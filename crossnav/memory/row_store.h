@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The feature rows of a memory. A row is full (half precision by default, float32 for comparison)
-// or compact: int8 with one factor, half the bytes, 1 - cosine to what it was at most dim / 125000
-// and in practice a hundred times less. A compact row that is fused becomes full again. The inverse
-// norm of what is stored is kept beside each. Readers may share it while nobody writes.
+// Feature rows of a memory. A row is full (half precision by default, float32 for comparison) or
+// compact: int8 with one factor, half the bytes; compaction changes a row by a 1 - cosine of at
+// most dim / 125000, in practice a hundred times less. Fusing into a compact row makes it full
+// again. The inverse norm of the stored values is kept beside each row. Readers may share it while
+// nobody writes.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ class RowStore {
   /// row = keep * row + sum of shares (see FuseRow).
   void Fuse(std::int64_t row, float keep, const float* grid, std::span<const CellShare> shares);
 
-  /// Has the row read from memory meanwhile, for a Fuse to come.
+  /// Prefetches the row for a later Fuse.
   void Prefetch(std::int64_t row) const {
     if (!IsCompact(row)) full_.Prefetch(FullAt(row));
   }
@@ -44,16 +45,16 @@ class RowStore {
 
   bool IsCompact(std::int64_t row) const { return !IsPlain() && places_[row] < 0; }
   void Compact(std::int64_t row);  ///< no effect on a compact row
-  /// The whole numbers of a compact row; returns its factor.
+  /// int8 values of a compact row; returns its factor.
   float ReadCompact(std::int64_t row, std::span<std::int8_t> out) const;
   void WriteCompact(std::int64_t row, std::span<const std::int8_t> values, float scale);
 
   /// Cosine of every row with `text`; rows or texts of norm 0 give 0.
   std::vector<float> Cosines(std::span<const float> text) const;
 
-  /// Keeps only the rows listed, ascending; they move down.
+  /// Keeps only the listed rows, ascending; they move down.
   void Keep(std::span<const std::int64_t> rows);
-  /// Row i becomes what row order[i] was; a permutation.
+  /// Row i becomes the former row order[i]; `order` is a permutation.
   void Reorder(std::span<const std::int64_t> order);
 
  private:
@@ -63,7 +64,7 @@ class RowStore {
 
   std::int32_t AppendFull(std::int32_t row);
   std::int32_t AppendCompact(std::int32_t row, float scale);
-  void Remove(std::int32_t place);  // the last of its pool takes its place
+  void Remove(std::int32_t place);  // the last row of its pool takes its place
   void Expand(std::int64_t row);
 
   std::int64_t FullAt(std::int64_t row) const { return IsPlain() ? row : places_[row]; }

@@ -22,7 +22,7 @@ struct RowBlock {
 };
 using RowGrid = geometry::SparseGrid<RowBlock>;
 
-/// The run at `*i` with those that go on where it ends, in its row of `width` pixels; `*i` moves
+/// Joins the run at `*i` with its continuations in the same row of `width` pixels; moves `*i`
 /// behind them.
 EndRun TakeRun(std::span<const EndRun> runs, int width, std::size_t* i) {
   EndRun run = runs[(*i)++];
@@ -102,15 +102,15 @@ struct SemanticMemory::Impl {
   void CompactLeastConfident(std::int64_t count);
   void Reindex();
 
-  // Ties go by key, so that the order in which rows came does not matter.
+  // Ties go by key, so that the result does not depend on the order of rows.
   bool IsMoreConfident(std::int64_t a, std::int64_t b) const {
     return facts[a].weight != facts[b].weight ? facts[a].weight > facts[b].weight
                                               : keys[a] < keys[b];
   }
 };
 
-// Row by row of the image. What a run needs next lies anywhere in memory, so that of a whole row is
-// asked for before it is used.
+// Row by row of the image. The data of a run lies anywhere in memory; the runs of a whole row are
+// prefetched before use.
 void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width) {
   geometry::KnownBlocks<RowBlock> blocks;
   const auto find = [this](const VoxelKey& block_key) -> RowBlock& {
@@ -132,7 +132,7 @@ void SemanticMemory::Impl::GatherWeights(std::span<const EndRun> runs, int width
   }
 }
 
-// Cuts the runs, which were joined where they had been cut elsewhere, where the interval changes.
+// Cuts the joined runs at the borders of cell intervals.
 void SemanticMemory::Impl::GatherLine(int v, int row_begin) {
   CellWeights::Run piece;
   piece.v_cell = v_axis.first[v];
@@ -169,7 +169,7 @@ void SemanticMemory::Impl::FuseSlot(std::int32_t slot, const float* grid,
   }
 }
 
-// A compact row costs half a row. A tenth more is freed than needed, so that it is rare.
+// A compact row costs half a row. Frees a tenth more than needed, so that compaction is rare.
 void SemanticMemory::Impl::EnforceLimit() {
   const std::int64_t limit = config.max_rows;
   if (limit <= 0 || 2 * rows.size() - rows.CompactCount() <= 2 * limit) return;
@@ -197,7 +197,7 @@ void SemanticMemory::Impl::KeepMostConfident(std::int64_t count) {
   Reindex();
 }
 
-// `count` more rows of those that are full.
+// Compacts the `count` least confident full rows.
 void SemanticMemory::Impl::CompactLeastConfident(std::int64_t count) {
   if (count <= 0) return;
   std::vector<std::int64_t> full;
@@ -247,7 +247,7 @@ void SemanticMemory::FuseRuns(std::span<const EndRun> runs, const DepthImage& de
   m.PrepareAxes(depth_m, features);
   m.GatherWeights(runs, depth_m.width);
   const Vector3f p_camera_world = T_world_camera.translation().cast<float>();
-  constexpr std::int32_t kAhead = 8;  // chosen: 4, 16 and 32 take as long
+  constexpr std::int32_t kAhead = 8;  // chosen: 4, 16 and 32 take the same time
   for (std::int32_t slot = 0; slot < m.weights.size(); ++slot) {
     if (slot + kAhead < m.weights.size()) {
       m.rows.Prefetch(m.row_of_slot[slot + kAhead]);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The persistent semantic memory (paper, "Persistent 3D Semantic Memory"): one feature row per
-// surface voxel, a cumulative weighted average over everything that voxel ever showed. Rows are
-// half precision, weights float32. Goal-independent: nothing here knows what is being searched.
-// World frame, metres. Readers may share it while nobody writes.
+// surface voxel, the cumulative weighted average of all its observations. Rows are half precision,
+// weights float32. Independent of the goal. World frame, metres. Readers may share it while nobody
+// writes.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ struct FusionConfig {
   double depth_scale_m = 1.5;      ///< sigma_d
   double gradient_scale = 0;       ///< 0 = width^2 / (640 fx): the same at every resolution
   double epsilon = 1e-6;           ///< eq:intra_frame_fusion
-  /// Budget of feature rows, 0 = unbounded. Above it the least confident rows become int8, which
-  /// count half; when that is not enough, they are dropped.
+  /// Budget of feature rows, 0 = unbounded. Above it the least confident rows become int8, counted
+  /// as half a row; if that does not suffice, the least confident rows are dropped.
   int max_rows = 0;
   std::string storage = "half";  ///< half | float; float doubles the memory, for comparison
 };
@@ -47,7 +47,8 @@ void Visit(V& visit, FusionConfig& c) {
   visit("storage", c.storage, {"half", "float"});
 }
 
-/// Dense features of one frame; a view of perception's grid (this room does not know perception).
+/// Dense features of one frame; a view of perception's grid, because this room may not include
+/// perception.
 struct FeatureGridView {
   int rows = 0, cols = 0, dim = 0;
   std::span<const float> data;  ///< rows x cols x dim
@@ -58,7 +59,7 @@ struct FeatureGridView {
 Image<float> ObservationQuality(const DepthImage& depth_m, const CameraIntrinsics& camera,
                                 const FusionConfig& config);
 
-/// One row as it is saved.
+/// A row in its saved form.
 struct MemoryRow {
   VoxelKey key;
   float weight = 0;           ///< cumulative confidence
@@ -66,15 +67,15 @@ struct MemoryRow {
   Vector3f p_best_view_world = Vector3f::Zero();
   std::vector<std::uint16_t> half{};   ///< Dim() half-precision bit patterns, or
   std::vector<std::int8_t> compact{};  ///< of a compacted row, Dim() numbers ...
-  float scale = 0;                     ///< ... that are multiples of this, > 0
+  float scale = 0;                     ///< ... times this factor, > 0
 
   friend bool operator==(const MemoryRow&, const MemoryRow&) = default;
 };
 
-/// What the memory had to give up.
+/// Losses of the memory under its budget, and rejected frames.
 struct MemoryCounters {
-  std::int64_t compacted_rows = 0;   ///< int8 by max_rows, now
-  std::int64_t dropped_rows = 0;     ///< by max_rows, ever
+  std::int64_t compacted_rows = 0;   ///< currently int8 under max_rows
+  std::int64_t dropped_rows = 0;     ///< dropped under max_rows since the start
   std::int64_t rejected_frames = 0;  ///< features that were not finite
 };
 
@@ -83,19 +84,19 @@ class SemanticMemory {
   struct Impl;
 
  public:
-  /// `dim` 0 takes the dimension of the first grid.
+  /// `dim` 0: the first grid sets the dimension.
   explicit SemanticMemory(const FusionConfig& config = {}, double voxel_m = 0.10, int dim = 0);
   ~SemanticMemory();
   SemanticMemory(SemanticMemory&&) noexcept;
   SemanticMemory& operator=(SemanticMemory&&) noexcept;
 
-  /// Lifts the frame's features to the end voxels `runs` (from VoxelMap::Integrate) and fuses
-  /// them (eq:intra_frame_fusion, eq:supp_feature_fusion). A grid that holds NaN or infinity is
-  /// left out and counted. With `max_rows` set, row numbers may change here and only here.
+  /// Lifts the frame's features to the end voxels `runs` (from VoxelMap::Integrate) and fuses them
+  /// (eq:intra_frame_fusion, eq:supp_feature_fusion). Rejects and counts a grid with NaN or
+  /// infinity. With `max_rows` set, row numbers may change in this call only.
   void FuseRuns(std::span<const geometry::EndRun> runs, const DepthImage& depth_m,
                 const CameraIntrinsics& camera, const Pose& T_world_camera,
                 const FeatureGridView& features);
-  /// The same pixel by pixel, in the order of pixels.
+  /// Scalar reference of FuseRuns: pixel by pixel, in the order of pixels.
   void Fuse(const std::vector<PixelVoxel>& pixels, const DepthImage& depth_m,
             const CameraIntrinsics& camera, const Pose& T_world_camera,
             const FeatureGridView& features);
@@ -106,7 +107,7 @@ class SemanticMemory {
   float WeightAt(std::int64_t row) const;
   std::vector<float> FeatureAt(std::int64_t row) const;
   std::optional<std::int64_t> RowOf(const VoxelKey& key) const;
-  /// Where the camera stood when the row was seen best (largest frame confidence).
+  /// Camera position of the row's best view (largest frame confidence).
   Vector3f BestViewOf(std::int64_t row) const;
   float BestConfidenceOf(std::int64_t row) const;
   std::int64_t Bytes() const;
@@ -114,13 +115,13 @@ class SemanticMemory {
   const FusionConfig& config() const;
   double VoxelSize() const;  ///< [m]
 
-  /// For saving: everything about a row, and a row put back as the last one. The key must be new
-  /// and the feature of Dim() numbers, none of them infinite or NaN.
+  /// Saved form of a row, and its restoration as the last row. The key must be new; the feature
+  /// must have Dim() finite numbers.
   MemoryRow RowAt(std::int64_t row) const;
   void AppendRow(const MemoryRow& row);
-  /// Row i becomes what row order[i] was; `order` is a permutation of all rows.
+  /// Row i becomes the former row order[i]; `order` is a permutation of all rows.
   void ReorderRows(std::span<const std::int64_t> order);
-  /// Goes on counting from what a saved memory had dropped.
+  /// Adds the dropped rows of a saved memory to the counter.
   void AddDropped(std::int64_t rows);
 
   /// Cosine of every row with `text` (any norm > 0), in row order (eq:supp_similarity).

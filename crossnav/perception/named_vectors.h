@@ -11,13 +11,13 @@
 
 namespace crossnav::perception {
 
-/// By name in lower case; all of one length, all finite, not normalised.
+/// By name in lower case; equal lengths, finite, not normalised.
 using NamedVectors = std::map<std::string, std::vector<float>, std::less<>>;
 
-/// The names that a file lists. Errors name the file.
+/// Names in a file, one a line. Errors name the file.
 Result<std::vector<std::string>> ReadNames(const std::filesystem::path& path);
 
-/// A row of `rows` for each name, in that order. Errors name the file.
+/// One row of `rows` for each name, in order. Errors name the file.
 Result<NamedVectors> ReadNamedVectors(const std::vector<std::string>& names,
                                       const std::filesystem::path& rows);
 Result<NamedVectors> ReadNamedVectors(const std::filesystem::path& names,

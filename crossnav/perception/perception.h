@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What networks (or stand-ins for them) tell the agent about one frame. Four small interfaces, so
-// that each can be replaced alone; PerceptionSuite asks them in the paper's order. The ground-truth
-// implementations live in the simulator's room and are named so.
+// Interfaces of perception: the results of networks, or of stand-ins for them, for one frame. Four
+// small interfaces, each replaceable alone; PerceptionSuite calls them in the paper's order. The
+// ground-truth implementations are in the simulator's room (sensing/ground_truth.h).
 #pragma once
 
 #include <memory>
@@ -50,14 +50,14 @@ class Segmenter {
   virtual Result<void> Segment(const Observation& obs, Detection& detection) = 0;
 };
 
-/// Probability per pixel that it shows a stair surface (paper: SegFormer-B2), H x W in [0, 1].
+/// Probability per pixel of a stair surface (paper: SegFormer-B2), H x W in [0, 1].
 class StairSegmenter {
  public:
   virtual ~StairSegmenter() = default;
   virtual Result<Image<float>> SegmentStairs(const Observation& obs) = 0;
 };
 
-/// Dense image features and text vectors of one space (paper: SED/CLIP).
+/// Dense image features and text vectors of a common space (paper: SED/CLIP).
 class DenseEncoder {
  public:
   virtual ~DenseEncoder() = default;
@@ -68,12 +68,12 @@ class DenseEncoder {
   virtual Result<std::vector<float>> EncodeText(std::string_view text) = 0;
 };
 
-/// Unit vectors of those of several texts that the encoder has one for (a table of names may lack
-/// some). Error kUnsupported: it has none of them.
+/// Unit vectors of the texts that the encoder can encode (a table of names may lack some). Error
+/// kUnsupported: it can encode none of them.
 Result<std::vector<std::vector<float>>> EncodeTexts(DenseEncoder& encoder,
                                                     std::span<const char* const> texts);
 
-/// All that is known about one frame besides geometry.
+/// Result of perception for one frame.
 struct Percept {
   std::vector<Detection> detections;  ///< of the current goal, with masks, best first
   Image<float> stair_probability;     ///< H x W
@@ -86,7 +86,7 @@ struct PerceptionSuite {
   std::unique_ptr<StairSegmenter> stairs;
   std::unique_ptr<DenseEncoder> encoder;
 
-  /// Everything for one frame. Deterministic if its parts are.
+  /// Runs all four interfaces on one frame. Deterministic if they are.
   Result<Percept> Look(const Observation& obs, std::string_view goal);
 };
 

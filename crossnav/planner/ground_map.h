@@ -97,7 +97,7 @@ class GroundMap {
 
  private:
   static constexpr int kTileSide = 8;
-  /// 8 x 8 columns, each a run of 64-bit words: one for surfaces, one for seen air.
+  /// 8 x 8 columns, each a run of 64-bit words: a word for surfaces, a word for seen air.
   struct Tile {
     int first_word = 0;
     int words = 0;

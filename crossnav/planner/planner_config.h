@@ -10,10 +10,10 @@ struct PlannerConfig {
   double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
   double high_step_cost = 2;  // chosen: [voxels] a step at the climb limit; stairs have lower ones
   double bridge_cost_factor = 2;  // chosen: as inflated space; across an unobserved tread
-  double one_way_m = 30;          // chosen: about a storey's exploring, for a step down that is
-                                  // known to have no way back up
-  double doubtful_m = 3;          // chosen: a detour around a step that a relaxed rule allows
-  int max_expansions = 400000;    // chosen: several times a 400 m2 two-floor house; 0 = no limit
+  // chosen: a storey's exploration, for a step down without a known path back up
+  double one_way_m = 30;
+  double doubtful_m = 3;        // chosen: a detour around a step that a relaxed rule allows
+  int max_expansions = 400000;  // chosen: several times a 400 m2 two-floor house; 0 = no limit
 };
 
 template <class V>

@@ -39,7 +39,7 @@ struct Candidate {
   CandidateKind kind = CandidateKind::kTraversableFrontier;
   Vector3d p_focus_world = Vector3d::Zero();  ///< focus, e.g. the cluster's centre
   std::vector<VoxelKey> standing;             ///< voxels from which it counts as reached
-  std::vector<VoxelKey> beyond;               ///< frontiers: what each standing voxel borders on
+  std::vector<VoxelKey> beyond;               ///< frontiers: cells beyond each standing voxel
   int size = 0;                               ///< [voxels]
   double score = 0;                           ///< higher is better, within its class
   std::optional<int> poi_id;                  ///< of the live POI or hint behind it

@@ -121,9 +121,9 @@ const ClaimViews* ClaimTracker::ViewsOf(int poi_id) const {
 
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimTracker* book,
+                                      const VerifyConfig& config, ClaimTracker* tracker,
                                       std::vector<int>* revived) {
-  auto& rejected = book->rejected;
+  auto& rejected = tracker->rejected;
   std::erase_if(sightings, [&](const Sighting& sighting) {
     const auto it = std::find_if(rejected.begin(), rejected.end(), [&](const RejectedObject& r) {
       return IsOfRejected(sighting, r, object);
@@ -145,7 +145,7 @@ std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
 
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimTracker* book) {
+               const VerifyConfig& config, ClaimTracker* tracker) {
   for (const LivePoi& poi : pois) {
     const bool is_claimed =
         std::any_of(sightings.begin(), sightings.end(), [&](const Sighting& sighting) {
@@ -153,11 +153,32 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
                  IsOf(sighting, poi.voxels, poi.p_center_world, object);
         });
     if (!is_claimed) continue;
-    auto it = std::find_if(book->views.begin(), book->views.end(),
+    auto it = std::find_if(tracker->views.begin(), tracker->views.end(),
                            [&](const ClaimViews& v) { return v.poi_id == poi.id; });
-    if (it == book->views.end()) it = book->views.insert(it, ClaimViews{poi.id, {}});
+    if (it == tracker->views.end()) it = tracker->views.insert(it, ClaimViews{poi.id, {}, {}});
     if (IsNewView(poi.p_center_world, p_camera_world, it->p_cameras_world, config))
       it->p_cameras_world.push_back(p_camera_world);
+  }
+}
+
+void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
+                const Vector3d& p_camera_world, const ObjectConfig& object,
+                const VerifyConfig& config, ClaimTracker* tracker) {
+  for (const LivePoi& poi : pois) {
+    double best = 0;
+    for (const Sighting& sighting : sightings)
+      if (IsOf(sighting, poi.voxels, poi.p_center_world, object))
+        best = std::max(best, sighting.confidence);
+    if (best <= 0) continue;
+    auto it = std::find_if(tracker->views.begin(), tracker->views.end(),
+                           [&](const ClaimViews& v) { return v.poi_id == poi.id; });
+    if (it == tracker->views.end()) it = tracker->views.insert(it, ClaimViews{poi.id, {}, {}});
+    auto view = std::find_if(it->scores.begin(), it->scores.end(), [&](const ViewScore& score) {
+      return !IsOtherView(poi.p_center_world, p_camera_world, score.p_camera_world, config);
+    });
+    if (view == it->scores.end()) view = it->scores.insert(view, ViewScore{p_camera_world, 0, 0});
+    view->sum += LogOddsOf(best, config.views);
+    ++view->frames;
   }
 }
 
@@ -165,8 +186,29 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidenc
                    const VerifyConfig& config) {
   const double margin = opinion ? opinion->Margin() : 0;
   if (margin < -config.refute_margin) return ClaimVerdict::kRefuted;
-  const bool is_weak = confidence < config.strong_confidence || margin < config.strong_margin;
-  return is_weak && views < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
+  const bool is_weak_frame = confidence < config.strong_confidence;
+  const bool is_weak_memory = margin < config.strong_margin;
+  if (is_weak_frame && is_weak_memory) {
+    if (views < 2) return ClaimVerdict::kWeak;
+    if (margin < 0) return ClaimVerdict::kRefuted;
+    return views < 3 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
+  }
+  return (is_weak_frame || is_weak_memory) && views < 2 ? ClaimVerdict::kWeak
+                                                        : ClaimVerdict::kAgreed;
+}
+
+ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const std::vector<ViewScore>& views,
+                   const VerifyConfig& config) {
+  const double margin = opinion ? opinion->Margin() : 0;
+  if (margin < -config.refute_margin) return ClaimVerdict::kRefuted;
+  const double probability = ProbabilityOf(views, config.views);
+  const bool is_weak_memory = margin < config.strong_margin;
+  if (probability >= config.views.decided)
+    return is_weak_memory && views.size() < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
+  if (views.size() < 2) return ClaimVerdict::kWeak;
+  if (probability < config.views.refused) return ClaimVerdict::kRefuted;
+  if (views.size() < 3) return ClaimVerdict::kWeak;
+  return is_weak_memory ? ClaimVerdict::kRefuted : ClaimVerdict::kAgreed;
 }
 
 }  // namespace crossnav::policy

@@ -10,14 +10,18 @@
 #include <string>
 #include <vector>
 
+#include "crossnav/core/setting.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/policy/live_poi.h"
+#include "crossnav/policy/view_evidence.h"
 
 namespace crossnav::policy {
 
 /// Settings `verify.*`; policy.profile = full.
 struct VerifyConfig {
   std::string memory = "on";        ///< on | off: off believes the frame before the agent
+  std::string evidence = "frame";   ///< frame | views: what a claim's confidence is
+  EvidenceConfig views;             ///< of evidence = views
   double refute_margin = 0.02;      // chosen: cosine by which another name must answer better
   double strong_margin = 0.02;      // chosen: cosine by which the goal must, or the claim is weak
   double strong_confidence = 0.80;  // chosen: of a frame; less is weak
@@ -29,6 +33,12 @@ struct VerifyConfig {
 template <class V>
 void Visit(V& visit, VerifyConfig& c) {
   visit("memory", c.memory, {"on", "off"});
+  visit("evidence", c.evidence, {"frame", "views"});
+  visit("score_offset", c.views.offset, -20.0, 20.0);
+  visit("score_slope", c.views.slope, 0.0, 20.0);
+  visit("view_discount", c.views.discount, 0.0, 1.0);
+  visit("decided", c.views.decided, 0.5, 1.0);
+  visit("refused", c.views.refused, 0.0, 0.5);
   visit("refute_margin", c.refute_margin, 0.0, 2.0);
   visit("strong_margin", c.strong_margin, -2.0, 2.0);
   visit("strong_confidence", c.strong_confidence, 0.0, 1.0);
@@ -51,22 +61,23 @@ std::span<const char* const> RivalNames();
 struct MemoryOpinion {
   double goal = 0;         ///< cosine of the fused feature with the goal's text
   double best_other = -1;  ///< and with the best of the other names; -1 without any
-  std::string other;       ///< that name
+  std::string other;       ///< name with that cosine
   int rows = 0;            ///< feature-bearing voxels
   double Margin() const { return goal - best_other; }
 };
 
-/// Mean over the object's voxels of all that was fused there, by its confidence, against the goal
-/// and against `others`. nullopt where the memory holds nothing of it.
+/// Mean over the object's voxels of the fused features, weighted by confidence, compared with the
+/// goal and with `others`. nullopt if the memory has no features there.
 std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
                                        const std::vector<VoxelKey>& voxels,
                                        std::span<const float> goal,
                                        const std::vector<NamedText>& others);
 
-/// From which sides an object was claimed: camera places that are pairwise other views.
+/// Views from which an object was claimed: camera places with pairwise different views.
 struct ClaimViews {
   int poi_id = 0;
   std::vector<Vector3d> p_cameras_world;
+  std::vector<ViewScore> scores;  ///< of all sightings, weak ones too; pairwise other views
 };
 
 /// Whether `p_a` and `p_b` look at `p_object` from two sides: around the upright axis.
@@ -100,19 +111,30 @@ struct ClaimTracker {
 /// to `revived`.
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
-                                      const VerifyConfig& config, ClaimTracker* book,
+                                      const VerifyConfig& config, ClaimTracker* tracker,
                                       std::vector<int>* revived);
 
-/// Notes from where each POI was claimed in this frame with the confidence that STOP asks for.
+/// Notes the camera place of each POI that this frame claims with the confidence for STOP.
 void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
                const Vector3d& p_camera_world, const ObjectConfig& object,
-               const VerifyConfig& config, ClaimTracker* book);
+               const VerifyConfig& config, ClaimTracker* tracker);
+
+/// Notes the score of each POI in this frame, weak ones too, at the view it belongs to.
+void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
+                const Vector3d& p_camera_world, const ObjectConfig& object,
+                const VerifyConfig& config, ClaimTracker* tracker);
 
 enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 
 /// kWeak: another view is wanted. `confidence` is the frame's, `views` from how many sides the
-/// object was claimed.
+/// object was claimed. What is weak in the frame and in the memory takes three views, of which none
+/// helps where the memory answers better to another name.
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
+                   const VerifyConfig& config);
+
+/// The same of all sightings (verify.evidence = views). Where the memory is undecided, two views
+/// are wanted; where the sightings stay so from three, the claim is refuted.
+ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const std::vector<ViewScore>& views,
                    const VerifyConfig& config);
 
 }  // namespace crossnav::policy

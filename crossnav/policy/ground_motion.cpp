@@ -16,7 +16,7 @@ using planner::GroundMap;
 
 constexpr double kCell_m = 0.05;     // chosen: nearer positions are the same
 constexpr double kBeside_vox = 15;   // chosen: room to turn around in beside the path
-constexpr int kMaxExpansions = 600;  // chosen: a few times what a turn around in a corridor takes
+constexpr int kMaxExpansions = 600;  // chosen: a few times those of a turn around in a corridor
 constexpr double kUnseenCost = 3;    // chosen: [steps] onto ground that was not seen
 constexpr int kWindow = 30;          // chosen: places of the path that are searched
 
@@ -64,7 +64,7 @@ struct Node {
   int depth = 0;
 };
 
-/// Whether ground goes on within a tread's depth ahead of a place over which it was not seen.
+/// Whether ground continues within a tread's depth ahead of a place over unseen ground.
 bool GoesOn(const GroundMap& ground, const Eigen::Vector2d& p, int z, double yaw_rad) {
   for (int k = 1; k <= 3; ++k) {
     const Eigen::Vector2d q =

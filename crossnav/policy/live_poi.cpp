@@ -49,6 +49,7 @@ std::vector<Sighting> LiftDetections(const std::vector<perception::Detection>& d
     sighting.confidence = detection.confidence;
     sighting.mask_quality = detection.mask_quality;
     sighting.area_fraction = detection.box.Area() / image_area;
+    sighting.detection = static_cast<int>(&detection - detections.data());
     sightings.push_back(std::move(sighting));
   }
   return sightings;

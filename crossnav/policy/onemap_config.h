@@ -3,6 +3,8 @@
 // quantities; the values are chosen here, in units that do not depend on the resolution.
 #pragma once
 
+#include "crossnav/core/setting.h"
+
 namespace crossnav::policy {
 
 struct OneMapConfig {
@@ -12,7 +14,7 @@ struct OneMapConfig {
   double peak_window_m = 0.5;        // chosen: a peak is the largest within half a metre
   double cluster_share = 0.8;        // chosen: of a peak, down to which its cluster grows
   double keep_score = 0.01;          // chosen: a goal is kept while its score falls by less
-  double same_goal_m = 0.5;          // chosen: a goal this near to the last one is the same
+  double same_goal_m = 0.5;          // chosen: goals within this distance are the same goal
   double consensus_quantile = 0.95;  // chosen: of the similarity, for detections to be believed
   double consensus_reach_m = 0.3;    // chosen: blur of the map
   double replace_factor = 1.1;       // chosen: by which another detection must answer better
@@ -21,17 +23,17 @@ struct OneMapConfig {
 
 template <class V>
 void Visit(V& visit, OneMapConfig& c) {
-  visit("explored_confidence", c.explored_confidence, 0.0, 1000.0);
-  visit("min_unexplored_m2", c.min_unexplored_m2, 0.0, 1000.0);
-  visit("frontier_depth_m", c.frontier_depth_m, 0.0, 100.0);
-  visit("peak_window_m", c.peak_window_m, 0.0, 10.0);
-  visit("cluster_share", c.cluster_share, 0.0, 1.0);
-  visit("keep_score", c.keep_score, 0.0, 2.0);
-  visit("same_goal_m", c.same_goal_m, 0.0, 10.0);
-  visit("consensus_quantile", c.consensus_quantile, 0.0, 1.0);
-  visit("consensus_reach_m", c.consensus_reach_m, 0.0, 10.0);
-  visit("replace_factor", c.replace_factor, 1.0, 10.0);
-  visit("stuck_steps", c.stuck_steps, 1, 1000);
+  visit(CROSSNAV_SETTING(c, explored_confidence), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, min_unexplored_m2), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, frontier_depth_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, peak_window_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, cluster_share), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, keep_score), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, same_goal_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, consensus_quantile), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, consensus_reach_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, replace_factor), 1.0, 10.0);
+  visit(CROSSNAV_SETTING(c, stuck_steps), 1, 1000);
 }
 
 }  // namespace crossnav::policy

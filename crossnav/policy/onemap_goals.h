@@ -33,7 +33,7 @@ std::vector<OneMapGoal> OneMapGoals(const OneMapView& view);
 int ChooseOneMapGoal(const std::vector<OneMapGoal>& goals, const OneMapGoal* last,
                      const OneMapView& view);
 
-/// Whether the column lies among, or near, those that answer the goal best ("consensus").
+/// Whether the column lies among, or near, the columns that answer the goal best ("consensus").
 bool HasConsensus(const Column& column, const OneMapView& view);
 
 /// Distance of two columns' centres [m].

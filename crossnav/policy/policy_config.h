@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "crossnav/core/setting.h"
 #include "crossnav/policy/onemap_config.h"
 
 namespace crossnav::policy {
@@ -117,93 +118,93 @@ struct PolicyConfig {
 
 template <class V>
 void Visit(V& visit, ObjectConfig& c) {
-  visit("detector_confidence", c.detector_confidence, 0.0, 1.0);
-  visit("secondary_confidence", c.secondary_confidence, 0.0, 1.0);
-  visit("found_confidence", c.found_confidence, 0.0, 1.0);
-  visit("min_box_area_fraction", c.min_box_area_fraction, 0.0, 1.0);
-  visit("min_projected_voxels", c.min_projected_voxels, 1, 100000);
-  visit("stable_frames", c.stable_frames, 1, 1000);
-  visit("merge_distance_m", c.merge_distance_m, 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, detector_confidence), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, secondary_confidence), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, found_confidence), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, min_box_area_fraction), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, min_projected_voxels), 1, 100000);
+  visit(CROSSNAV_SETTING(c, stable_frames), 1, 1000);
+  visit(CROSSNAV_SETTING(c, merge_distance_m), 0.0, 10.0);
 }
 template <class V>
 void Visit(V& visit, PoiConfig& c) {
-  visit("use_history", c.use_history);
-  visit("keep_coverage", c.keep_coverage);
-  visit("similarity_slack", c.similarity_slack, 0.0, 2.0);
-  visit("live_takeover_m", c.live_takeover_m, 0.0, 100.0);
-  visit("blacklist_xy_m", c.blacklist_xy_m, 0.0, 100.0);
-  visit("blacklist_z_m", c.blacklist_z_m, 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, use_history));
+  visit(CROSSNAV_SETTING(c, keep_coverage));
+  visit(CROSSNAV_SETTING(c, similarity_slack), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, live_takeover_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, blacklist_xy_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, blacklist_z_m), 0.0, 100.0);
 }
 template <class V>
 void Visit(V& visit, FrontierConfig& c) {
-  visit("min_cluster", c.min_cluster, 1, 100000);
-  visit("min_cluster_init_descent", c.min_cluster_init_descent, 1, 100000);
-  visit("level_band_m", c.level_band_m, 0.0, 10.0);
-  visit("unknown_column_m", c.unknown_column_m, 0.0, 10.0);
-  visit("arrival_m", c.arrival_m, 0.05, 10.0);
-  visit("grace_steps", c.grace_steps, 0, 100000);
+  visit(CROSSNAV_SETTING(c, min_cluster), 1, 100000);
+  visit(CROSSNAV_SETTING(c, min_cluster_init_descent), 1, 100000);
+  visit(CROSSNAV_SETTING(c, level_band_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, unknown_column_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, arrival_m), 0.05, 10.0);
+  visit(CROSSNAV_SETTING(c, grace_steps), 0, 100000);
 }
 template <class V>
 void Visit(V& visit, StairConfig& c) {
-  visit("pixel_threshold", c.pixel_threshold, 0.0, 1.0);
-  visit("min_component_px", c.min_component_px, 1, 1000000);
-  visit("descent_confirmation", c.descent_confirmation, 0.0, 1.0);
-  visit("geometry_threshold", c.geometry_threshold, 0.0, 1.0);
-  visit("admission_radius_m", c.admission_radius_m, 0.1, 100.0);
-  visit("arrival_m", c.arrival_m, 0.05, 10.0);
-  visit("landing_frames", c.landing_frames, 1, 1000);
-  visit("evidence_window", c.evidence_window, 1, 1000);
-  visit("evidence_frames", c.evidence_frames, 1, 1000);
-  visit("min_progress_steps", c.min_progress_steps, 1, 100000);
+  visit(CROSSNAV_SETTING(c, pixel_threshold), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, min_component_px), 1, 1000000);
+  visit(CROSSNAV_SETTING(c, descent_confirmation), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, geometry_threshold), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, admission_radius_m), 0.1, 100.0);
+  visit(CROSSNAV_SETTING(c, arrival_m), 0.05, 10.0);
+  visit(CROSSNAV_SETTING(c, landing_frames), 1, 1000);
+  visit(CROSSNAV_SETTING(c, evidence_window), 1, 1000);
+  visit(CROSSNAV_SETTING(c, evidence_frames), 1, 1000);
+  visit(CROSSNAV_SETTING(c, min_progress_steps), 1, 100000);
 }
 template <class V>
 void Visit(V& visit, ApproachConfig& c) {
-  visit("range_m", c.range_m, 0.1, 10.0);
-  visit("min_visibility", c.min_visibility, 0.0, 1.0);
-  visit("min_mask_quality", c.min_mask_quality, 0.0, 1.0);
-  visit("max_view_angle_deg", c.max_view_angle_deg, 1.0, 90.0);
-  visit("max_viewpoints", c.max_viewpoints, 1, 1000);
+  visit(CROSSNAV_SETTING(c, range_m), 0.1, 10.0);
+  visit(CROSSNAV_SETTING(c, min_visibility), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, min_mask_quality), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, max_view_angle_deg), 1.0, 90.0);
+  visit(CROSSNAV_SETTING(c, max_viewpoints), 1, 1000);
 }
 template <class V>
 void Visit(V& visit, MotionConfig& c) {
-  visit("wanted_clearance_m", c.wanted_clearance_m, 0.01, 1.0);
-  visit("min_clearance_m", c.min_clearance_m, 0.0, 1.0);
-  visit("clearance_weight", c.clearance_weight, 0.0, 1000.0);
-  visit("arrival_m", c.arrival_m, 0.01, 10.0);
-  visit("min_gain_steps", c.min_gain_steps, 0.0, 10.0);
-  visit("horizon_steps", c.horizon_steps, 1, 40);
-  visit("travel_pitch_deg", c.travel_pitch_deg, -90.0, 90.0);
-  visit("bump_m", c.bump_m, 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, wanted_clearance_m), 0.01, 1.0);
+  visit(CROSSNAV_SETTING(c, min_clearance_m), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, clearance_weight), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, arrival_m), 0.01, 10.0);
+  visit(CROSSNAV_SETTING(c, min_gain_steps), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, horizon_steps), 1, 40);
+  visit(CROSSNAV_SETTING(c, travel_pitch_deg), -90.0, 90.0);
+  visit(CROSSNAV_SETTING(c, bump_m), 0.0, 10.0);
 }
 template <class V>
 void Visit(V& visit, ExploreConfig& c) {
-  visit("scoring", c.scoring, {"nearest", "area", "semantic"});
-  visit("min_cluster", c.min_cluster, 1, 100000);
-  visit("other_floor_penalty_m", c.other_floor_penalty_m, 0.0, 100000.0);
-  visit("small_frontier_penalty_m", c.small_frontier_penalty_m, 0.0, 100000.0);
-  visit("room_m2", c.room_m2, 0.01, 10000.0);
-  visit("least_share", c.least_share, 0.001, 1.0);
-  visit("start_m", c.start_m, 0.0, 1000.0);
-  visit("hint_confidence", c.hint_confidence, 0.0, 1.0);
-  visit("hint_bonus_m", c.hint_bonus_m, -100000.0, 100000.0);
-  visit("uninspected_m", c.uninspected_m, 0.0, 100000.0);
-  visit("turn_back_m", c.turn_back_m, 0.0, 100000.0);
-  visit("doubt_m", c.doubt_m, 0.0, 1000.0);
-  visit("doubt_range_m", c.doubt_range_m, 0.0, 100.0);
-  visit("commit_m", c.commit_m, 0.0, 1000.0);
-  visit("inspect_range_m", c.inspect_range_m, 0.1, 100.0);
-  visit("view_range_m", c.view_range_m, 0.0, 100.0);
-  visit("min_uninspected", c.min_uninspected, 1, 25);
-  visit("relevancy_steps", c.relevancy_steps, 1, 100000);
-  visit("reconsider_steps", c.reconsider_steps, 1, 100000);
-  visit("progress_steps", c.progress_steps, 1, 100000);
-  visit("max_choices", c.max_choices, 1, 100000);
-  visit("same_place_m", c.same_place_m, 0.0, 100.0);
-  visit("glance_m2", c.glance_m2, 0.0, 100000.0);
-  visit("glance_range_m", c.glance_range_m, 0.0, 100.0);
-  visit("floor_prior_m_per_bit", c.floor_prior_m_per_bit, 0.0, 1000.0);
-  visit("furniture_m", c.furniture_m, 0.0, 100.0);
-  visit("storey_m", c.storey_m, 0.1, 100.0);
+  visit(CROSSNAV_SETTING(c, scoring), {"nearest", "area", "semantic"});
+  visit(CROSSNAV_SETTING(c, min_cluster), 1, 100000);
+  visit(CROSSNAV_SETTING(c, other_floor_penalty_m), 0.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, small_frontier_penalty_m), 0.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, room_m2), 0.01, 10000.0);
+  visit(CROSSNAV_SETTING(c, least_share), 0.001, 1.0);
+  visit(CROSSNAV_SETTING(c, start_m), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, hint_confidence), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, hint_bonus_m), -100000.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, uninspected_m), 0.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, turn_back_m), 0.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, doubt_m), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, doubt_range_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, commit_m), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, inspect_range_m), 0.1, 100.0);
+  visit(CROSSNAV_SETTING(c, view_range_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, min_uninspected), 1, 25);
+  visit(CROSSNAV_SETTING(c, relevancy_steps), 1, 100000);
+  visit(CROSSNAV_SETTING(c, reconsider_steps), 1, 100000);
+  visit(CROSSNAV_SETTING(c, progress_steps), 1, 100000);
+  visit(CROSSNAV_SETTING(c, max_choices), 1, 100000);
+  visit(CROSSNAV_SETTING(c, same_place_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, glance_m2), 0.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, glance_range_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, floor_prior_m_per_bit), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, furniture_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, storey_m), 0.1, 100.0);
 }
 template <class V>
 void Visit(V& visit, PolicyConfig& c) {
@@ -215,8 +216,8 @@ void Visit(V& visit, PolicyConfig& c) {
   visit.Section("stair", c.stair);
   visit.Section("approach", c.approach);
   visit.Section("onemap", c.onemap);
-  visit("profile", c.profile, {"full", "paper", "onemap"});
-  visit("planar", c.planar);
+  visit(CROSSNAV_SETTING(c, profile), {"full", "paper", "onemap"});
+  visit(CROSSNAV_SETTING(c, planar));
 }
 
 }  // namespace crossnav::policy

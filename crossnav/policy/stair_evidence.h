@@ -57,7 +57,7 @@ struct Flight {
   std::vector<VoxelKey> voxels;                  ///< sorted
   int direction = 0;                             ///< +1 leads up, -1 leads down
   Vector3d p_entrance_world = Vector3d::Zero();  ///< centre of the step next to the level
-  Vector3d p_ahead_world = Vector3d::Zero();     ///< centre of what follows within a metre or so
+  Vector3d p_ahead_world = Vector3d::Zero();     ///< centre of the evidence within a metre or so
   double geometry_score = 0;
   double probability = 0;  ///< mean mask probability
   bool is_confirmed = false;

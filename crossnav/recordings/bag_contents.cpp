@@ -11,7 +11,7 @@ constexpr std::array<const char*, 5> kTypes = {
     "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo",
     "nav_msgs/msg/Odometry", "tf2_msgs/msg/TFMessage"};
 
-/// Takes messages in, one after the other.
+/// Collects messages in order.
 class Collector {
  public:
   Collector(std::string file, BagContents& bag) : file_(std::move(file)), bag_(bag) {}
@@ -37,7 +37,7 @@ class Collector {
   bool TakeImage(const std::string& topic, std::string_view message, bool is_compressed) {
     const auto [at, is_new] = bag_.images.try_emplace(topic);
     ++at->second.images;
-    if (!is_new) return true;  // later ones are looked at when they are used
+    if (!is_new) return true;  // later camera_infos are checked when used
     const auto image = is_compressed ? ReadRosCompressedImage(message) : ReadRosImage(message);
     if (!image) return false;
     at->second = {1, is_compressed, image->header.frame, image->encoding, image->header.time_ns};
@@ -103,7 +103,7 @@ Result<BagContents> ReadBagContents(const std::vector<std::filesystem::path>& fi
     if (contents->is_complete || skip_damaged) continue;
     return Fail(ErrorCode::kMalformed,
                 "the file is cut off behind byte " + std::to_string(contents->good_bytes) +
-                    "; --skip-damaged goes on with what is there",
+                    "; --skip-damaged reads the intact part",
                 file.string());
   }
   bag.transforms.Sort();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a bag holds besides pixels, and what of it is used: topics, cameras, the source of poses.
+// Content of a bag besides pixels, and the selection from it: topics, cameras, the source of poses.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,7 @@ struct OdometryTopic {
   PoseTrack track;
 };
 
-/// Found on the first way through the files.
+/// Result of the first pass through the files.
 struct BagContents {
   std::string name;  ///< for messages: the file, or the folder of several
   std::map<std::string, ImageTopic> images;
@@ -38,19 +38,19 @@ struct BagContents {
   bool is_torn = false;
 };
 
-/// Reads everything but pixels. Errors: a file that is no MCAP, is damaged, or has no end (unless
-/// `skip_damaged`); a message that is not what its type says.
+/// Reads everything but pixels. Errors: a file that is no MCAP, is damaged, or is truncated (unless
+/// `skip_damaged`); a message that does not match its type.
 Result<BagContents> ReadBagContents(const std::vector<std::filesystem::path>& files,
                                     bool skip_damaged);
 
-/// Name of a message's type where it is one of those that are read (encoding CDR); else empty.
+/// Name of a supported message type (encoding CDR); empty for other messages.
 std::string TypeOf(const trace::McapContents& so_far, const trace::McapChannel& channel);
 
 /// "FILE, TOPIC at SECONDS s", for errors.
 std::string WhereOf(const std::string& file, const trace::McapChannel& channel,
                     std::int64_t time_ns);
 
-/// Where the camera is at a time.
+/// Source of the camera's pose over time.
 struct PoseSource {
   const BagContents* bag = nullptr;
   const OdometryTopic* odometry = nullptr;  ///< null: transforms alone
@@ -60,16 +60,16 @@ struct PoseSource {
   PoseAt At(std::int64_t time_ns, const PoseLimits& limits) const;
 };
 
-/// What of a bag is used.
+/// Selection from a bag.
 struct BagPlan {
   std::string colour_topic;  ///< empty: the bag has no colour
   std::string depth_topic;
-  Rig rig;  ///< a camera whose size is 0 has that of its images
+  Rig rig;  ///< a camera without size has the size of its images
   PoseSource poses;
 };
 
-/// Chooses topics, cameras and poses. `bag` must outlive the plan. Errors say what is missing or
-/// what there is to choose from.
+/// Chooses topics, cameras and poses. `bag` must outlive the plan. Errors name the missing part or
+/// the alternatives.
 Result<BagPlan> PlanOf(const BagContents& bag, const RecordingOptions& options);
 
 }  // namespace crossnav::recordings

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of a bag's topics, cameras and transforms make its frames.
+// Selects a bag's topics, cameras and transforms for its frames.
 #include <algorithm>
 #include <functional>
 
@@ -33,14 +33,14 @@ Topics NamesOf(const std::map<std::string, T>& by_topic) {
   return names;
 }
 
-/// Keeps those that pass, unless none does.
+/// Keeps the topics that pass, unless none does.
 void Prefer(Topics& topics, const std::function<bool(const std::string&)>& pass) {
   Topics kept;
   std::copy_if(topics.begin(), topics.end(), std::back_inserter(kept), pass);
   if (!kept.empty()) topics = std::move(kept);
 }
 
-/// The topic without what a transport of images puts behind it.
+/// The topic without the suffix of an image transport.
 std::string BaseOf(std::string topic) {
   for (const std::string_view transport : {"/compressedDepth", "/compressed"})
     if (topic.ends_with(transport)) topic.resize(topic.size() - transport.size());
@@ -71,7 +71,7 @@ class Planner {
     return Fail(code, std::move(what), bag_.name);
   }
 
-  /// Empty where the bag has none of the kind.
+  /// Empty if the bag has no topic of the kind.
   Result<std::string> TopicOf(bool is_depth, const std::string& typed) const {
     const std::string option = is_depth ? "--depth-topic" : "--colour-topic";
     if (!typed.empty()) {
@@ -82,7 +82,8 @@ class Planner {
     Topics topics;
     for (const auto& [topic, image] : bag_.images)
       if (IsDepth(topic, image) == is_depth) topics.push_back(topic);
-    // Aligned depth needs no registering, raw pixels no decoding; labels of objects are no colour.
+    // Preference: aligned depth needs no registration, raw pixels no decoding; label images are not
+    // colour.
     if (is_depth) Prefer(topics, [](const std::string& t) { return Has(t, "aligned"); });
     if (!is_depth) {
       Prefer(topics, [this](const std::string& t) {
@@ -100,7 +101,7 @@ class Planner {
                    " cameras; choose one with " + option + ": " + ListOf(topics));
   }
 
-  /// The camera_info beside an image topic, else the only one of its frame.
+  /// The camera_info beside an image topic, else the only camera_info of its frame.
   const RosCameraInfo* InfoOf(const std::string& topic) const {
     const std::string base = BaseOf(topic);
     const auto beside = bag_.cameras.find(base.substr(0, base.rfind('/') + 1) + "camera_info");
@@ -174,7 +175,7 @@ class Planner {
     return {};
   }
 
-  /// Odometry that was asked for, or that is needed; null = transforms alone.
+  /// Odometry on request or by need; null = transforms alone.
   Result<const OdometryTopic*> OdometryOf(const std::string& camera) const {
     const std::string& typed = options_.bag.pose_topic;
     if (!typed.empty()) {
@@ -193,8 +194,8 @@ class Planner {
         "it holds several sources of poses; choose one with --pose-topic: " + ListOf(topics));
   }
 
-  /// Whether transforms alone do not say where the camera is. A head that turns moves the camera,
-  /// too, but says nothing about the robot below it.
+  /// Whether transforms alone leave the camera's pose unknown. A moving head moves the camera, too,
+  /// but does not locate the robot below it.
   bool IsNeeded(const OdometryTopic& odometry, const std::string& camera) const {
     const TransformTree& tree = bag_.transforms;
     if (!tree.IsMoving(camera)) return true;
@@ -248,7 +249,7 @@ PoseAt PoseSource::At(std::int64_t time_ns, const PoseLimits& limits) const {
     if (world != odometry->frame)
       factors.push_back(tree.At(world, odometry->frame, time_ns, limits));
     factors.push_back(odometry->track.At(time_ns, limits));
-    // Without a name for what the poses are of, they are the camera's.
+    // Poses without a child frame are the camera's.
     if (!T_base_camera && !odometry->child.empty() && odometry->child != camera)
       factors.push_back(tree.At(odometry->child, camera, time_ns, limits));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The serialisation of ROS 2 messages: CDR as DDS has it (OMG DDSI-RTPS 10; XCDR version 1), either
-// byte order. Numbers are aligned to their own size from behind the four bytes that say which.
+// Serialisation of ROS 2 messages: CDR as in DDS (OMG DDSI-RTPS 10; XCDR version 1), either byte
+// order. Numbers are aligned to their own size, counted from behind the four header bytes.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace crossnav::recordings {
 
-/// Takes values off the front of a message; `is_good` turns false, for good, where it is too short
-/// or not CDR. Views are into the message.
+/// Takes values off the front of a message; `is_good` becomes and stays false if the message is too
+/// short or not CDR. Views are into the message.
 class CdrReader {
  public:
   explicit CdrReader(std::string_view message) {
@@ -35,18 +35,18 @@ class CdrReader {
     return std::bit_cast<T>(bytes);
   }
 
-  /// A count, and that many bytes.
+  /// A count, followed by that number of bytes.
   std::string_view Sequence() { return Bytes(Number<std::uint32_t>()); }
 
-  /// A count that includes the zero at the end.
+  /// A count that includes the final zero.
   std::string_view Text() {
     std::string_view text = Sequence();
     if (text.ends_with('\0')) text.remove_suffix(1);
     return text;
   }
 
-  /// The count of a sequence whose elements have at least `element_bytes`; 0 where the message
-  /// cannot hold so many.
+  /// Count of a sequence with elements of at least `element_bytes`; 0 if the message cannot hold
+  /// them.
   std::uint32_t Count(std::size_t element_bytes) {
     const auto count = Number<std::uint32_t>();
     if (is_good_ && count > (body_.size() - at_) / element_bytes) is_good_ = false;
@@ -54,7 +54,7 @@ class CdrReader {
   }
 
  private:
-  /// `count` bytes, or none where there are not so many.
+  /// `count` bytes, or none if fewer are left.
   std::string_view Bytes(std::size_t count) {
     if (!is_good_ || at_ > body_.size() || count > body_.size() - at_) {
       is_good_ = false;

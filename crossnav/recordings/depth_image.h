@@ -12,7 +12,7 @@ namespace crossnav::recordings {
 
 inline constexpr int kMostSide_px = 8192;  ///< of an image, as sensor.width_px
 
-/// Binary PGM (P5) of 16 bits as it stands, H x W. Errors: kMalformed.
+/// Binary PGM (P5) of 16 bits without conversion, H x W. Errors: kMalformed.
 Result<Image<std::uint16_t>> DecodePgm16(std::span<const std::uint8_t> bytes,
                                          const std::string& where);
 
@@ -20,7 +20,7 @@ Result<Image<std::uint16_t>> DecodePgm16(std::span<const std::uint8_t> bytes,
 Result<Image<std::uint16_t>> DecodeDepth16(std::span<const std::uint8_t> bytes,
                                            const std::string& where);
 
-/// Planar depth [m]; 0 and 65535 (what 7-Scenes and some drivers write for it) are invalid.
+/// Planar depth [m]; 0 and 65535 (7-Scenes and some drivers) are invalid.
 DepthImage DepthOf(const Image<std::uint16_t>& raw, double unit_m);
 
 }  // namespace crossnav::recordings

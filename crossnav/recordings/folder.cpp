@@ -22,7 +22,7 @@ Result<Images> LoadImages(const FolderFrame& frame, double depth_unit_m) {
   return Images{std::move(*rgb), DepthOf(*raw, depth_unit_m)};
 }
 
-/// What was typed, else what the format says of its usual size.
+/// The user's value, else the format's default.
 template <class T>
 Result<CameraModel> CameraOf(const std::optional<Pinhole>& typed,
                              const std::optional<Pinhole>& usual, const Image<T>& image,
@@ -49,7 +49,7 @@ Result<Rig> RigOf(const Folder& folder, const RecordingOptions& options, const I
   return Rig{*colour, *depth, options.T_colour_depth.value_or(Pose::Identity())};
 }
 
-/// From the frame of the poses to the colour camera.
+/// Transform from the frame of the poses to the colour camera.
 Pose MountingOf(const Folder& folder, const RecordingOptions& options) {
   if (options.T_base_camera) return *options.T_base_camera;
   if (folder.are_poses_of_depth && options.T_colour_depth)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recordings that are folders of image files: what each format says about them, and the one way in
-// which they are read.
+// Recordings as folders of image files: description of each format, and the common reader.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +24,7 @@ struct Folder {
   PoseLimits limits;
   bool are_poses_of_depth = false;        ///< else of the colour camera
   std::optional<Pinhole> colour, depth;   ///< of 640 x 480 px; empty: the user must say
-  bool are_intrinsics_of_images = false;  ///< of the images as they are, whatever their size
+  bool are_intrinsics_of_images = false;  ///< of the images in their actual size
   double depth_unit_m = 0.001;
   std::string up = "z";
 };

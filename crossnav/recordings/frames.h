@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the readers of all formats share: images and a pose become an Observation, and what cannot
-// become one is counted.
+// Common code of all formats: builds an Observation from images and a pose, and counts rejects.
 #pragma once
 
 #include <span>
@@ -11,14 +10,14 @@
 
 namespace crossnav::recordings {
 
-/// Two cameras that are fixed to each other.
+/// Two cameras with a fixed relative pose.
 struct Rig {
   CameraModel colour, depth;
   Pose T_colour_depth = Pose::Identity();
 };
 
 struct Images {
-  RgbImage rgb;  ///< empty = the recording has no colour; the depth camera's grid is used then
+  RgbImage rgb;  ///< empty = the recording has no colour; the depth camera's grid is used
   DepthImage depth_m;
 };
 
@@ -27,22 +26,22 @@ Result<RgbImage> DecodeColour(std::span<const std::uint8_t> bytes, const std::st
 
 std::span<const std::uint8_t> BytesOf(std::string_view text);
 
-/// Without lenses, depth registered into the colour image. `T_world_camera` is that of the camera
-/// whose grid is used. Errors: kMismatch, an image of another size than its
+/// Removes lens distortion and registers depth into the colour image. `T_world_camera` is the pose
+/// of the camera whose grid is used. Errors: kMismatch, an image of another size than its
 /// intrinsics; kInvalid, intrinsics or poses that are not finite.
 Result<Observation> MakeObservation(const Rig& rig, Images images, const Pose& T_world_camera,
                                     const std::string& where);
 
-/// Rotation from the recording's world to ours, in which z is up. `up` is z, y (and -z forward), or
-/// -y (and z forward: a camera's own axes).
+/// Rotation from the recording's world to a z-up world. `up` is z, y (and -z forward), or -y (and z
+/// forward: a camera's own axes).
 Result<Pose> WorldOf(const std::string& up);
 
 CameraIntrinsics IntrinsicsOf(const Pinhole& pinhole, int width_px, int height_px);
 
-/// Counts a pose that cannot be used; true where it can.
+/// True if the pose is usable; else counts it.
 bool IsUsable(const PoseAt& pose, RecordingCounts& counts);
 
-/// An error unless there were frames, which says where they went.
+/// Error without frames; it lists the reasons.
 Result<void> CheckFrames(const RecordingCounts& counts, const std::string& where);
 
 }  // namespace crossnav::recordings

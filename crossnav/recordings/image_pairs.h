@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth and colour images, each in the order of its own time, into pairs. Holds a few of each.
+// Pairs depth and colour images, each in the order of its own time. Holds a few of each.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct HeldImage {
 
 struct ImagePair {
   HeldImage depth;
-  std::optional<HeldImage> colour;  ///< the nearest within the tolerance; not moved out: the next
-                                    ///< depth image may be nearest to it, too
+  /// nearest within the tolerance; a copy, because the next depth image may need it
+  std::optional<HeldImage> colour;
 };
 
 class ImagePairs {
@@ -29,8 +29,8 @@ class ImagePairs {
   void AddDepth(HeldImage image) { depth_.push_back(std::move(image)); }
   void AddColour(HeldImage image);
 
-  /// The first depth image for which no better colour image can come any more; `is_end`: none comes
-  /// at all.
+  /// The first depth image for which no better colour image can arrive; `is_end`: no further image
+  /// arrives.
   std::optional<ImagePair> Take(bool is_end);
 
  private:

@@ -36,7 +36,7 @@ Result<Pinhole> PinholeIn(const fs::path& file) {
   return Pinhole{(*x)[0], (*y)[1], (*x)[2], (*y)[2]};
 }
 
-/// One row of 16 numbers, row by row; false where its rotation is none.
+/// A row of 16 numbers, a row-major matrix; false if its rotation is invalid.
 bool AddPose(const std::vector<double>& n, std::int64_t time_ns, PoseTrack& poses) {
   Eigen::Matrix3d R;
   R << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
@@ -76,7 +76,7 @@ Result<Folder> OpenMatrixFrames(const fs::path& path, const RecordingOptions& op
       return Fail(ErrorCode::kMalformed, "must hold the 16 numbers of a 4 x 4 matrix",
                   file.string() + ", line " + std::to_string(rows[i].line));
     const std::int64_t time_ns = static_cast<std::int64_t>(i) * kFrame_ns;
-    AddPose(*n, time_ns, folder.poses);  // a pose that was lost is counted when it is asked for
+    AddPose(*n, time_ns, folder.poses);  // lost poses are counted when used
     folder.frames.push_back({time_ns, path / "images" / (*depth)[i].filename(), (*depth)[i]});
   }
   folder.depth = folder.colour;

@@ -8,7 +8,7 @@ namespace crossnav::recordings {
 namespace {
 
 constexpr double kFarthest_m = 1e5;   // as the agent's: far beyond any house
-constexpr double kNoise_m = 0.05;     // chosen: what a tracker's pose may be off in a moment
+constexpr double kNoise_m = 0.05;     // chosen: momentary error of a tracker's pose
 constexpr double kNoise_rad = 0.087;  // chosen: likewise
 
 }  // namespace
@@ -24,7 +24,7 @@ bool PoseTrack::Add(std::int64_t time_ns, const Vector3d& p, const Eigen::Quater
   const double norm = q.norm();
   const bool is_good = p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest_m &&
                        std::isfinite(norm) && std::abs(norm - 1) < 0.1;
-  // A quaternion that is a unit already keeps its bytes.
+  // A unit quaternion keeps its bytes.
   if (is_good) samples_.push_back({time_ns, p, std::abs(norm - 1) < 1e-12 ? q : q.normalized()});
   return is_good;
 }

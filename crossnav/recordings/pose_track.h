@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Poses over time, as a tracker reported them, and the pose at a time between two of them. Times
-// are nanoseconds since the recording's own epoch.
+// Poses over time from a tracker, with interpolation. Times are nanoseconds since the recording's
+// own epoch.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace crossnav::recordings {
 
-/// When two neighbouring poses have nothing to say about the time between them.
+/// Limits of interpolation between two neighbouring poses.
 struct PoseLimits {
   std::int64_t gap_ns = 500'000'000;  ///< longest time to interpolate over; 0 = exact times only
   double speed_mps = 3.0;             // chosen: a fast walk is 2
@@ -27,13 +27,13 @@ struct PoseAt {
 /// T_a_b of one pair of frames.
 class PoseTrack {
  public:
-  /// In any order. Poses that are not finite or have no rotation are left out: false.
+  /// In any order. Returns false for poses that are not finite or have no rotation.
   bool Add(std::int64_t time_ns, const Vector3d& p, const Eigen::Quaterniond& q);
-  /// Needed after the last Add. Of several poses of one time the first stays.
+  /// Call after the last Add. Of several poses of one time the first stays.
   void Sort();
 
-  /// Position linear, rotation slerp. A pose that leaps from the one before it is a kJump, and so
-  /// is every time between the two.
+  /// Position linear, rotation slerp. A pose that leaps from its predecessor is a kJump, and so is
+  /// every time between the two.
   PoseAt At(std::int64_t time_ns, const PoseLimits& limits) const;
 
   bool empty() const { return samples_.empty(); }

@@ -24,7 +24,7 @@ bool Holds(const fs::path& folder, const std::vector<const char*>& names) {
                      [&](const char* name) { return fs::exists(folder / name, error); });
 }
 
-/// Whether a file in the folder ends so.
+/// Whether a file in the folder has this ending.
 bool HoldsFile(const fs::path& folder, std::string_view end) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), last; !error && at != last; at.increment(error))
@@ -34,7 +34,7 @@ bool HoldsFile(const fs::path& folder, std::string_view end) {
 
 using OpenFolder = Result<Folder> (*)(const fs::path&, const RecordingOptions&);
 
-/// The reader of a folder of images; null where it is none.
+/// Reader of a folder of images; null for other folders.
 OpenFolder ReaderOf(const fs::path& path) {
   if (Holds(path, {"groundtruth.txt", "rgb.txt", "depth.txt"})) return OpenTum;
   if (HoldsFile(path, ".pose.txt")) return OpenSevenScenes;

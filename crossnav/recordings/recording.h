@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A recording of a real sensor as observations, one after the other (docs/recordings.md): folders
-// of TUM RGB-D, 7-Scenes and numbered frames, and ROS 2 bags (MCAP). Colour and depth may have
-// sizes and intrinsics of their own: depth is registered into the colour image, so that an
-// Observation has one grid. Poses are interpolated to the depth image's time. World frame z up,
-// metres. Images are read one at a time; what grows with the recording is its list of poses and of
-// names.
+// A recording of a real sensor as a sequence of observations (docs/recordings.md): folders of TUM
+// RGB-D, 7-Scenes and numbered frames, and ROS 2 bags (MCAP). Colour and depth may differ in size
+// and intrinsics: depth is registered into the colour image, so that an Observation has one grid.
+// Poses are interpolated to the depth image's time. World frame z up, metres. Images are read one
+// at a time; only the lists of poses and names grow with the recording.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +18,12 @@
 
 namespace crossnav::recordings {
 
-/// Pinhole parameters as typed [px]; the size is the image's.
+/// Pinhole parameters from the user [px]; the size is the image's.
 struct Pinhole {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };
 
-/// What in a bag is what; empty = found by type and name.
+/// Roles of topics and frames in a bag; empty = found by type and name.
 struct BagNames {
   std::string colour_topic, depth_topic;  ///< of images
   std::string pose_topic;                 ///< of nav_msgs/Odometry
@@ -32,14 +31,15 @@ struct BagNames {
 };
 
 struct RecordingOptions {
-  double match_s = 0.02;  // chosen: TUM's own tool; colour and depth farther apart are no pair
+  // chosen: as TUM's own tool; maximum time between colour and depth of a pair
+  double match_s = 0.02;
   PoseLimits poses;
-  std::optional<Pinhole> colour, depth;  ///< instead of the recording's own; depth: as colour
-  std::optional<Pose> T_colour_depth;    ///< extrinsics, instead of the recording's own
-  std::optional<Pose> T_base_camera;  ///< mounting of the colour camera, where poses are a robot's
+  std::optional<Pinhole> colour, depth;  ///< replace the recording's own; depth: default as colour
+  std::optional<Pose> T_colour_depth;    ///< extrinsics; replace the recording's own
+  std::optional<Pose> T_base_camera;     ///< mounting of the colour camera, if poses are a robot's
   std::string up;             ///< axis of the recording's world: z, y or -y; empty = format's
   double depth_unit_m = 0;    ///< of integer depth; 0 = the format's
-  bool skip_damaged = false;  ///< leave out images that cannot be read, and a torn end
+  bool skip_damaged = false;  ///< skip images that cannot be read, and a torn end
   BagNames bag;
 };
 
@@ -47,13 +47,13 @@ struct RecordingCounts {
   std::int64_t depth_images = 0;    ///< in the recording; each is a frame or counted below
   std::int64_t frames = 0;          ///< handed to the visitor
   std::int64_t without_colour = 0;  ///< no colour image within `match_s`
-  std::int64_t without_pose = 0;    ///< no pose, or between poses too far apart in time
-  std::int64_t jumps = 0;           ///< where the pose leapt
+  std::int64_t without_pose = 0;    ///< no pose, or a gap between poses that is too long
+  std::int64_t jumps = 0;           ///< pose leaps
   std::int64_t damaged = 0;         ///< images left out by `skip_damaged`
-  bool is_torn = false;             ///< the bag has no end; with `skip_damaged`
+  bool is_torn = false;             ///< the bag is truncated; with `skip_damaged`
 };
 
-/// What a reader found out before the first frame, and at the end.
+/// Facts known to the reader before the first frame, and at the end.
 struct Recording {
   std::string format;  ///< e.g. "TUM RGB-D folder"
   bool has_colour = true;
@@ -69,10 +69,10 @@ struct RecordedFrame {
 using FrameVisitor =
     std::function<Result<void>(const Recording& so_far, const RecordedFrame& frame)>;
 
-/// Reads the recording at `path`, a folder or an .mcap file, in the order of time. Errors: no
-/// recording that is known; files, images or messages that are damaged, missing or of a kind that
-/// is not read (`where` says which, and the byte or line); intrinsics, topics or transforms that
-/// are missing or ambiguous; a recording in which no frame can be used.
+/// Reads the recording at `path`, a folder or an .mcap file, in the order of time. Errors: an
+/// unknown format; files, images or messages that are damaged, missing or unsupported (`where`
+/// names them, with the byte or line); intrinsics, topics or transforms that are missing or
+/// ambiguous; a recording without a usable frame.
 Result<Recording> ReadRecording(const std::filesystem::path& path, const RecordingOptions& options,
                                 const FrameVisitor& visit);
 

@@ -7,11 +7,11 @@
 namespace crossnav::recordings {
 namespace {
 
-constexpr double kNearest_m = 0.01;   // chosen: no depth camera sees anything so near
+constexpr double kNearest_m = 0.01;   // chosen: below the range of any depth camera
 constexpr double kWidest_px = 64;     // chosen: a square larger than this is a broken calibration
-constexpr double kFarthest_px = 1e6;  // before a number becomes an int
+constexpr double kFarthest_px = 1e6;  // limit before conversion to int
 
-/// Pixel of the distorted image that shows the ideal pixel (u, v).
+/// Pixel of the distorted image for the ideal pixel (u, v).
 Eigen::Vector2d Distort(const CameraModel& camera, double u, double v) {
   const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = camera.distortion;
   const double x = (u - camera.K.cx) / camera.K.fx, y = (v - camera.K.cy) / camera.K.fy;

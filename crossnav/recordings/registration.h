@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two cameras into one grid: lens distortion is taken out, and depth is seen from the colour
-// camera.
+// Two cameras into one grid: removes lens distortion, and projects depth into the colour camera.
 #pragma once
 
 #include <array>
@@ -10,8 +9,8 @@
 
 namespace crossnav::recordings {
 
-/// A pinhole with the lens of Brown and Conrady: k1 k2 p1 p2 k3 k4 k5 k6 (the last three divide, as
-/// ROS' rational_polynomial has it).
+/// A pinhole with a Brown-Conrady lens: k1 k2 p1 p2 k3 k4 k5 k6 (the last three divide, as in ROS'
+/// rational_polynomial).
 struct CameraModel {
   CameraIntrinsics K;
   std::array<double, 8> distortion{};
@@ -19,12 +18,12 @@ struct CameraModel {
   bool IsDistorted() const { return distortion != std::array<double, 8>{}; }
 };
 
-/// The image that the same pinhole without a lens would give; nearest pixel, 0 beyond the edge.
+/// Image of the same pinhole without lens; nearest pixel, 0 beyond the edge.
 RgbImage Rectify(const RgbImage& image, const CameraModel& camera);
 DepthImage Rectify(const DepthImage& depth_m, const CameraModel& camera);
 
-/// Planar depth [m] seen by `colour`, of its size; 0 where no surface is. Each depth pixel covers
-/// what its square covers there, the nearest wins; the same camera gives the same image.
+/// Planar depth [m] as seen by `colour`, of its size; 0 without a surface. Each depth pixel covers
+/// the projection of its square, the nearest wins; the same camera gives the same image.
 DepthImage RegisterDepth(const DepthImage& depth_m, const CameraIntrinsics& depth,
                          const CameraIntrinsics& colour, const Pose& T_colour_depth);
 

@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A value of YAML as it stands, without its quotes.
+/// A value of YAML without its quotes.
 std::string Unquoted(std::string_view word) {
   const bool is_quoted = word.size() > 1 && (word.front() == '"' || word.front() == '\'') &&
                          word.back() == word.front();
   return std::string(is_quoted ? word.substr(1, word.size() - 2) : word);
 }
 
-/// What metadata.yaml says of storage and files; ROS writes it in one form, a value a line.
+/// Storage and files from metadata.yaml; ROS writes it in a single form, one value a line.
 struct BagMetadata {
   std::string storage, compression;
   std::vector<std::string> files;
@@ -44,7 +44,7 @@ BagMetadata MetadataOf(std::string_view yaml) {
   return metadata;
 }
 
-/// Without metadata.yaml: what lies in the folder.
+/// Files of the folder, for bags without metadata.yaml.
 std::vector<fs::path> McapFilesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -54,7 +54,7 @@ std::vector<fs::path> McapFilesIn(const fs::path& folder) {
   return files;
 }
 
-/// The second way through the files: pixels.
+/// Second pass through the files: pixels.
 class BagReader {
  public:
   BagReader(const BagPlan& plan, const RecordingOptions& options, const FrameVisitor& visit)
@@ -157,7 +157,7 @@ class BagReader {
     return images;
   }
 
-  /// Intrinsics that were typed have the size of the images.
+  /// Intrinsics from the user get the size of the images.
   void UseSizes(const Images& images) {
     if (rig_.depth.K.width_px == 0) {
       rig_.depth.K.width_px = images.depth_m.width;

@@ -13,7 +13,7 @@
 namespace crossnav::recordings {
 namespace {
 
-/// How the bytes of a colour pixel lie.
+/// Byte layout of a colour pixel.
 struct ColourLayout {
   const char* encoding;
   std::size_t bytes, r, g, b;
@@ -53,8 +53,8 @@ Result<Image<T>> RawNumbers(const RosImage& image, const std::string& where) {
   return out;
 }
 
-/// compressed_depth_image_transport: 12 bytes of header (a kind and two parameters), then a PNG. Of
-/// 32FC1 the PNG holds inverse depth, of 16UC1 the numbers themselves.
+/// compressed_depth_image_transport: 12 bytes of header (a kind and two parameters), then a PNG.
+/// The PNG holds inverse depth for 32FC1, the numbers themselves for 16UC1.
 Result<DepthImage> CompressedDepth(const RosImage& image, double unit_m, const std::string& where) {
   if (image.encoding.find("rvl") != std::string::npos || image.data.size() < 12) {
     return Fail(ErrorCode::kUnsupported,

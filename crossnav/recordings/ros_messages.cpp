@@ -7,7 +7,7 @@ namespace crossnav::recordings {
 namespace {
 
 std::string FrameOf(std::string_view text) {
-  if (text.starts_with('/')) text.remove_prefix(1);  // ROS 1's way
+  if (text.starts_with('/')) text.remove_prefix(1);  // ROS 1 convention
   return std::string(text);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The messages of ROS 2 that a recording is made of, as far as they are used. Frames and units are
-// ROS': metres, quaternions, poses that map the child's frame to the header's.
+// ROS 2 messages of a recording, limited to the fields in use. Frames and units are ROS': metres,
+// quaternions, poses that map the child's frame to the header's.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct RosHeader {
 /// sensor_msgs/Image and sensor_msgs/CompressedImage. `data` is a view of the message.
 struct RosImage {
   RosHeader header;
-  std::uint32_t width_px = 0, height_px = 0;  ///< 0 with a compressed one
+  std::uint32_t width_px = 0, height_px = 0;  ///< 0 if compressed
   std::string encoding;                       ///< or CompressedImage::format
   bool is_big_endian = false;
   std::uint32_t row_bytes = 0;
@@ -41,7 +41,7 @@ struct RosCameraInfo {
   std::uint32_t roi_width_px = 0, roi_height_px = 0;
 };
 
-/// One of tf2_msgs/TFMessage, or what nav_msgs/Odometry says.
+/// A transform of tf2_msgs/TFMessage, or of nav_msgs/Odometry.
 struct RosTransform {
   RosHeader header;  ///< frame: the parent
   std::string child;
@@ -49,7 +49,7 @@ struct RosTransform {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
 };
 
-// Each gives nothing where the message is cut short or is no CDR.
+// Empty if the message is truncated or not CDR.
 std::optional<RosHeader> ReadRosHeader(std::string_view message);
 std::optional<RosImage> ReadRosImage(std::string_view message);
 std::optional<RosImage> ReadRosCompressedImage(std::string_view message);

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kFrame_ns = 33'333'333;  // the Kinect's 30 frames a second
 
-/// Numbers of the frames that have a pose, sorted.
+/// Numbers of the frames with a pose, sorted.
 Result<std::vector<int>> FramesIn(const fs::path& path) {
   std::vector<int> frames;
   std::error_code error;
@@ -35,7 +35,7 @@ std::string NameOf(int frame, const char* suffix) {
   return "frame-" + digits + suffix;
 }
 
-/// A matrix of 4 x 4 numbers, camera to world. A pose that was lost is not added.
+/// A matrix of 4 x 4 numbers, camera to world. Lost poses are skipped.
 Result<void> AddPose(const fs::path& file, std::int64_t time_ns, PoseTrack& poses) {
   const auto text = ReadFile(file, 1 << 16);
   if (!text) return tl::unexpected(text.error());
@@ -66,7 +66,7 @@ Result<Folder> OpenSevenScenes(const fs::path& path, const RecordingOptions& opt
   folder.format = "7-Scenes folder";
   folder.path = path;
   folder.limits = options.poses;
-  folder.limits.gap_ns = 0;  // one pose a frame: a lost one is not made up
+  folder.limits.gap_ns = 0;  // one pose a frame: lost poses are not interpolated
   folder.are_poses_of_depth = true;
   // The Kinect's usual values; the data set has no calibration of its own.
   folder.colour = Pinhole{525.0, 525.0, 320.0, 240.0};

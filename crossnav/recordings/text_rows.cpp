@@ -38,7 +38,7 @@ std::optional<std::int64_t> TimeOf(std::string_view seconds) {
   const std::string_view whole = seconds.substr(0, dot);
   std::int64_t s = 0, ns = 0;
   const auto end = std::from_chars(whole.data(), whole.data() + whole.size(), s);
-  constexpr std::int64_t kMost_s = 9'000'000'000;  // what nanoseconds of 64 bits can hold
+  constexpr std::int64_t kMost_s = 9'000'000'000;  // limit of nanoseconds in 64 bits
   if (end.ec != std::errc() || end.ptr != whole.data() + whole.size() || s < 0 || s > kMost_s)
     return std::nullopt;
   const std::string_view part =

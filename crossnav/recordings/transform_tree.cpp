@@ -52,7 +52,7 @@ PoseAt TransformTree::Along(const std::vector<std::string>& chain, std::size_t e
     const Edge& edge = edges_.at(chain[i]);
     const PoseAt here = edge.track.At(edge.is_static ? 0 : time_ns, limits);
     if (here.state != PoseState::kKnown) return {here.state, Pose::Identity()};
-    // The first factor is taken as it is: identity times a pose would be the same but for -0.
+    // The first factor is copied: identity times a pose would be equal except for -0.
     all.pose = i + 1 == end ? here.pose : all.pose * here.pose;
   }
   return all;

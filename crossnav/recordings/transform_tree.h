@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames and the transforms between them over time, as /tf and /tf_static tell them.
+// Frames and the transforms between them over time, from /tf and /tf_static.
 #pragma once
 
 #include <map>
@@ -13,20 +13,20 @@ namespace crossnav::recordings {
 
 class TransformTree {
  public:
-  /// A frame stays below the parent that it had first.
+  /// A frame keeps its first parent.
   void Add(const RosTransform& transform, bool is_static);
-  /// Needed after the last Add.
+  /// Call after the last Add.
   void Sort();
 
-  /// The frame above all others of `frame`; itself where nothing is above it.
+  /// The root above `frame`; itself without a parent.
   std::string RootOf(const std::string& frame) const;
-  /// Whether both hang on one root.
+  /// Whether both have the same root.
   bool AreJoined(const std::string& a, const std::string& b) const;
-  /// Whether something between the frame and its root moves.
+  /// Whether a transform between the frame and its root moves.
   bool IsMoving(const std::string& frame) const;
 
-  /// T_a_b. kUnknown where the frames are not joined, or a transform on the way is not known at
-  /// that time; kJump where one leaps.
+  /// T_a_b. kUnknown if the frames are not joined, or a transform between them is not known at that
+  /// time; kJump if one of them leaps.
   PoseAt At(const std::string& a, const std::string& b, std::int64_t time_ns,
             const PoseLimits& limits) const;
 
@@ -36,7 +36,7 @@ class TransformTree {
     PoseTrack track;  ///< T_parent_child; of a static one, a single sample at time 0
     bool is_static = true;
   };
-  /// The frame and those above it. Frames that hang on themselves end where they began.
+  /// The frame and its ancestors. Stops at a cycle.
   std::vector<std::string> ChainOf(const std::string& frame) const;
   /// Product of the transforms from chain[end] down to chain[0].
   PoseAt Along(const std::vector<std::string>& chain, std::size_t end, std::int64_t time_ns,

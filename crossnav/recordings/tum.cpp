@@ -53,7 +53,7 @@ Result<PoseTrack> ReadPoses(const fs::path& file) {
   return track;
 }
 
-/// The file nearest in time, or nothing within `most_ns`.
+/// The file nearest in time, or empty if none is within `most_ns`.
 fs::path Nearest(const std::vector<TimedFile>& files, std::int64_t time_ns, std::int64_t most_ns) {
   const auto after =
       std::lower_bound(files.begin(), files.end(), time_ns,
@@ -84,7 +84,7 @@ Result<Folder> OpenTum(const fs::path& path, const RecordingOptions& options) {
   folder.path = path;
   folder.poses = std::move(*poses);
   folder.limits = options.poses;
-  // What the benchmark recommends for depth that is registered already, as its images are.
+  // The benchmark's recommendation for registered depth, as in its images.
   folder.colour = folder.depth = Pinhole{525.0, 525.0, 319.5, 239.5};
   folder.depth_unit_m = 1.0 / 5000;
   const auto most_ns = static_cast<std::int64_t>(std::llround(options.match_s * 1e9));

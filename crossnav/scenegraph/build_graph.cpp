@@ -13,9 +13,9 @@ namespace crossnav::scenegraph {
 namespace {
 
 constexpr double kUnderGround_m = 0.5;     // chosen: the ground of a sunken room
-constexpr double kRoomReach_m = 0.5;       // chosen: what hangs on a wall belongs to the room
+constexpr double kRoomReach_m = 0.5;       // chosen: wall-hung objects belong to the room
 constexpr double kTile_m = 0.5;            // chosen: squares of GraphRoom::looked_at
-constexpr double kDefaultCeiling_m = 2.5;  // chosen: where none was seen
+constexpr double kDefaultCeiling_m = 2.5;  // chosen: where no ceiling was seen
 
 /// Squares with at least one feature row between the floor and the ceiling.
 using Tiles = std::set<std::pair<int, int>>;
@@ -64,7 +64,7 @@ double ShareOf(const Tiles& tiles, const Tiles& looked_at) {
   return tiles.empty() ? 0 : static_cast<double>(shared) / static_cast<double>(tiles.size());
 }
 
-/// Appends the rooms of one floor; `plan` numbers them from 0 and leaves with their ids.
+/// Appends the rooms of one floor; replaces the numbers in `plan`, from 0, by room ids.
 void AddRooms(SceneGraph& graph, const GraphFloor& floor, PlanGrid<int> plan,
               const PlanGrid<float>& distance, const memory::SemanticMemory& memory) {
   const double voxel_m = graph.voxel_m;
@@ -96,7 +96,7 @@ void AddRooms(SceneGraph& graph, const GraphFloor& floor, PlanGrid<int> plan,
   graph.plans.push_back(std::move(plan));
 }
 
-/// Where cells of two rooms lie side by side: one passage for each pair of rooms.
+/// Passages where cells of two rooms are adjacent: one for each pair of rooms.
 void AddPassages(SceneGraph& graph, const GraphFloor& floor) {
   struct Border {
     Vector3d sum = Vector3d::Zero();
@@ -169,6 +169,31 @@ std::optional<int> RoomAt(const SceneGraph& graph, int floor, const Vector3d& p_
       nearest = room;
     }
   return nearest;
+}
+
+void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& records) {
+  for (objects::ObjectRecord& record : records) {
+    record.floor = FloorAt(graph, record.centre_world_m).value_or(-1);
+    record.room =
+        record.floor < 0 ? -1 : RoomAt(graph, record.floor, record.centre_world_m).value_or(-1);
+  }
+}
+
+void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
+                double least) {
+  for (const objects::ObjectRecord& record : records) {
+    if (record.confidence < least || record.views == 0) continue;
+    GraphObject object;
+    object.category = record.category;
+    object.p_center_world = record.centre_world_m;
+    object.box.min = record.box_world_m.min();
+    object.box.max = record.box_world_m.max();
+    object.match = 1;
+    object.is_certain = true;
+    object.record = record.id;
+    object.confidence = record.confidence;
+    AddObject(graph, std::move(object));
+  }
 }
 
 void AddObject(SceneGraph& graph, GraphObject object) {

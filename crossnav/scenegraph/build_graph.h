@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The graph of a saved map: floors and rooms from its geometry alone, objects as its memory found
-// them.
+// Scene graph of a saved map: floors and rooms from its geometry alone, objects from its memory.
 #pragma once
 
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/objects/object_record.h"
 #include "crossnav/scenegraph/scene_graph.h"
 
 namespace crossnav::scenegraph {
@@ -14,16 +14,24 @@ namespace crossnav::scenegraph {
 SceneGraph BuildGraph(const geometry::VoxelMap& map, const memory::SemanticMemory& memory,
                       const std::vector<geometry::StairFlight>& flights);
 
-/// Floor of a point: the highest with its ground at most 0.5 m above it; empty below all.
+/// Floor of a point: the highest floor with its ground at most 0.5 m above the point; empty below
+/// all.
 std::optional<int> FloorAt(const SceneGraph& graph, const Vector3d& p_world);
 
-/// Room of a point on a floor, within half a metre; empty where there is none.
+/// Room of a point on a floor, within half a metre; empty without a room.
 std::optional<int> RoomAt(const SceneGraph& graph, int floor, const Vector3d& p_world);
+
+/// Floor and room of every record by the graph.
+void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& records);
+
+/// The records that are believed from `least` on, as objects of the graph.
+void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
+                double least = 0.5);
 
 /// Gives the object its id, floor and room, and appends it.
 void AddObject(SceneGraph& graph, GraphObject object);
 
-/// How the objects of one floor stand to each other. Replaces `graph.relations`.
+/// Computes the relations of the objects of each floor. Replaces `graph.relations`.
 void RelateObjects(SceneGraph& graph);
 
 }  // namespace crossnav::scenegraph

@@ -12,7 +12,8 @@ namespace {
 constexpr double kFar = 1e12;
 constexpr double kDoorwayReach_m = 0.4;  // chosen: half a doorway in a thick wall
 
-/// Squared distances along one line, from those across it: min over j of (i - j)^2 + line[j].
+/// Squared distances along one line, from the distances across it: min over j of (i - j)^2 +
+/// line[j].
 void LowerEnvelope(std::vector<double>& line) {
   const int n = static_cast<int>(line.size());
   std::vector<int> hull(line.size());
@@ -48,7 +49,7 @@ class Basins {
   void Make(int cell, float peak) { parent_[cell] = cell, peak_[cell] = peak; }
   void Join(int cell, int root) { parent_[cell] = root; }
   float PeakOf(int root) const { return peak_[root]; }
-  /// The wider one stays.
+  /// The wider root stays.
   int Merge(int a, int b) {
     if (peak_[b] > peak_[a] || (peak_[b] == peak_[a] && b < a)) std::swap(a, b);
     parent_[b] = a;
@@ -74,7 +75,7 @@ std::vector<int> RootsAround(const GridFrame& frame, std::size_t cell, Basins& b
   return roots;
 }
 
-/// The cell joins the basin beside it that lies deepest; basins that meet widely here become one.
+/// Assigns the cell to the deepest adjacent basin; merges basins that meet in a wide place here.
 void Flood(const PlanGrid<float>& distance, std::size_t cell, double wide_cells, double share,
            Basins& basins) {
   const float here = distance.cells[cell];
@@ -109,7 +110,7 @@ PlanGrid<int> Watershed(const PlanGrid<float>& distance, double wide_cells, doub
   return rooms;
 }
 
-/// Rooms grow over cells where `may(cell)`, ring by ring.
+/// Grows rooms over cells with `may(cell)`, ring by ring.
 template <class F>
 void Grow(PlanGrid<int>& rooms, int rings, F&& may) {
   for (int k = 0; k < rings; ++k) {
@@ -150,7 +151,7 @@ int NeighbourOf(const PlanGrid<int>& rooms, int room) {
   return most == border.end() ? kNoRoom : most->first;
 }
 
-/// Smallest first; a small room without a neighbour is none.
+/// Smallest first; a small room without a neighbour is removed.
 void JoinSmall(PlanGrid<int>& rooms, double min_cells) {
   for (;;) {
     const auto cells = CellsOfRooms(rooms);
@@ -163,7 +164,7 @@ void JoinSmall(PlanGrid<int>& rooms, double min_cells) {
   }
 }
 
-/// 0, 1, ... by the first cell.
+/// Numbers rooms 0, 1, ... by their first cell.
 void Renumber(PlanGrid<int>& rooms) {
   std::map<int, int> names;
   for (int& room : rooms.cells)

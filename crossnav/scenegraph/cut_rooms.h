@@ -10,12 +10,12 @@ namespace crossnav::scenegraph {
 inline constexpr int kNoRoom = -1;
 
 struct RoomCutConfig {
-  double passage_m = 1.4;    // chosen: a wider opening joins, doors and archways are narrower
+  double passage_m = 1.4;    // chosen: wider openings join rooms; doors and archways are narrower
   double share = 0.5;        // chosen: of the smaller basin's widest place; seeds 1 to 3
-  double min_area_m2 = 1.0;  // chosen: smaller pieces join a neighbour, or are no room
+  double min_area_m2 = 1.0;  // chosen: smaller pieces join a neighbour, or are removed
 };
 
-/// Room of each cell, from 0 by the first cell in row order; kNoRoom. Doorways belong to the
+/// Room of each cell, from 0 by the first cell in row order, or kNoRoom. Doorways belong to the
 /// nearest room.
 PlanGrid<int> CutRooms(const PlanGrid<FloorCell>& plan, double cell_m,
                        const RoomCutConfig& config = {});

@@ -16,7 +16,8 @@ constexpr double kBandFrom_m = 1.0, kBandTo_m = 1.8;  // chosen: above tables, b
 constexpr double kSupportFrom_m = -0.6, kSupportTo_m = 1.0;  // chosen: sunken floor to sideboard
 // Below the ceiling: door heads end lower, lamps and tops of cupboards lie lower.
 constexpr double kSlabFrom_m = 0.4, kSlabTo_m = 0.1;  // chosen
-constexpr double kThin_m = 0.4;  // chosen: a lintel is as thick as a wall, a sloping roof is not
+constexpr double kThin_m =
+    0.4;  // chosen: a lintel is as thick as a wall, a sloping roof is thicker
 
 struct Seen {
   int surfaces = 0, air = 0;
@@ -50,7 +51,7 @@ FloorCell CellAt(VoxelMap::Cursor& cursor, int x, int y, int ground, const Offse
   return is_open_above ? FloorCell::kOpen : FloorCell::kWall;
 }
 
-/// Lintels in pieces as wide as `square` cells both ways are part of a low ceiling: open.
+/// Opens lintels that contain a square of `square` cells: they are parts of a low ceiling.
 void OpenWideLintels(PlanGrid<FloorCell>& plan, int square) {
   const PlanGrid<FloorCell> before = plan;
   const auto is_lintel = [&](int x, int y) { return before.At(x, y) == FloorCell::kLintel; };

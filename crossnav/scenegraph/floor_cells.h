@@ -8,13 +8,13 @@
 namespace crossnav::scenegraph {
 
 enum class FloorCell : std::uint8_t {
-  kOutside,  ///< nothing of this storey is known here
+  kOutside,  ///< no known voxel of this storey
   kOpen,     ///< air over ground or furniture
-  kLintel,   ///< air that a body passes, closed above: a doorway
+  kLintel,   ///< passable air, closed above: a doorway
   kWall,
 };
 
-/// One cell for each column of the storey's window. Furniture below the ceiling is no wall.
+/// One cell for each column of the storey's window. Furniture below the ceiling is not a wall.
 PlanGrid<FloorCell> FloorCellsOf(const geometry::VoxelMap& map, const Storey& storey);
 
 }  // namespace crossnav::scenegraph

@@ -33,7 +33,7 @@ struct PlanGrid {
   PlanGrid() = default;
   PlanGrid(const GridFrame& of, const T& value) : frame(of), cells(of.Size(), value) {}
 
-  /// `outside` beyond the window.
+  /// `outside`: the value beyond the window.
   T At(int x, int y, const T& outside = {}) const {
     return frame.Holds(x, y) ? cells[frame.IndexOf(x, y)] : outside;
   }
@@ -46,7 +46,7 @@ inline constexpr std::array<GridStep, 4> kSides = {{{1, 0}, {-1, 0}, {0, 1}, {0,
 inline constexpr std::array<GridStep, 8> kAround = {
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
-/// Calls visit(index) for the cells of `grid` beside cell `index`.
+/// Calls visit(index) for the cells of `grid` adjacent to cell `index`.
 template <class Steps, class F>
 void ForEachBeside(const GridFrame& frame, std::size_t index, const Steps& steps, F&& visit) {
   const int x = frame.XOf(index), y = frame.YOf(index);

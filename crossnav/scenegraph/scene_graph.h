@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A map as a graph: building, floors, rooms, objects, and how they stand to each other. Plain data;
+// Scene graph of a map: building, floors, rooms, objects and their relations. Plain data;
 // build_graph.h makes it, `crossnav map graph` writes it. World frame, metres.
 #pragma once
 
@@ -13,9 +13,9 @@
 namespace crossnav::scenegraph {
 
 struct GraphFloor {
-  int id = 0;  ///< from 0, the lowest that was seen
+  int id = 0;  ///< from 0, the lowest seen floor
   double height_m = 0;
-  double area_m2 = 0;               ///< of the ground that was seen
+  double area_m2 = 0;               ///< of the seen ground
   std::optional<double> ceiling_m;  ///< height in the world; empty = not seen
 };
 
@@ -25,8 +25,8 @@ struct GraphRoom {
   double area_m2 = 0;
   Vector3d p_center_world = Vector3d::Zero();  ///< a point of the room, far from its walls
   Box3 box;                                    ///< ground to ceiling
-  /// Share of its area, in squares of half a metre, over which the memory holds features: what was
-  /// looked at, not only measured [0, 1].
+  /// Share of the room's area, in squares of half a metre, with features in the memory: looked at,
+  /// not only measured [0, 1].
   double looked_at = 0;
 };
 
@@ -35,9 +35,11 @@ struct GraphObject {
   std::string category;
   Vector3d p_center_world = Vector3d::Zero();
   Box3 box;
-  std::optional<int> floor, room;  ///< ids; empty = on none that was found
-  double match = 0;                ///< 0 chance, 1 the name itself (memory/query_match.h)
-  bool is_certain = false;         ///< the match is known to mean presence
+  std::optional<int> floor, room;    ///< ids; empty = no floor or room found
+  double match = 0;                  ///< 0 chance, 1 the name itself (memory/query_match.h)
+  bool is_certain = false;           ///< the match is above the calibrated threshold of presence
+  int record = -1;                   ///< id of the record it is made of; -1 = the memory's features
+  std::optional<double> confidence;  ///< of the record: that it is still there [0, 1]
 };
 
 /// Two rooms that meet: a door, an archway.
@@ -56,7 +58,7 @@ struct GraphStair {
 enum class RelationKind { kOn, kIn, kNextTo, kNear, kAbove };
 std::string_view NameOf(RelationKind kind);
 
-/// "object `from` is on object `to`". Next to and near hold both ways and are listed once.
+/// "object `from` is on object `to`". "Next to" and "near" are symmetric and listed once.
 struct GraphRelation {
   RelationKind kind = RelationKind::kNear;
   int from = 0, to = 0;  ///< object ids
@@ -69,10 +71,10 @@ struct SceneGraph {
   std::vector<GraphRoom> rooms;
   std::vector<GraphPassage> passages;
   std::vector<GraphStair> stairs;
-  std::vector<std::string> asked;  ///< categories that were looked for, found or not
+  std::vector<std::string> asked;  ///< categories that were asked for, found or not
   std::vector<GraphObject> objects;
   std::vector<GraphRelation> relations;
-  /// For each floor: the room of each column, -1 = none. Not written to files.
+  /// For each floor: room of each column, -1 = none. Not written to files.
   std::vector<PlanGrid<int>> plans;
 };
 

@@ -21,7 +21,7 @@ constexpr double kStorey_m = 1.5;      // as sim::Floor: split levels above the 
 constexpr double kReach_m = 2.0;       // chosen: furniture that hides the ground
 constexpr double kCeilingFrom_m = 1.9, kCeilingTo_m = 4.5;  // chosen: above the ground
 
-/// One connected piece of ground.
+/// A connected piece of ground.
 struct Level {
   int z = 0;  ///< lowest voxel above it
   std::vector<VoxelKey> columns;
@@ -35,7 +35,7 @@ bool HasHeadroom(VoxelMap::Cursor& cursor, const VoxelKey& surface, int voxels) 
   return true;
 }
 
-/// The voxels above surfaces that have head-room, by height.
+/// Voxels above surfaces with head-room, by height.
 std::map<int, std::set<VoxelKey>> StandingByHeight(const VoxelMap& map) {
   const int headroom = CellsCeil(kHeadroom_m, map.config().voxel_m);
   VoxelMap::Cursor cursor(map);
@@ -47,7 +47,7 @@ std::map<int, std::set<VoxelKey>> StandingByHeight(const VoxelMap& map) {
   return standing;
 }
 
-/// Takes the piece that holds `seed` out of `standing`: heights within one voxel of the seed's.
+/// Removes the piece that holds `seed` from `standing`: heights within one voxel of the seed's.
 Level TakePiece(std::map<int, std::set<VoxelKey>>& standing, const VoxelKey& seed) {
   Level level{seed.z, {}};
   std::deque<VoxelKey> open = {seed};
@@ -66,7 +66,7 @@ Level TakePiece(std::map<int, std::set<VoxelKey>>& standing, const VoxelKey& see
   return level;
 }
 
-/// Heights with the most ground first, so that a piece is named by its main height.
+/// Heights with the most ground first, so that the main height names a piece.
 std::vector<Level> LevelsOf(const VoxelMap& map) {
   auto standing = StandingByHeight(map);
   std::vector<std::pair<std::size_t, int>> order;
@@ -95,7 +95,7 @@ GridFrame FrameOf(const std::vector<Level>& levels, int margin) {
   return {x0 - margin, y0 - margin, x1 - x0 + 1 + 2 * margin, y1 - y0 + 1 + 2 * margin};
 }
 
-/// Ground of the levels, grown by `reach` columns.
+/// Ground of the levels, dilated by `reach` columns.
 PlanGrid<int> GroundOf(const GridFrame& frame, const std::vector<const Level*>& levels, int reach) {
   PlanGrid<int> ground(frame, kNoGround);
   std::vector<std::size_t> ring;

@@ -10,13 +10,13 @@
 
 namespace crossnav::scenegraph {
 
-/// Ground of a column that no storey has.
+/// Ground of a column without a storey.
 inline constexpr int kNoGround = -1'000'000;
 
 struct Storey {
   double height_m = 0;  ///< of its largest level
   double area_m2 = 0;   ///< of its levels
-  /// Most common height of the underside above its ground; empty where too little was seen.
+  /// Most common height of the ceiling above the ground; empty where too little was seen.
   std::optional<double> ceiling_m;
   /// Lowest voxel above the ground of each column: of the nearest level, up to two metres away.
   PlanGrid<int> ground_z;

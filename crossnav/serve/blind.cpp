@@ -26,7 +26,7 @@ class BlindStairs : public perception::StairSegmenter {
   }
 };
 
-/// Two dimensions: all texts lie along one, all images along the other.
+/// Two dimensions: all texts point along one axis, all images along the other.
 class BlindEncoder : public perception::DenseEncoder {
  public:
   int Dim() const override { return 2; }

@@ -18,21 +18,21 @@ inline constexpr std::uint32_t kMaxFrame_bytes = 32U << 20U;
 /// The frame around a payload of at most kMaxFrame_bytes.
 std::string FrameOf(std::string_view payload);
 
-/// Cuts a stream into payloads, however its bytes arrive. Holds no more than was received.
+/// Cuts a stream into payloads, in whatever pieces its bytes arrive. Holds only received bytes.
 class FrameReader {
  public:
   void Append(std::string_view bytes);
 
-  /// The next whole payload, valid until the next call; nothing where it is not complete. Error: a
-  /// length of 0 or above kMaxFrame_bytes, after which no later frame can be found.
+  /// The next whole payload, valid until the next call; empty if incomplete. Error: a length of 0
+  /// or above kMaxFrame_bytes; the stream is then unusable.
   Result<std::optional<std::string_view>> Next();
 
-  /// Received, but not yet part of a whole payload that was taken.
+  /// Received bytes that no taken payload includes.
   std::size_t pending_bytes() const { return buffer_.size() - taken_; }
 
  private:
   std::string buffer_;
-  std::size_t taken_ = 0;  // bytes of buffer_ that are done with
+  std::size_t taken_ = 0;  // consumed bytes of buffer_
 };
 
 }  // namespace crossnav::serve

@@ -15,7 +15,7 @@
 namespace crossnav::serve {
 namespace {
 
-constexpr int kBacklog = 8;  // clients that wait to be told that the place is taken
+constexpr int kBacklog = 8;  // waiting clients, which are told that the server is in use
 
 tl::unexpected<Error> System(const std::string& where) {
   return Fail(ErrorCode::kIo, std::strerror(errno), where);
@@ -34,7 +34,7 @@ Result<void> BindAndListen(int socket, const sockaddr* address, socklen_t size,
   return {};
 }
 
-/// Makes the path free, where what lies there is a socket without a listener.
+/// Removes a stale socket without a listener at the path.
 Result<void> ClearPath(const sockaddr_un& address, const std::string& path) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return {};
@@ -58,7 +58,7 @@ Result<Descriptor> OpenUnix(const std::string& path) {
   if (auto ok = ClearPath(address, path); !ok) return tl::unexpected(ok.error());
   auto made = NewSocket(AF_UNIX, path);
   if (!made) return made;
-  const mode_t before = ::umask(0077);  // the socket is its owner's
+  const mode_t before = ::umask(0077);  // access for the owner only
   const auto ok = BindAndListen(made->value(), reinterpret_cast<const sockaddr*>(&address),
                                 sizeof address, path);
   ::umask(before);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where clients connect: a Unix domain socket, or TCP on loopback.
+// Listening socket: a Unix domain socket, or TCP on loopback.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ namespace crossnav::serve {
 
 struct Address {
   std::string path;  ///< of a Unix domain socket; empty = TCP
-  int port = 0;      ///< on 127.0.0.1; 0 = any that is free
+  int port = 0;      ///< on 127.0.0.1; 0 = any free port
 };
 
-/// Closes a file descriptor when it goes.
+/// Closes a file descriptor on destruction.
 class Descriptor {
  public:
   explicit Descriptor(int value = -1) : value_(value) {}
@@ -30,8 +30,8 @@ class Descriptor {
 
 class Listener {
  public:
-  /// A socket file that nobody listens on any more is replaced; the new one is its owner's alone.
-  /// Errors: a path that is too long, is another kind of file or is listened on; a taken port.
+  /// Replaces a stale socket file; the new file is accessible to its owner only. Errors: a path
+  /// that is too long, is another kind of file or has a listener; a port in use.
   static Result<Listener> Open(const Address& address);
   Listener(Listener&&) = default;
   Listener& operator=(Listener&&) = delete;
@@ -39,7 +39,7 @@ class Listener {
   ~Listener();
 
   int descriptor() const { return socket_.value(); }
-  /// "unix:PATH" or "tcp:127.0.0.1:PORT", with the port that was taken.
+  /// "unix:PATH" or "tcp:127.0.0.1:PORT", with the actual port.
   const std::string& name() const { return name_; }
 
  private:

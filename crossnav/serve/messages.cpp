@@ -15,7 +15,7 @@
 namespace crossnav::serve {
 namespace {
 
-/// 0 for what no image is as wide as.
+/// 0 for sizes that no image has.
 int SizeOf(std::uint32_t value) {
   return value <= static_cast<std::uint32_t>(std::numeric_limits<int>::max())
              ? static_cast<int>(value)
@@ -77,9 +77,14 @@ void Fill(const State& state, live::State* m) {
   m->set_goals(state.goals);
   m->set_steps(state.steps);
   m->set_last_sequence(state.last_sequence);
+  m->set_pose(static_cast<live::PoseState>(state.pose));
+  if (!state.T_map_world) return;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      m->add_t_map_world(state.T_map_world->matrix()(row, column));
 }
 
-/// Fills the reply's member of the kind that it is given.
+/// Fills the reply's member for the given kind.
 struct Writer {
   live::Reply& reply;
 
@@ -143,7 +148,7 @@ struct Writer {
 
 Result<Request> ParseRequest(std::string_view bytes) {
 #ifdef CROSSNAV_PROTOBUF_LOGS
-  google::protobuf::SetLogHandler(nullptr);  // it prints what is returned here
+  google::protobuf::SetLogHandler(nullptr);  // it would print the errors that are returned here
 #endif
   live::Request m;
   if (!m.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What client and server say to each other, as plain structs. proto/live.proto is their form on the
-// wire and says what each field means; only messages.cpp knows it.
+// Messages between client and server, as plain structs. proto/live.proto defines their wire format
+// and the meaning of each field; only messages.cpp uses it.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct SetGoal {
   std::string goal;
 };
 
-/// An observation with its images as they came: sizes and numbers are not checked yet.
+/// A received observation: sizes and numbers are not checked yet.
 struct RawObservation {
   std::uint64_t sequence = 0;
   std::int64_t time_ns = 0;
@@ -39,7 +39,7 @@ struct RawObservation {
   std::vector<double> T_world_camera;
   bool has_collided = false;
   std::optional<CameraIntrinsics> rgb_camera;
-  std::vector<double> T_camera_rgb, T_base_camera;  ///< empty where left out
+  std::vector<double> T_camera_rgb, T_base_camera;  ///< empty if absent
 };
 
 struct Reset {
@@ -52,12 +52,18 @@ using Request = std::variant<Hello, SetGoal, RawObservation, Reset, GetStats>;
 
 enum class Phase { kNoGoal, kSearching, kClaimed, kExplored };
 
+/// Whether the agent knows where in its map it is; given = the client's poses are in the map's
+/// frame.
+enum class PoseState { kGiven, kLocalising, kKnown, kUnknown };
+
 struct State {
   Phase phase = Phase::kNoGoal;
   std::string goal;
   std::uint32_t goals = 0;
   std::uint64_t steps = 0;
   std::uint64_t last_sequence = 0;
+  PoseState pose = PoseState::kGiven;
+  std::optional<Pose> T_map_world{};  ///< once known
 };
 
 struct Welcome {
@@ -71,21 +77,21 @@ struct Welcome {
 struct Answer {
   std::uint64_t sequence = 0;
   std::int64_t time_ns = 0;
-  std::optional<Action> action;  ///< nothing: stay
+  std::optional<Action> action;  ///< empty: stay
   Command command;
   State state;
   std::string mode, reason;
   std::optional<Vector3d> p_claimed_world;
 };
 
-/// What happened since the server started; the meanings stand in proto/live.proto.
+/// Counts since the server's start; proto/live.proto defines them.
 struct Counters {
   std::uint64_t connections = 0, refused = 0, replaced = 0;
   std::uint64_t observations = 0, answered = 0, repeated = 0, late = 0, dropped = 0;
   std::uint64_t malformed = 0, failed = 0, collisions = 0, goals = 0, resets = 0, stops = 0;
 };
 
-/// visit(name, count) for each of them.
+/// Calls visit(name, count) for each counter.
 template <class V, class C>
 requires std::is_same_v<std::remove_const_t<C>, Counters>
 void Visit(V&& visit, C& c) {

@@ -63,7 +63,7 @@ Result<void> CheckImages(const RawObservation& raw, const CameraIntrinsics& came
   return CheckSize(raw.depth, depth_bytes, hello, "observation.depth");
 }
 
-/// The colour camera and how the camera sits on the robot, where they are said.
+/// The colour camera, and the mounting of the camera on the robot, if given.
 Result<void> ReadMountings(const RawObservation& raw, Observation* obs) {
   if (raw.rgb_camera) obs->rgb_camera = *raw.rgb_camera;
   if (!raw.T_camera_rgb.empty()) {
@@ -82,7 +82,7 @@ Result<void> ReadMountings(const RawObservation& raw, Observation* obs) {
 }  // namespace
 
 Result<void> CheckCamera(const CameraIntrinsics& camera, const char* where) {
-  constexpr int kLeast_px = 8, kMost_px = 8192;  // those of sensor.width_px
+  constexpr int kLeast_px = 8, kMost_px = 8192;  // range of sensor.width_px
   const auto is_size = [](int px) { return px >= kLeast_px && px <= kMost_px; };
   if (!is_size(camera.width_px) || !is_size(camera.height_px))
     return Fail(ErrorCode::kInvalid, "width and height must be 8 to 8192 px", where);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a client sent as an observation, checked and turned into one.
+// Checks a client's observation and converts it.
 #pragma once
 
 #include "crossnav/core/observation.h"
@@ -8,11 +8,11 @@
 
 namespace crossnav::serve {
 
-/// Errors, at the key `where`: sizes that no image has, focal lengths that are not positive.
+/// Errors, at the key `where`: impossible image sizes, focal lengths that are not positive.
 Result<void> CheckCamera(const CameraIntrinsics& camera, const char* where = "hello.camera");
 
-/// `camera` is that of Hello. Errors name the field: an image of another size than its camera's, a
-/// camera or a pose that is none.
+/// `camera` is from Hello. Errors name the field: an image of another size than its camera's, an
+/// invalid camera or pose.
 Result<Observation> ObservationOf(const RawObservation& raw, const CameraIntrinsics& camera);
 
 }  // namespace crossnav::serve

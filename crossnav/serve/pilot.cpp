@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "crossnav/agent/observation_check.h"
 #include "crossnav/serve/observation.h"
 
 namespace crossnav::serve {
@@ -12,7 +13,7 @@ Refusal Refused(std::string text) {
   return {Fault::kRefused, std::move(text), 0};
 }
 
-/// The agent refused the frame itself, not what was made of it.
+/// The agent refused the frame itself, not a result of perception.
 bool IsOfObservation(const Error& error) {
   return error.where.rfind("observation.", 0) == 0;
 }
@@ -60,8 +61,17 @@ Reply Pilot::Do(const Hello& hello) {
 }
 
 Result<void> Pilot::StartAgent(double camera_height_m) {
-  auto made = options_.make_agent(camera_height_m, restore_);
+  const bool is_lost = restore_ && options_.wake_up != nullptr;
+  auto made = options_.make_agent(camera_height_m, restore_ && !is_lost);
   if (!made) return tl::unexpected(made.error());
+  awakening_.reset();
+  T_agent_world_ = Pose::Identity();
+  if (is_lost) {
+    auto awakening = options_.wake_up(camera_height_m);
+    if (!awakening) return tl::unexpected(awakening.error());
+    awakening_.emplace(std::move(*awakening));
+    state_.pose = PoseState::kLocalising;
+  }
   agent_.emplace(std::move(*made));
   camera_height_m_ = camera_height_m;
   return {};
@@ -137,16 +147,23 @@ Reply Pilot::Do(const RawObservation& raw) {
   return answer;
 }
 
-/// Without a goal to look for the agent is left alone, and the robot stays where it is.
-Result<void> Pilot::Step(const Observation& obs, Answer* answer) {
+/// Without a goal the agent is not stepped, and the robot stays where it is.
+Result<void> Pilot::Step(Observation obs, Answer* answer) {
   if (state_.phase == Phase::kClaimed && last_) {
     answer->action = Action::kStop;
     answer->p_claimed_world = last_->p_claimed_world;
   }
   if (state_.phase != Phase::kSearching) return {};
+  if (awakening_) {
+    const auto is_lost = Localise(obs, answer);
+    if (!is_lost) return tl::unexpected(is_lost.error());
+    if (*is_lost) return {};
+  }
+  obs.T_world_camera = T_agent_world_ * obs.T_world_camera;
   auto result = agent_->Step(obs);
   if (!result) return tl::unexpected(result.error());
   ++state_.steps;
+  if (options_.on_step) options_.on_step(obs, *result, *agent_);
   answer->mode = result->trace.mode;
   answer->reason = result->trace.reason;
   if (result->all_explored) {
@@ -157,7 +174,38 @@ Result<void> Pilot::Step(const Observation& obs, Answer* answer) {
   answer->command = CommandOf(result->action, options_.action, options_.serve.period_s);
   if (result->action != Action::kStop) return {};
   state_.phase = Phase::kClaimed;
-  answer->p_claimed_world = result->p_claimed_world;
+  if (result->p_claimed_world)
+    answer->p_claimed_world = T_agent_world_.inverse() * *result->p_claimed_world;
+  return {};
+}
+
+Result<bool> Pilot::Localise(const Observation& obs, Answer* answer) {
+  if (auto ok = agent::CheckObservation(obs); !ok) return tl::unexpected(ok.error());
+  const localization::LocalizeStep step = awakening_->Step(obs);
+  if (step.status != localization::Status::kLocalising) {
+    if (auto ok = Arrive(step); !ok) return tl::unexpected(ok.error());
+    return false;
+  }
+  ++state_.steps;
+  answer->mode = "localise";
+  answer->reason = std::to_string(step.rivals) + " rivals";
+  answer->action = step.action;
+  answer->command = CommandOf(step.action, options_.action, options_.serve.period_s);
+  return true;
+}
+
+/// Known: the agent starts from the saved memory, and the goal is set again.
+Result<void> Pilot::Arrive(const localization::LocalizeStep& found) {
+  T_agent_world_ = awakening_->T_agent_odom();
+  awakening_.reset();
+  state_.pose = PoseState::kUnknown;
+  if (found.status != localization::Status::kKnown) return {};
+  auto made = options_.make_agent(camera_height_m_, true);
+  if (!made) return tl::unexpected(made.error());
+  agent_.emplace(std::move(*made));
+  if (auto ok = agent_->SetGoal(state_.goal); !ok) return ok;
+  state_.pose = PoseState::kKnown;
+  state_.T_map_world = T_agent_world_;
   return {};
 }
 

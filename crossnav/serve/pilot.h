@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The agent behind a connection: one request in, one reply out. It outlives connections, so that a
-// client that dies leaves everything to the next. Knows no socket. Not thread-safe.
+// The agent behind a connection: one request in, one reply out. It outlives connections, so that
+// the next client continues after a client's death. Independent of sockets. Not thread-safe.
 #pragma once
 
 #include <functional>
@@ -10,35 +10,40 @@
 #include <vector>
 
 #include "crossnav/agent/agent.h"
+#include "crossnav/localization/awakening.h"
 #include "crossnav/serve/messages.h"
 #include "crossnav/serve/serve_config.h"
 
 namespace crossnav::serve {
 
-/// What the program says of itself, and how it makes agents.
+/// Program information, and the factory of agents.
 struct PilotOptions {
   std::string version, perception;
-  std::vector<std::string> goals;  ///< names that perception is made for
+  std::vector<std::string> goals;  ///< names for which perception is made
   ServeConfig serve;
   ActionConfig action;
-  double camera_height_m = 0;  ///< where Hello has none
+  double camera_height_m = 0;  ///< used if Hello has none
   bool has_saved_memory = false;
-  /// A new agent for a camera so high above the ground, with the saved memory or without. The
-  /// one before is gone by then.
+  /// Creates an agent for a camera at this height above the ground, with or without the saved
+  /// memory. The previous agent is destroyed first.
   std::function<Result<agent::Agent>(double camera_height_m, bool restore)> make_agent;
+  /// Called after each step of the agent; may be empty.
+  std::function<void(const Observation&, const agent::StepResult&, const agent::Agent&)> on_step{};
+  /// Set where the robot does not know its pose in the saved memory: it is localised first.
+  std::function<Result<localization::Awakening>(double camera_height_m)> wake_up;
 };
 
 class Pilot {
  public:
   explicit Pilot(PilotOptions options);
 
-  /// A client has come; it has to say Hello before anything else.
+  /// A client has connected; its first message must be Hello.
   void StartConnection();
 
-  /// Whatever the bytes are, there is a reply.
+  /// Replies to any bytes.
   Reply Handle(std::string_view payload);
 
-  /// A frame that cannot even be cut out of the stream.
+  /// Refusal of a frame that cannot be cut out of the stream.
   Refusal Malformed(const Error& error, std::uint64_t sequence = 0);
 
   Counters& counters() { return counters_; }
@@ -54,19 +59,24 @@ class Pilot {
   Reply Do(const GetStats&) { return counters_; }
 
   Result<void> StartAgent(double camera_height_m);
-  /// Late, or without a number.
+  /// Refusal of a late frame, or of a frame without a number.
   std::optional<Refusal> OutOfOrder(const RawObservation& raw);
-  Result<void> Step(const Observation& obs, Answer* answer);
+  Result<void> Step(Observation obs, Answer* answer);
+  /// True while the robot has to find itself; the answer has the action for it.
+  Result<bool> Localise(const Observation& obs, Answer* answer);
+  Result<void> Arrive(const localization::LocalizeStep& found);
 
   PilotOptions options_;
   Counters counters_;
   std::optional<agent::Agent> agent_;
-  double camera_height_m_ = 0;  // of agent_
-  bool restore_ = false;        // what the next agent starts with
+  std::optional<localization::Awakening> awakening_;  // until it is over
+  Pose T_agent_world_ = Pose::Identity();             // from the client's frame to the agent's
+  double camera_height_m_ = 0;                        // of agent_
+  bool restore_ = false;                              // what the next agent starts with
   State state_;
   std::optional<Answer> last_;              // to the observation state_.last_sequence
-  std::optional<CameraIntrinsics> camera_;  // of this connection; nothing before Hello
-  std::int64_t last_time_ns_ = 0;           // likewise; clocks may start anew
+  std::optional<CameraIntrinsics> camera_;  // of this connection; empty before Hello
+  std::int64_t last_time_ns_ = 0;           // likewise; clocks may restart
 };
 
 }  // namespace crossnav::serve

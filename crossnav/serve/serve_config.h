@@ -5,7 +5,7 @@
 namespace crossnav::serve {
 
 struct ServeConfig {
-  double period_s = 1.0;    // chosen: 0.25 m/s and 30 deg/s, which small robots reach
+  double period_s = 1.0;    // chosen: 0.25 m/s and 30 deg/s, within reach of small robots
   double watchdog_s = 3.0;  // chosen: an action, its picture and a slow step
 };
 

@@ -20,7 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSendLimit_ms = 2000;  // chosen: a client that reads nothing for so long is gone
+// chosen: a client that reads nothing for this long is disconnected
+constexpr int kSendLimit_ms = 2000;
 constexpr std::size_t kRead_bytes = 1 << 18;  // chosen: a VGA frame in ten reads
 
 double SecondsSince(Clock::time_point then) {
@@ -50,7 +51,8 @@ struct Client {
   Descriptor socket;
   FrameReader reader{};
   Clock::time_point last_heard = Clock::now();
-  std::optional<Clock::time_point> moving_since{};  ///< of the last command to move; else nothing
+  /// time of the last command to move; else empty
+  std::optional<Clock::time_point> moving_since{};
 };
 
 class Loop {
@@ -92,14 +94,14 @@ Result<void> Loop::Run() {
       return Fail(ErrorCode::kIo, std::strerror(errno), listener_.name());
     if (count < 0) continue;
     if (ready[0].revents != 0) return {};
-    // First those who are here: a place that was left must not look taken to who comes next.
+    // Connected clients first: the place of a disconnected client must be free for the next client.
     if (ready[2].revents != 0) Hear((ready[2].revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0);
     Watch();
     if (ready[1].revents != 0) Accept();
   }
 }
 
-/// Until the watchdog must look; -1 = it need not.
+/// Time until the watchdog's next check; -1 = none.
 int Loop::WaitLimit_ms() const {
   if (!client_ || !client_->moving_since) return -1;
   const double left_s = pilot_.config().watchdog_s - SecondsSince(*client_->moving_since);
@@ -114,7 +116,7 @@ bool Loop::IsAskedToStop() const {
 void Loop::Accept() {
   Descriptor socket(
       ::accept4(listener_.descriptor(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (!socket.is_open()) return;  // it has gone again
+  if (!socket.is_open()) return;  // already disconnected
   Counters& counters = pilot_.counters();
   ++counters.connections;
   if (client_ && SecondsSince(client_->last_heard) < pilot_.config().watchdog_s) {
@@ -133,8 +135,8 @@ void Loop::Accept() {
   Log("a client is here");
 }
 
-/// Everything that a client said before it hung up counts; else one read, so that others get a
-/// look.
+/// Reads everything that a client sent before it hung up; otherwise one read, so that others get a
+/// turn.
 void Loop::Hear(bool has_hung_up) {
   do {
     switch (Receive()) {
@@ -160,7 +162,7 @@ Loop::Read Loop::Receive() {
   return is_later ? Read::kNone : Read::kEnd;
 }
 
-/// False: the client is not here any more, or all is to end.
+/// False: the client is disconnected, or the server ends.
 bool Loop::AnswerFrames() {
   for (;;) {
     const auto payload = client_->reader.Next();
@@ -175,7 +177,7 @@ bool Loop::AnswerFrames() {
       Drop("takes no answers");
       return false;
     }
-    client_->last_heard = Clock::now();  // it waited for this
+    client_->last_heard = Clock::now();  // the client waited for this answer
     if (const auto* answer = std::get_if<Answer>(&reply)) {
       const bool moves = !(answer->command == Command{});
       client_->moving_since = moves ? std::optional(client_->last_heard) : std::nullopt;

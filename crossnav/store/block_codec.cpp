@@ -64,7 +64,7 @@ bool IsFiniteHalf(std::uint16_t bits) {
   return (bits & 0x7c00) != 0x7c00;
 }
 
-// Low bytes of all values, then high bytes: exponents lie side by side and compress.
+// Writes all low bytes, then all high bytes: adjacent exponents compress well.
 void PutHalves(const std::vector<std::uint16_t>& halves, Bytes& out) {
   const std::size_t n = halves.size(), begin = out.size();
   out.resize(begin + 2 * n);
@@ -90,7 +90,7 @@ struct FeatureParts {
   std::size_t Bytes() const { return (has_compact ? 4 * rows : 0) + 2 * halves + compact; }
 };
 
-// A scale for each row, 0 where it is of halves. False if one is no scale.
+// Reads a scale for each row, 0 for half-precision rows. False if a scale is invalid.
 bool ReadScales(std::size_t dim, Reader r, std::vector<PlacedRow>& rows, FeatureParts& parts) {
   for (PlacedRow& row : rows) {
     const float scale = parts.has_compact ? r.Get<float>() : 0.0f;
@@ -167,7 +167,7 @@ Bytes EncodeFeatureBlock(const memory::SemanticMemory& memory,
   std::vector<std::int8_t> compact;
   std::vector<float> scales;
   halves.reserve(rows.size() * memory.Dim());
-  w.Put(std::uint16_t{0});  // the number of rows, below
+  w.Put(std::uint16_t{0});  // placeholder for the number of rows
   for (std::int64_t row : rows) {
     const memory::MemoryRow data = memory.RowAt(row);
     w.Put(static_cast<std::uint16_t>(geometry::CellIndexOf(data.key)));

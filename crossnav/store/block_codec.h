@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A block's content as bytes and back (docs/formats/map_file.md). Little-endian. Decoding checks
-// every length and value: bytes come from outside.
+// Codec of a block's content (docs/formats/map_file.md). Little-endian. Decoding checks every
+// length and value, because files come from outside.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace crossnav::store {
 
 /// Evidence, stair marks and derived states of 512 voxels.
 Bytes EncodeMapBlock(const geometry::MapBlock& block, geometry::VoxelMap::Cursor& states);
-/// The evidence; states are derived again. Empty if the bytes are not such a block.
+/// Decodes the evidence; states are derived again. Empty if the bytes are no map block.
 std::optional<geometry::MapBlock> DecodeMapBlock(const geometry::VoxelKey& key, ByteView raw);
 
 /// One feature row with its place in the memory's order.
@@ -31,7 +31,7 @@ Bytes EncodeFeatureBlock(const memory::SemanticMemory& memory,
 std::optional<std::vector<PlacedRow>> DecodeFeatureBlock(const geometry::VoxelKey& key, int dim,
                                                          ByteView raw);
 
-/// Upper bounds of what a block of either kind may hold.
+/// Upper bounds of a block of either kind.
 constexpr std::size_t kMaxMapBlockBytes = 5 * 64 + 512 + 1 + 512 * 4;
 std::size_t MaxFeatureBlockBytes(int dim);
 

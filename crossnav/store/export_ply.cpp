@@ -23,7 +23,7 @@ constexpr std::array<Rgb8, geometry::kVoxelStateCount> kStateColours = {{
     {210, 90, 60},    // FAKE_STAIR
 }};
 
-// Dark blue, teal, yellow: monotone in lightness, so that it reads in grey too.
+// Dark blue, teal, yellow: monotone in lightness, so that it is legible in grey.
 Rgb8 Ramp(double t) {
   constexpr std::array<std::array<double, 3>, 3> kStops = {
       {{40, 20, 90}, {30, 140, 140}, {250, 230, 60}}};

@@ -28,10 +28,10 @@ std::vector<PlyPoint> StatePoints(const geometry::VoxelMap& map, bool surfaces_o
 std::vector<PlyPoint> FieldPoints(const memory::SemanticMemory& memory,
                                   std::span<const float> field);
 
-/// Writes all or nothing.
+/// Writes the whole file or nothing.
 Result<void> WritePly(const std::filesystem::path& path, std::span<const PlyPoint> points);
 
-/// Colour of a state, the same everywhere.
+/// Colour of a state, common to all exports.
 Rgb8 ColourOf(geometry::VoxelState state);
 
 }  // namespace crossnav::store

@@ -7,6 +7,7 @@
 #include "crossnav/store/block_codec.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
+#include "crossnav/store/object_table.h"
 #include "crossnav/store/sqlite_file.h"
 #include "crossnav/store/stair_tables.h"
 
@@ -15,10 +16,10 @@ namespace {
 
 using geometry::VoxelKey;
 
-constexpr std::size_t kNamedBlocks = 3;  // chosen: damaged blocks spelled out in an error message
+constexpr std::size_t kNamedBlocks = 3;  // chosen: damaged blocks listed in an error message
 
 bool IsKey(std::int64_t v) {
-  // Voxel indices are eight times as large and have to fit too.
+  // Voxel indices are eight times as large and have to fit as well.
   return v >= std::numeric_limits<std::int32_t>::min() / geometry::kBlockSide &&
          v <= std::numeric_limits<std::int32_t>::max() / geometry::kBlockSide;
 }
@@ -37,7 +38,7 @@ class BlockReader {
     return BlockReader(table, std::move(*select), damaged);
   }
 
-  /// The block's bytes, or empty with the damage noted.
+  /// The block's bytes, or empty with the damage recorded.
   std::optional<Bytes> Read(std::int64_t id, std::size_t max_bytes) {
     key_ = {};
     select_.Reset();
@@ -87,7 +88,7 @@ Result<std::vector<geometry::MapBlock>> ReadMapBlocks(Database& db, const MapHea
   return blocks;
 }
 
-// Appends block by block, then brings the rows into their order of first observation.
+// Appends block by block, then sorts the rows by first observation.
 Result<void> ReadFeatures(Database& db, const MapHeader& header, memory::SemanticMemory& memory,
                           std::vector<std::string>& damaged) {
   auto reader = BlockReader::Open(db, kFeatureTable, damaged);
@@ -121,7 +122,7 @@ Error DamageError(const std::string& file, const std::vector<std::string>& damag
   for (std::size_t i = 0; i < std::min(damaged.size(), kNamedBlocks); ++i)
     what += (i > 0 ? "; " : "") + damaged[i];
   if (damaged.size() > kNamedBlocks) what += "; ...";
-  what += ". The rest can be loaded by asking for what is intact (skip damaged)";
+  what += ". The intact blocks can be loaded (skip damaged)";
   return {ErrorCode::kMalformed, what, file};
 }
 
@@ -169,7 +170,7 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
   if (options.skip_damaged) {
     if (auto sound = IsEmptyFile(*db); !sound)
       damaged.push_back("file structure: " + sound.error().what);
-    // Lets SQLite read what is left of a file that was cut short. Nothing is written here.
+    // Lets SQLite read the rest of a truncated file. Nothing is written here.
     (void)db->Exec("PRAGMA writable_schema=ON");
   }
   if (auto begun = db->Exec("BEGIN"); !begun) return tl::unexpected(begun.error());
@@ -189,6 +190,7 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
     return tl::unexpected(done.error());
   auto flights = ReadFlights(*db, damaged);
   auto seen_stairs = ReadSeenStairs(*db, damaged);
+  auto objects = ReadObjects(*db, damaged);
   if (!damaged.empty() && !options.skip_damaged)
     return tl::unexpected(DamageError(db->file(), damaged));
 
@@ -202,6 +204,7 @@ Result<LoadedMemory> LoadMemory(const std::filesystem::path& path, const LoadOpt
                       std::move(memory),
                       std::move(flights),
                       std::move(seen_stairs),
+                      std::move(objects),
                       std::move(damaged)};
 }
 

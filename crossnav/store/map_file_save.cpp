@@ -8,6 +8,7 @@
 #include "crossnav/store/block_codec.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
+#include "crossnav/store/object_table.h"
 #include "crossnav/store/sqlite_file.h"
 #include "crossnav/store/stair_tables.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 using geometry::VoxelKey;
 
-// Writes one table's blocks in order, leaving those that are in the file already.
+// Writes the blocks of one table in order; skips blocks that the file holds already.
 class BlockWriter {
  public:
   static Result<BlockWriter> Open(Database& db, const char* table, SaveReport& report) {
@@ -49,7 +50,7 @@ class BlockWriter {
     return insert_.Run();
   }
 
-  /// Removes what an earlier revision had beyond the last block.
+  /// Removes blocks of an earlier revision beyond the last block.
   Result<std::int64_t> Finish() {
     report_->blocks_removed += std::max<std::int64_t>(0, before_ - next_);
     if (auto done = remove_.Bind(1, next_).Run(); !done) return tl::unexpected(done.error());
@@ -66,7 +67,7 @@ class BlockWriter {
         remove_(std::move(remove)),
         before_(before) {}
 
-  // Same content at the same place, and what lies there is intact.
+  // True if the file holds the same content, intact, at the same place.
   Result<bool> IsThere(const BlockPlace& place) {
     const auto row = select_.Bind(1, place.id).Step();
     if (!row) return tl::unexpected(row.error());
@@ -112,7 +113,7 @@ Result<std::int64_t> WriteFeatureBlocks(Database& db, const memory::SemanticMemo
   return writer->Finish();
 }
 
-// The revision in the file, 0 for a new one.
+// Revision in the file; 0 for a new file.
 Result<std::int64_t> PrepareTables(Database& db) {
   const auto is_empty = IsEmptyFile(db);
   if (!is_empty) return tl::unexpected(is_empty.error());
@@ -139,6 +140,7 @@ Result<SaveReport> SaveInTransaction(Database& db, const geometry::VoxelMap& map
 
   if (auto done = WriteFlights(db, info.flights); !done) return tl::unexpected(done.error());
   if (auto done = WriteSeenStairs(db, info.seen_stairs); !done) return tl::unexpected(done.error());
+  if (auto done = WriteObjects(db, info.objects); !done) return tl::unexpected(done.error());
 
   MapHeader header;
   header.revision = report.revision = *revision + 1;
@@ -157,7 +159,7 @@ Result<SaveReport> SaveInTransaction(Database& db, const geometry::VoxelMap& map
   return report;
 }
 
-/// As if nothing had been tried: a file that was made for it goes again.
+/// Rolls back; removes the file if this save created it.
 void Undo(Database& db, const std::filesystem::path& place, bool is_new) {
   (void)db.Exec("ROLLBACK");
   std::error_code ignored;
@@ -178,8 +180,8 @@ Result<SaveReport> SaveMemory(const std::filesystem::path& path, const geometry:
   const bool is_new = !std::filesystem::exists(*place, ignored);
   auto db = Database::Open(*place, Database::Access::kWrite);
   if (!db) return tl::unexpected(db.error());
-  // Large pages suit blobs of 20 to 100 kB. The rollback journal keeps the map one file, and a save
-  // that was killed is undone by whoever opens it next.
+  // Large pages suit blobs of 20 to 100 kB. With the rollback journal the map is one file; the next
+  // opening undoes an interrupted save.
   auto begun = db->Exec(
       "PRAGMA page_size=16384;PRAGMA journal_mode=DELETE;PRAGMA synchronous=FULL;"
       "PRAGMA cache_size=-65536;BEGIN IMMEDIATE");

@@ -16,12 +16,12 @@ constexpr std::array<const char*, 2> kHeaderTables = {"header", "header_copy"};
 constexpr const char* kHeaderColumns =
     "format, revision, voxel_m, clearing, feature_dim, encoder_name, encoder_hash, frame, "
     "map_blocks, feature_blocks, feature_rows, dropped_rows, hash, compacted_rows";
-// Format 1 knew no compacted rows.
+// Format 1 has no compacted rows.
 constexpr const char* kFormat1Columns =
     "format, revision, voxel_m, clearing, feature_dim, encoder_name, encoder_hash, frame, "
     "map_blocks, feature_blocks, feature_rows, dropped_rows, hash, 0";
 
-// Every field, with its length where that varies, so that no two headers share bytes.
+// Every field, with the length of variable fields, so that no two headers share bytes.
 std::int64_t HashOf(const MapHeader& h) {
   std::string bytes;
   const auto put = [&](std::int64_t value) {
@@ -47,10 +47,10 @@ std::int64_t HashOf(const MapHeader& h) {
   return HashBytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
-/// Of a block: its row has seven columns.
+/// Minimum size of a block: its row has seven columns.
 constexpr std::int64_t kLeastBlockBytes = 16;
 
-/// Of a size that the setting may have.
+/// True if the setting map.voxel_m may have this size.
 bool IsVoxelSize(double voxel_m) {
   geometry::MapConfig config;
   for (const ConfigField& field : FieldsOf(config))

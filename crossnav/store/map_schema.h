@@ -14,21 +14,21 @@ inline constexpr std::int64_t kApplicationId = 0x434e4d50;  // "CNMP", reaches d
 inline constexpr const char* kMapTable = "map_block";
 inline constexpr const char* kFeatureTable = "feature_block";
 
-/// Makes the tables in an empty file. Inside a transaction.
+/// Creates the tables in an empty file. Inside a transaction.
 Result<void> CreateTables(Database& db);
 
-/// Makes an older file's tables those of this format; the header is to be written next. Inside a
+/// Upgrades an older file's tables to this format; the caller writes the header next. Inside a
 /// transaction.
 Result<void> UpgradeTables(Database& db);
 
-/// Both copies. Inside a transaction.
+/// Writes both copies. Inside a transaction.
 Result<void> WriteHeader(Database& db, const MapHeader& header);
 
 struct HeaderRead {
   MapHeader header;
-  std::string damage;  ///< empty, or what is wrong although one copy is intact
+  std::string damage;  ///< damage of the other copy; empty if none
 };
-/// The first intact copy. Errors: not a map file, a newer format, both copies damaged.
+/// Reads the first intact copy. Errors: not a map file, a newer format, both copies damaged.
 Result<HeaderRead> ReadHeader(Database& db);
 
 /// True if the file holds no tables yet.

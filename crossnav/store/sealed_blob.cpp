@@ -49,7 +49,7 @@ Bytes Compress(ByteView raw) {
 std::optional<Bytes> Decompress(ByteView compressed, std::size_t max_bytes) {
   static thread_local const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
   const unsigned long long size = ZSTD_getFrameContentSize(compressed.data(), compressed.size());
-  // Both error values lie above any limit.
+  // ZSTD's two error values exceed any limit.
   if (size > max_bytes) return std::nullopt;
   Bytes out(static_cast<std::size_t>(size));
   const std::size_t got = ZSTD_decompressDCtx(context.get(), out.data(), out.size(),

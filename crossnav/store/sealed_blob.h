@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytes as they lie in the file: zstd-compressed, with an XXH3 checksum that also covers where they
-// belong, so that a block in the wrong place is damage too.
+// Sealed blobs: zstd-compressed bytes with an XXH3 checksum that also covers their place, so that a
+// misplaced block counts as damage.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace crossnav::store {
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
-/// XXH3, 64 bits, as the signed number SQLite stores.
+/// XXH3, 64 bits, as the signed integer that SQLite stores.
 std::int64_t HashBytes(ByteView bytes);
 
-/// Where a block belongs.
+/// Place of a block in the file.
 struct BlockPlace {
   std::string_view table;
   std::int64_t id = 0;
@@ -31,7 +31,7 @@ struct BlockPlace {
 std::int64_t HashBlock(const BlockPlace& place, ByteView compressed);
 
 Bytes Compress(ByteView raw);
-/// Empty if the bytes are no zstd frame or would grow above `max_bytes`.
+/// Empty if the bytes are no zstd frame or exceed `max_bytes` decompressed.
 std::optional<Bytes> Decompress(ByteView compressed, std::size_t max_bytes);
 
 }  // namespace crossnav::store

@@ -105,12 +105,12 @@ Result<Database> Database::Open(const std::filesystem::path& path, Access access
   const int write = SQLITE_OPEN_READWRITE | (access == Access::kWrite ? SQLITE_OPEN_CREATE : 0);
   sqlite3* raw = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &raw, write, nullptr);
-  // SQLite itself falls back to reading where writing is not allowed.
+  // SQLite itself falls back to read-only where writing is not allowed.
   Database db(file, raw);
   if (code != SQLITE_OK) return FailSqlite(raw, code, file);
   sqlite3_busy_timeout(raw, kBusyTimeoutMs);
   sqlite3_extended_result_codes(raw, 1);
-  // Files come from anywhere: schemas are not trusted, cells are checked.
+  // Files come from outside: schemas are not trusted, cells are checked.
   sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The few things the map file needs of SQLite, with errors as values. Values read from a row are
-// valid until the statement's next step.
+// Adapter over SQLite with errors as values, limited to the needs of the map file. Values read from
+// a row are valid until the statement's next step.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@ class Statement {
   Statement& Bind(int index, std::int64_t value);
   Statement& Bind(int index, double value);
   Statement& Bind(int index, const std::string& value);
-  Statement& Bind(int index, ByteView value);  ///< copied by no one: must live until the step
+  Statement& Bind(int index, ByteView value);  ///< not copied: must live until the step
 
   /// True while there is a row.
   Result<bool> Step();
-  /// One run without rows, then ready to be bound again.
+  /// Runs a statement without rows and resets it for the next Bind.
   Result<void> Run();
   void Reset();
 
@@ -50,13 +50,13 @@ class Database {
  public:
   enum class Access { kRead, kWrite };
 
-  /// kRead needs an existing file (it is opened for writing where possible, since a save that was
-  /// killed is undone on opening). kWrite makes it.
+  /// kRead needs an existing file; it is opened for writing where possible, because opening undoes
+  /// an interrupted save. kWrite creates the file.
   static Result<Database> Open(const std::filesystem::path& path, Access access);
 
   Result<void> Exec(const std::string& sql);
   Result<Statement> Prepare(const std::string& sql);
-  /// The first column of the first row, e.g. of a PRAGMA.
+  /// First column of the first row, e.g. of a PRAGMA.
   Result<std::int64_t> IntOf(const std::string& sql);
   const std::string& file() const { return file_; }
   std::int64_t Size() const;  ///< of the file [bytes]

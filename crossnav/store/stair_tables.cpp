@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "crossnav/store/sealed_blob.h"
+#include "crossnav/store/sealed_rows.h"
 
 namespace crossnav::store {
 namespace {
@@ -29,7 +29,7 @@ Bytes Encode(const std::vector<double>& numbers) {
   return bytes;
 }
 
-/// Back; nullopt where that is no list of sane numbers.
+/// Inverse of Encode; nullopt where the bytes are no list of sane numbers.
 std::optional<std::vector<double>> DecodeNumbers(const Bytes& bytes) {
   if (bytes.size() % sizeof(double) != 0) return std::nullopt;
   std::vector<double> numbers(bytes.size() / sizeof(double));
@@ -70,7 +70,7 @@ std::optional<geometry::StairFlight> DecodeFlight(const Bytes& bytes) {
   return flight;
 }
 
-/// Id, number of places from which it was seen, these, then per try place, 1 for up, ending.
+/// Id, number of viewing places, the places, then per try: place, 1 for up, ending.
 Bytes EncodePlaces(const geometry::StairFlight& flight) {
   std::vector<double> numbers{static_cast<double>(flight.id),
                               static_cast<double>(flight.seen_from_world.size())};
@@ -83,7 +83,7 @@ Bytes EncodePlaces(const geometry::StairFlight& flight) {
   return Encode(numbers);
 }
 
-/// False, and `flight` as it was, where that is no such list.
+/// On malformed bytes returns false and leaves `flight` unchanged.
 bool DecodePlaces(const Bytes& bytes, geometry::StairFlight* flight) {
   const auto numbers = DecodeNumbers(bytes);
   if (!numbers || numbers->size() < 2) return false;
@@ -99,7 +99,7 @@ bool DecodePlaces(const Bytes& bytes, geometry::StairFlight* flight) {
   const double places = next();
   if (read.id < 0 || !(places >= 0 && 3 * places <= static_cast<double>(left()))) return false;
   for (int i = 0; i < static_cast<int>(places); ++i) read.seen_from_world.push_back(point());
-  constexpr std::size_t kTry = 5;  // numbers of one
+  constexpr std::size_t kTry = 5;  // numbers per try
   if (left() % kTry != 0) return false;
   while (left() > 0) {
     geometry::FlightTry attempt;
@@ -148,61 +148,15 @@ std::optional<std::vector<geometry::SeenStair>> DecodeSeen(const Bytes& bytes) {
   return seen;
 }
 
-Result<void> Replace(Database& db, const char* table, bool is_empty) {
-  auto done = db.Exec(std::string("DROP TABLE IF EXISTS ") + table);
-  if (!done || is_empty) return done;
-  return db.Exec(std::string("CREATE TABLE ") + table +
-                 "(id INTEGER PRIMARY KEY, hash INTEGER, data BLOB) STRICT");
-}
-
-Result<void> Insert(Database& db, const char* table, std::int64_t id, const Bytes& raw) {
-  auto insert = db.Prepare(std::string("INSERT INTO ") + table + " VALUES(?1,?2,?3)");
-  if (!insert) return tl::unexpected(insert.error());
-  const Bytes data = Compress(raw);
-  insert->Bind(1, id).Bind(2, HashBlock({table, id, {}, 0}, data)).Bind(3, ByteView(data));
-  return insert->Run();
-}
-
-}  // namespace
-
-namespace {
-
-/// The whole bytes of the row; nullopt where its checksum differs.
-std::optional<Bytes> Unsealed(Statement& row, const char* table, std::int64_t id) {
-  const ByteView data = row.Blob(2);
-  if (row.Int(1) != HashBlock({table, id, {}, 0}, data)) return std::nullopt;
-  return Decompress(data, kMaxBytes);
-}
-
-/// Every row of `table`, in order; `take(id, bytes)` says whether they are a record. A table that
-/// is not there has none.
-template <class Take>
-void ForEachRow(Database& db, const char* table, std::vector<std::string>& damaged, Take take) {
-  auto select = db.Prepare(std::string("SELECT id, hash, data FROM ") + table + " ORDER BY id");
-  if (!select) return;
-  for (;;) {
-    const auto row = select->Step();
-    if (!row) {
-      damaged.push_back(std::string(table) + ": " + row.error().what);
-      return;
-    }
-    if (!*row) return;
-    const std::int64_t id = select->Int(0);
-    const auto bytes = Unsealed(*select, table, id);
-    if (!bytes || !take(id, *bytes))
-      damaged.push_back(std::string(table) + " " + std::to_string(id) + ": checksum differs");
-  }
-}
-
 }  // namespace
 
 Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>& flights) {
   for (const char* table : {kFlightTable, kPlacesTable})
-    if (auto done = Replace(db, table, flights.empty()); !done) return done;
+    if (auto done = ReplaceTable(db, table, flights.empty()); !done) return done;
   std::int64_t row = 0;
   for (const geometry::StairFlight& flight : flights) {
-    if (auto done = Insert(db, kFlightTable, row, Encode(flight)); !done) return done;
-    if (auto done = Insert(db, kPlacesTable, row, EncodePlaces(flight)); !done) return done;
+    if (auto done = InsertRow(db, kFlightTable, row, Encode(flight)); !done) return done;
+    if (auto done = InsertRow(db, kPlacesTable, row, EncodePlaces(flight)); !done) return done;
     ++row;
   }
   return {};
@@ -210,14 +164,14 @@ Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>
 
 std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::string>& damaged) {
   std::map<std::int64_t, geometry::StairFlight> flights;
-  ForEachRow(db, kFlightTable, damaged, [&](std::int64_t row, const Bytes& bytes) {
+  ForEachRow(db, kFlightTable, kMaxBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
     auto flight = DecodeFlight(bytes);
     if (!flight) return false;
-    flight->id = static_cast<int>(row);  // files of before have no other
+    flight->id = static_cast<int>(row);  // older files lack ids
     flights.emplace(row, std::move(*flight));
     return true;
   });
-  ForEachRow(db, kPlacesTable, damaged, [&](std::int64_t row, const Bytes& bytes) {
+  ForEachRow(db, kPlacesTable, kMaxBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
     const auto it = flights.find(row);
     return it == flights.end() || DecodePlaces(bytes, &it->second);
   });
@@ -228,8 +182,8 @@ std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::st
 }
 
 Result<void> WriteSeenStairs(Database& db, const std::vector<geometry::SeenStair>& seen) {
-  auto done = Replace(db, kSeenTable, seen.empty());
-  return !done || seen.empty() ? done : Insert(db, kSeenTable, 0, Encode(seen));
+  auto done = ReplaceTable(db, kSeenTable, seen.empty());
+  return !done || seen.empty() ? done : InsertRow(db, kSeenTable, 0, Encode(seen));
 }
 
 std::vector<geometry::SeenStair> ReadSeenStairs(Database& db, std::vector<std::string>& damaged) {

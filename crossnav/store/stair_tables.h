@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of known flights and of voxels seen as stairs in a map file; absent where there was
-// nothing to save, as in files of before.
+// Tables of known flights and of voxels seen as stairs in a map file; absent if there was nothing
+// to save, as in older files.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace crossnav::store {
 
-/// Replaces what the file holds. Inside a transaction.
+/// Replaces the table. Inside a transaction.
 Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>& flights);
 
-/// Empty where there is no table. A record that is damaged is left out and named in `damaged`.
+/// Empty without a table. Damaged records are skipped and named in `damaged`.
 std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::string>& damaged);
 
-/// The same for what was seen as stairs, walked or not: one record.
+/// Likewise for voxels seen as stairs, walked or not: one record.
 Result<void> WriteSeenStairs(Database& db, const std::vector<geometry::SeenStair>& seen);
 std::vector<geometry::SeenStair> ReadSeenStairs(Database& db, std::vector<std::string>& damaged);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "crossnav/trace/labelled_boxes.h"
 #include "crossnav/trace/proto_wire.h"
 
 namespace crossnav::trace {
@@ -24,7 +25,7 @@ ProtoMessage Xyz(const Vector3d& v) {
 }
 
 ProtoMessage Rotation(Quaterniond q) {
-  if (q.w() < 0) q.coeffs() = -q.coeffs();  // one of the two signs
+  if (q.w() < 0) q.coeffs() = -q.coeffs();  // canonical sign: q and -q are the same rotation
   return ProtoMessage().Double(1, q.x()).Double(2, q.y()).Double(3, q.z()).Double(4, q.w());
 }
 
@@ -248,6 +249,21 @@ std::string EncodeGoals(std::uint64_t time_ns, const std::vector<GoalInstance>& 
   for (const GoalInstance& g : goals) {
     const Vector3d top(g.box.Center().x(), g.box.Center().y(), g.box.max.z() + 0.1);
     entity.Message(13, Label(top, g.goal, Colour({255, 255, 255}, 1)));
+  }
+  return ProtoMessage().Message(2, entity).Take();
+}
+
+std::string EncodeBoxes(std::uint64_t time_ns, std::string_view name,
+                        const std::vector<LabelledBox>& boxes,
+                        const std::vector<PlaceLine>& lines) {
+  ProtoMessage entity = Entity(time_ns, name);
+  for (const LabelledBox& b : boxes)
+    entity.Message(8, Solid(b.box.Center(), b.box.max - b.box.min, Colour(b.colour, b.alpha)));
+  for (const PlaceLine& line : lines)
+    entity.Message(11, Line({line.from, line.to}, 0.03, Colour(line.colour, 1)));
+  for (const LabelledBox& b : boxes) {
+    const Vector3d top(b.box.Center().x(), b.box.Center().y(), b.box.max.z() + 0.1);
+    if (!b.label.empty()) entity.Message(13, Label(top, b.label, Colour({255, 255, 255}, 1)));
   }
   return ProtoMessage().Message(2, entity).Take();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Encodes what a step shows as messages of Foxglove's protobuf schemas (proto/foxglove.proto), so
-// that Foxglove and Rerun display a replay. Frames: "world", "agent" (x ahead, z up, at the foot),
+// Encodes a step as messages of Foxglove's protobuf schemas (proto/foxglove.proto), so that
+// Foxglove and Rerun display a replay. Frames: "world", "agent" (x ahead, z up, at the foot),
 // "camera" (x right, y down, z forward). Every function returns the message's bytes.
 #pragma once
 
@@ -18,7 +18,8 @@
 
 namespace crossnav::trace {
 
-/// The colour in which a state is shown, here and in the page. // chosen: distinct for all eyes
+/// Display colour of a state, here and in the page. // chosen: distinguishable with every colour
+/// vision
 Rgb8 ColourOf(geometry::VoxelState state);
 
 std::string EncodeTransform(std::uint64_t time_ns, std::string_view child,
@@ -27,7 +28,7 @@ std::string EncodePose(std::uint64_t time_ns, const AgentPose& agent);
 /// `format`: jpeg | png.
 std::string EncodeImage(std::uint64_t time_ns, std::string_view bytes, std::string_view format);
 std::string EncodeDepth(std::uint64_t time_ns, const Image<std::uint16_t>& depth_mm);
-/// `factor`: by how much the written image is smaller than `camera` says.
+/// `factor`: ratio of the size in `camera` to the size of the written image.
 std::string EncodeCalibration(std::uint64_t time_ns, const CameraIntrinsics& camera, int factor);
 std::string EncodeLog(std::uint64_t time_ns, std::string_view name, std::string_view message);
 
@@ -39,9 +40,9 @@ struct ColouredVoxel {
 std::string EncodeCloud(std::uint64_t time_ns, const std::vector<ColouredVoxel>& voxels,
                         double voxel_m);
 
-/// The plan: path, candidates with labels, target. Replaces the one before it.
+/// The plan: path, candidates with labels, target. Replaces the previous plan.
 std::string EncodePlan(std::uint64_t time_ns, const StepTrace& trace);
-/// Every flight that is known, as a line with a label: walked ones strong, others thin.
+/// Known flights as lines with labels: walked flights thick, others thin.
 std::string EncodeFlights(std::uint64_t time_ns, const std::vector<geometry::StairFlight>& flights);
 /// Boxes around the true instances of the goals.
 std::string EncodeGoals(std::uint64_t time_ns, const std::vector<GoalInstance>& goals);

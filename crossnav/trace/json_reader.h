@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads members of a JSON object one after the other and remembers the first thing that is wrong,
-// with its path ("candidates[2].score"). Included by the .cpp files of this room that read JSON.
+// Reads members of a JSON object in order and keeps the first error with its path
+// ("candidates[2].score"). Included by the .cpp files of this room that read JSON.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ class JsonReader {
   void Complain(std::string_view key, std::string what) {
     if (ok()) error_ = Error{ErrorCode::kMalformed, std::move(what), PathOf(key)};
   }
-  /// Reader for what lies below `key`; shares the error.
+  /// Reader of the value of `key`; shares the error.
   JsonReader Below(std::string_view key) const { return JsonReader(error_, PathOf(key)); }
 
   std::optional<Element> Find(const Element& object, std::string_view key) {

@@ -86,7 +86,7 @@ JsonText& JsonText::Key(std::string_view key) {
 
 JsonText& JsonText::Value(double number) {
   if (!std::isfinite(number)) return Raw("null");
-  if (number == 0) return Raw("0");  // also for -0, which readers take for a whole number
+  if (number == 0) return Raw("0");  // also for -0, which readers take for an integer
   std::array<char, 40> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
   return Raw({buffer.data(), static_cast<std::size_t>(end - buffer.data())});

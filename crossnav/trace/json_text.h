@@ -36,7 +36,7 @@ class JsonText {
     return Key(key).Value(value);
   }
 
-  /// Appends text that already is one JSON value.
+  /// Appends text that is already a JSON value.
   JsonText& Raw(std::string_view json);
 
   std::string Take() { return std::move(text_); }

@@ -49,10 +49,10 @@ struct McapMessage {
   std::uint16_t channel_id = 0;
   std::uint32_t sequence = 0;
   std::uint64_t log_time_ns = 0;
-  std::string_view data;  ///< valid as long as the reader says
+  std::string_view data;  ///< lifetime: see the reader
 };
 
-/// CRC-32 of `bytes`, going on from `crc` (0 at the start).
+/// CRC-32 of `bytes`, continued from `crc` (0 at the start).
 std::uint32_t Crc32(std::string_view bytes, std::uint32_t crc = 0);
 
 }  // namespace crossnav::trace

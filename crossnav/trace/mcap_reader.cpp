@@ -14,19 +14,18 @@
 namespace crossnav::trace {
 namespace {
 
-constexpr std::uint64_t kMaxChunkBytes = 256 << 20;  // chosen: 250 times what we write
-constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 31;  // chosen: an incompressible one
+constexpr std::uint64_t kMaxChunkBytes = 256 << 20;  // chosen: 250 times the writer's chunks
+constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 31;  // chosen: incompressible chunk
 constexpr std::uint64_t kFooterBytes = 20;
-constexpr std::uint64_t kPieceBytes = 1 << 20;  // chosen: of the summary at a time
+constexpr std::uint64_t kPieceBytes = 1 << 20;  // chosen: bytes of the summary read at a time
 constexpr std::uint64_t kHeadBytes = 9;         // kind and length of a record
 
-/// Where the bytes come from. Reading is sequential but for the last few bytes.
+/// Source of bytes. Reading is sequential except for the last few bytes.
 class Input {
  public:
   virtual ~Input() = default;
   virtual std::uint64_t Size() const = 0;
-  /// Bytes [at, at + count), which lie within the size; valid until the next call. Fewer where the
-  /// system refuses.
+  /// Bytes [at, at + count), within the size; valid until the next call. Fewer on a read error.
   virtual std::string_view Read(std::uint64_t at, std::uint64_t count) = 0;
 };
 
@@ -42,7 +41,7 @@ class MemoryInput : public Input {
   std::string_view bytes_;
 };
 
-/// Holds one record at a time, however large the file.
+/// Holds one record at a time, independent of the file's size.
 class FileInput : public Input {
  public:
   FileInput(std::ifstream file, std::uint64_t size) : file_(std::move(file)), size_(size) {}
@@ -62,7 +61,7 @@ class FileInput : public Input {
   std::string buffer_;
 };
 
-/// Takes values off the front of a record's content; `is_good` turns false where it is too short.
+/// Takes values off the front of a record's content; `is_good` becomes false where it is too short.
 struct Content {
   std::string_view rest;
   bool is_good = true;
@@ -105,7 +104,7 @@ struct RawRecord {
   std::string_view content;
 };
 
-/// Removes the record at the front of `bytes`, or returns nullopt where it is cut short.
+/// Removes the record at the front of `bytes`; nullopt where it is truncated.
 std::optional<RawRecord> TakeRecord(std::string_view& bytes) {
   Content head{bytes};
   const auto op = static_cast<McapOp>(head.Number<std::uint8_t>());
@@ -152,10 +151,10 @@ class Scanner {
 
   struct Head {
     McapOp op = McapOp::kHeader;
-    std::uint64_t length = 0;  ///< of the content, which lies in the file
+    std::uint64_t length = 0;  ///< of the content in the file
   };
 
-  /// Of the record at `offset_`; nothing where the file ends within it.
+  /// Head of the record at `offset_`; empty where the file ends within it.
   std::optional<Head> ReadHead() {
     if (size_ - offset_ < kHeadBytes) return std::nullopt;
     const std::string_view bytes = input_.Read(offset_, kHeadBytes);
@@ -167,7 +166,7 @@ class Scanner {
     return head;
   }
 
-  /// The part behind the data section only repeats it; what is looked at is that it is whole.
+  /// Checks that the summary is whole. Its content repeats the data section.
   Result<McapContents> CheckSummary(std::uint64_t next) {
     const std::uint64_t data_end = offset_;
     crc_ = 0;
@@ -192,7 +191,7 @@ class Scanner {
     if (crc != 0 && crc != crc_) return Bad("the checksum of the summary does not match");
     if (size_ - next < kMcapMagic.size()) return std::move(contents_);
     if (size_ - next != kMcapMagic.size() || !EndsWithMagic())
-      return Bad("the last bytes are not those of an MCAP file");
+      return Bad("the closing bytes of an MCAP file are missing");
     contents_.is_complete = true;
     contents_.good_bytes = size_;
     return std::move(contents_);
@@ -204,7 +203,7 @@ class Scanner {
   }
 
   Result<McapContents> Torn() {
-    // A file with its closing bytes was not cut off: then a length inside it is wrong.
+    // A file with its closing bytes is not truncated, so that a length inside it must be wrong.
     if (size_ > 2 * kMcapMagic.size() && EndsWithMagic())
       return Bad("its length leads past the end of the file");
     return std::move(contents_);
@@ -215,7 +214,7 @@ class Scanner {
     return Interpret(record);
   }
 
-  /// A record of the file, or of a chunk.
+  /// A record of the file or of a chunk.
   Result<void> Interpret(const RawRecord& record) {
     Content in{record.content};
     switch (record.op) {
@@ -238,7 +237,7 @@ class Scanner {
         return is_same ? Result<void>{} : Bad("the checksum of the data does not match");
       }
       default:
-        return {};  // indexes, and kinds that later versions may add
+        return {};  // indexes, and record kinds of later versions
     }
   }
 
@@ -317,7 +316,7 @@ class Scanner {
   std::uint64_t size_;
   const McapVisitor& visit_;
   std::string chunk_;
-  std::uint32_t crc_ = 0;  ///< of the file up to and with the record that is read
+  std::uint32_t crc_ = 0;  ///< of the file up to and including the current record
   std::uint64_t offset_ = 0;
   McapContents contents_;
 };

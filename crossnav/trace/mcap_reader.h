@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads an MCAP file from front to back, without needing its index, so that a file that a killed
-// program left behind is read up to the tear. One record is held at a time. Checksums are verified.
-// Compression: zstd or none.
+// Reads an MCAP file from front to back without its index, so that the file of a killed program is
+// read up to the tear. One record is held at a time. Checksums are verified. Compression: zstd or
+// none.
 #pragma once
 
 #include <filesystem>
@@ -27,11 +27,11 @@ struct McapContents {
 using McapVisitor = std::function<Result<void>(
     const McapContents& so_far, const McapChannel& channel, const McapMessage& message)>;
 
-/// Errors: not an MCAP file, a checksum or length that is wrong where the file is not torn, a
-/// compression that is not supported; `where` gives file and byte.
+/// Errors: not an MCAP file, a wrong checksum or length where the file is not torn, an unsupported
+/// compression; `where` gives file and byte.
 Result<McapContents> ReadMcap(const std::filesystem::path& path, const McapVisitor& visit);
 
-/// The same for a file's bytes; `name` stands for it in errors.
+/// Reads a file's bytes; `name` stands for the file in errors.
 Result<McapContents> ScanMcap(const std::string& name, std::string_view bytes,
                               const McapVisitor& visit);
 

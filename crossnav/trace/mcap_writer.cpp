@@ -190,7 +190,7 @@ struct McapWriter::Impl {
         .Number(c.uncompressed);
   }
 
-  /// The summary's groups, one after the other, as bytes; `groups` gets where each lies.
+  /// Groups of the summary in order, as bytes; `groups` receives the place of each.
   std::string Summary(Record& groups) const {
     std::string out;
     const auto group = [&](McapOp op, auto&& append_all) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes an MCAP file: zstd chunks with message and chunk index, summary, statistics, checksums.
-// Bytes go to `<path>.part`, which Close() renames to `<path>`, so a finished file is never half
-// one; each chunk reaches the disk as it is full, so a killed program's .part is readable up to
-// there. Same calls, same bytes (for one version of libzstd). Not thread-safe.
+// Bytes go to `<path>.part`, which Close() renames to `<path>`, so that a file of that name is
+// always complete. Each full chunk is written to disk at once: the .part of a killed program is
+// readable up to there. Same calls, same bytes (for one version of libzstd). Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace crossnav::trace {
 
 struct McapOptions {
   std::string library = "crossnav";
-  std::size_t chunk_bytes = 1U << 20;  // chosen: a dozen steps; what a killed run can lose
+  std::size_t chunk_bytes = 1U << 20;  // chosen: a dozen steps; the loss of a killed run
   int zstd_level = 3;                  // chosen: zstd's default
 };
 
@@ -36,15 +36,14 @@ class McapWriter {
                            const std::string& encoding);
   void AddMetadata(const std::string& name, const McapStrings& values);
 
-  /// `time_ns` must not decrease within a chunk's worth of messages for indexed reading to be
-  /// quick.
+  /// `time_ns` must not decrease within about a chunk of messages, or indexed reading is slow.
   void Write(std::uint16_t channel_id, std::uint64_t time_ns, std::string_view data);
 
-  /// What was written since the last call belongs together and is never split by a tear: a chunk
-  /// that is full ends here, and only here.
+  /// Closes a group: messages since the last call are never split by a tear. A full chunk ends
+  /// here, and only here.
   Result<void> EndGroup();
 
-  /// Writes the summary and gives the file its name. Nothing may be written after it.
+  /// Writes the summary and renames the file. No further calls are allowed.
   Result<void> Close();
 
  private:

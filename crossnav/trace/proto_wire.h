@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The protobuf wire format by hand: enough to write the messages of proto/*.proto and to read back
-// those that a replay needs. Little-endian machines only, like the formats themselves.
+// Protobuf wire format without a library: writes the messages of proto/*.proto and reads the subset
+// that a replay needs. Little-endian machines only, like the formats themselves.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@ namespace crossnav::trace {
 static_assert(std::endian::native == std::endian::little);
 
 void AppendVarint(std::string& out, std::uint64_t value);
-/// Removes a varint from the front of `in`; nullopt where it is cut short or longer than 64 bits.
+/// Removes a varint from the front of `in`; nullopt where it is truncated or longer than 64 bits.
 std::optional<std::uint64_t> TakeVarint(std::string_view& in);
 
 constexpr std::uint64_t ZigZag(std::int64_t v) {
@@ -51,8 +51,8 @@ class ProtoMessage {
   std::string bytes_;
 };
 
-/// One field as it stands on the wire. `number` holds varints and fixed-size values, `bytes` the
-/// length-delimited ones.
+/// A field in its wire form. `number` holds varints and fixed-size values, `bytes` the
+/// length-delimited values.
 struct ProtoField {
   int field = 0;
   std::uint64_t number = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a replay holds: one episode, step by step (docs/formats/replay.md). Written by ReplayWriter,
-// read by ReadReplay, shown by the page of replay_page.h. World frame, metres. Ground truth in it
+// Content of a replay: one episode, step by step (docs/formats/replay.md). ReplayWriter writes it,
+// ReadReplay reads it, the page of replay_page.h shows it. World frame, metres. Its ground truth
 // (goal boxes, outcomes) is for display and comes from the evaluator, never from the agent.
 #pragma once
 
@@ -18,7 +18,7 @@
 namespace crossnav::trace {
 
 inline constexpr int kReplayFormat = 1;
-/// A step has no clock; for viewers it lasts this long.
+/// Duration of a step for viewers; steps have no clock.
 inline constexpr std::uint64_t kStepNs = 100'000'000;
 
 /// A true instance of a goal, for display.
@@ -41,7 +41,7 @@ struct ReplayInfo {
   std::vector<GoalInstance> goal_instances;
 };
 
-/// The evaluator's word on a goal, when it is over.
+/// The evaluator's result of a goal, at its end.
 struct StageResult {
   int goal_index = 0;
   std::string goal;
@@ -52,28 +52,28 @@ struct StageResult {
   double shortest_m = 0;
 };
 
-/// One step as the writer takes it. `observation` and `sight` may be null: then there are no
-/// images, or nothing of what perception said.
+/// A step as input of the writer. `observation` and `sight` may be null: the step then has no
+/// images, or no results of perception.
 struct ReplayFrame {
   const StepTrace& trace;
   const Observation* observation = nullptr;
   const Sight* sight = nullptr;
 };
 
-/// One step as the reader gives it.
+/// A step as output of the reader.
 struct ReplayStep {
   StepTrace trace;
-  std::string image_jpeg;         ///< empty where none was written
-  Image<std::uint16_t> depth_mm;  ///< 0 = invalid; empty where none was written
+  std::string image_jpeg;         ///< empty if not written
+  Image<std::uint16_t> depth_mm;  ///< 0 = invalid; empty if not written
   std::optional<SightNote> sight;
-  std::string maps_png;  ///< MapsOf the sight; empty where none was written
+  std::string maps_png;  ///< MapsOf the sight; empty if not written
 };
 
 struct Replay {
   ReplayInfo info;
   std::vector<ReplayStep> steps;
   std::vector<StageResult> stages;
-  bool is_complete = true;  ///< false: the file was cut off; `steps` ends at the tear
+  bool is_complete = true;  ///< false: the file is truncated; `steps` ends at the tear
 };
 
 }  // namespace crossnav::trace

@@ -5,9 +5,8 @@
 
 #include "crossnav/core/check.h"
 #include "crossnav/core/write_file.h"
-#include "crossnav/trace/foxglove.h"
 #include "crossnav/trace/json_text.h"
-#include "crossnav/trace/preview.h"
+#include "crossnav/trace/page_json.h"
 #include "crossnav/trace/replay_json.h"
 #include "crossnav/trace/replay_reader.h"
 #include "crossnav/trace/replay_schemas.h"
@@ -18,24 +17,6 @@ namespace crossnav::trace {
 namespace {
 
 constexpr std::string_view kDataMark = "@REPLAY_DATA@", kOtherMark = "@OTHER_DATA@";
-constexpr double kDepthMaxM = 10;  // chosen: the map's depth limit
-
-std::string Base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = (group << 8) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      out += i + k > bytes.size() ? '=' : kDigits[(group >> (18 - 6 * k)) & 63];
-    }
-  }
-  return out;
-}
 
 /// zlib stream, as a browser's DecompressionStream("deflate") reads it.
 std::string Deflate(std::string_view bytes) {
@@ -59,42 +40,19 @@ void AppendVoxels(JsonText& json, const Replay& replay) {
   json.EndArray().Field("deflated", std::string_view(Base64(Deflate(all)))).EndObject();
 }
 
-void AppendStates(JsonText& json) {
-  json.Key("states").BeginArray();
-  for (int i = 0; i < geometry::kVoxelStateCount; ++i) {
-    const auto state = static_cast<geometry::VoxelState>(i);
-    const Rgb8 c = ColourOf(state);
-    json.BeginObject()
-        .Field("name", geometry::FactsOf(state).name)
-        .Field("is_surface", geometry::IsSurface(state))
-        .Key("colour")
-        .BeginArray()
-        .Value(int{c.r})
-        .Value(int{c.g})
-        .Value(int{c.b})
-        .EndArray()
-        .EndObject();
-  }
-  json.EndArray();
-}
-
 std::string PageData(const Replay& replay) {
   JsonText json;
-  json.BeginObject().Key("info").Raw(ToJson(replay.info));
-  json.Field("is_complete", replay.is_complete).Field("depth_max_m", kDepthMaxM);
-  AppendStates(json);
-  json.Key("stages").BeginArray();
+  json.BeginObject();
+  AppendHead(json, replay.info);
+  json.Field("is_complete", replay.is_complete).Key("stages").BeginArray();
   for (const StageResult& stage : replay.stages) json.Raw(ToJson(stage));
   json.EndArray().Key("steps").BeginArray();
   for (const ReplayStep& step : replay.steps) json.Raw(ToJson(step.trace, VoxelText::kOmit));
   json.EndArray().Key("images").BeginArray();
   for (const ReplayStep& step : replay.steps) json.Value(std::string_view(Base64(step.image_jpeg)));
   json.EndArray().Key("depths").BeginArray();
-  for (const ReplayStep& step : replay.steps) {
-    const bool has_depth = !step.depth_mm.empty();
-    const std::string png = has_depth ? EncodeDepthPng(step.depth_mm, kDepthMaxM) : std::string();
-    json.Value(std::string_view(Base64(png)));
-  }
+  for (const ReplayStep& step : replay.steps)
+    json.Value(std::string_view(DepthText(step.depth_mm)));
   json.EndArray().Key("sights").BeginArray();
   for (const ReplayStep& step : replay.steps)
     json.Raw(step.sight ? ToJson(*step.sight) : std::string("null"));
@@ -106,7 +64,7 @@ std::string PageData(const Replay& replay) {
   return json.Take();
 }
 
-/// In JSON, '<' stands in texts only; written so, no text can end the page's script element.
+/// In JSON, '<' occurs in strings only; escaped, it cannot end the page's script element.
 std::string EscapeForScript(const std::string& json) {
   std::string out;
   out.reserve(json.size());
@@ -120,19 +78,30 @@ std::string EscapeForScript(const std::string& json) {
   return out;
 }
 
-}  // namespace
-
-std::string ReplayPage(const Replay& replay, const Replay* other) {
+/// The template with JSON in its two places.
+std::string PageOf(const std::string& data, const std::string& other) {
   const std::string_view page = ReplayPageTemplate();
   const std::size_t mark = page.find(kDataMark), other_mark = page.find(kOtherMark);
   CROSSNAV_CHECK(mark < other_mark && other_mark != std::string_view::npos,
                  "the page's template has no place for the data");
   std::string out(page.substr(0, mark));
-  out += EscapeForScript(PageData(replay));
+  out += EscapeForScript(data);
   out += page.substr(mark + kDataMark.size(), other_mark - mark - kDataMark.size());
-  out += other == nullptr ? "null" : EscapeForScript(PageData(*other));
+  out += EscapeForScript(other);
   out += page.substr(other_mark + kOtherMark.size());
   return out;
+}
+
+}  // namespace
+
+std::string ReplayPage(const Replay& replay, const Replay* other) {
+  return PageOf(PageData(replay), other == nullptr ? "null" : PageData(*other));
+}
+
+std::string LivePage(std::string_view events) {
+  JsonText json;
+  json.BeginObject().Field("live", events).EndObject();
+  return PageOf(json.Take(), "null");
 }
 
 Result<void> ExportReplayPage(const std::filesystem::path& mcap_path,

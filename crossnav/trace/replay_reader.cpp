@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNoRecord = -1;  ///< goal_index of a step whose record has not been read
 
-/// The step at `time_ns`, added where there is none yet.
+/// The step at `time_ns`, added if missing.
 ReplayStep& StepAt(std::vector<ReplayStep>& steps, std::uint64_t time_ns) {
   const int step = static_cast<int>(time_ns / kStepNs);
   if (steps.empty() || steps.back().trace.step != step) {
@@ -108,7 +108,7 @@ Result<void> Take(Replay& replay, const std::string& topic, const McapMessage& m
   return read(message.data, StepAt(replay.steps, message.log_time_ns));
 }
 
-/// A tear may leave the last step without its record; any other such step is an error.
+/// A tear may leave the last step without its record; any other step without a record is an error.
 Result<void> CheckSteps(Replay& replay) {
   const auto is_bare = [](const ReplayStep& step) { return step.trace.goal_index == kNoRecord; };
   auto& steps = replay.steps;

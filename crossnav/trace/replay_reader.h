@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads a replay back into memory: everything that the page shows. A file that was cut off (a
-// killed run's .part) is read up to the tear.
+// Reads a replay into memory: everything that the page shows. A truncated file (a killed run's
+// .part) is read up to the tear.
 #pragma once
 
 #include <filesystem>

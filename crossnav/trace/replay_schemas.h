@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Schemas that a replay carries with it; their bytes are made at build time (CMakeLists.txt) from
+// Schemas embedded in every replay; their bytes are generated at build time (CMakeLists.txt) from
 // proto/*.proto and schema/*.json.
 #pragma once
 
@@ -12,7 +12,7 @@ std::string_view ReplayDescriptors();
 std::string_view StepJsonSchema();
 std::string_view StageJsonSchema();
 std::string_view SightJsonSchema();
-/// The page that replay_page.h fills (viewer/src, packed into one file).
+/// Template that replay_page.h fills (viewer/src, packed into one file).
 std::string_view ReplayPageTemplate();
 
 }  // namespace crossnav::trace

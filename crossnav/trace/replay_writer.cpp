@@ -69,7 +69,7 @@ struct ReplayWriter::Impl {
   Channels channels;
   int last_step = -1;
   std::string last_mode, last_reason;
-  /// Surface voxels so far, for whole clouds; sorted before they are written.
+  /// Surface voxels so far, for whole clouds; sorted before writing.
   std::unordered_map<VoxelKey, VoxelState, geometry::VoxelKeyHash> surface;
   bool is_cloud_stale = false;
 

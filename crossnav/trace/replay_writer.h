@@ -25,14 +25,14 @@ class ReplayWriter {
   struct Impl;
 
  public:
-  /// Creates `<path>.part`; Close() gives it its name.
+  /// Creates `<path>.part`; Close() renames it.
   static Result<ReplayWriter> Open(const std::filesystem::path& path, const ReplayInfo& info,
                                    const ReplayOptions& options = {});
   ~ReplayWriter();
   ReplayWriter(ReplayWriter&&) noexcept;
   ReplayWriter& operator=(ReplayWriter&&) noexcept;
 
-  /// Steps in increasing order. Errors: a full disk, a step that is not after the last one.
+  /// Steps in increasing order. Errors: a full disk, a step number that does not increase.
   Result<void> Write(const ReplayFrame& frame);
 
   /// After the goal's last step.

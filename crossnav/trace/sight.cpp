@@ -22,13 +22,13 @@ void ReadBox(JsonReader& in, const Element& e, SightBox& box) {
   in.Field(e, "mask_quality", box.mask_quality);
 }
 
-/// [0, 1] in `steps` even steps as a byte: few values, small files.
+/// [0, 1] in `steps` even steps as a byte: few distinct values keep files small.
 std::uint8_t Quantized(double share, int steps) {
   const double step = std::lround(std::clamp(share, 0.0, 1.0) * (steps - 1));
   return static_cast<std::uint8_t>(std::lround(255 * step / (steps - 1)));
 }
 
-/// The value of an image of any size over the same frame; 0 where there is none.
+/// Value of an image of any size over the same frame; 0 where there is none.
 template <class T>
 double ValueAt(const Image<T>& image, double u_share, double v_share) {
   if (image.empty()) return 0;

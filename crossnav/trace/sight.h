@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What perception said of one frame, for display: boxes and masks of the goal, stairs, and how much
-// each part of the picture resembles the goal's text. Kept out of StepTrace: it is large, and no
-// decision reads it.
+// Result of perception for one frame, for display: boxes and masks of the goal, stairs, and
+// similarity of each part of the picture to the goal's text. Not part of StepTrace: it is large,
+// and no decision reads it.
 #pragma once
 
 #include <string>
@@ -20,26 +20,27 @@ struct SightBox {
 };
 
 struct Sight {
-  int width_px = 0, height_px = 0;  ///< of the frame; 0 = nothing was noted
+  int width_px = 0, height_px = 0;  ///< of the frame; 0 = not recorded
   std::vector<SightBox> boxes;      ///< of the current goal, best first
-  MaskImage masks;                  ///< H x W, 1 where any mask is; empty without boxes
+  MaskImage masks;                  ///< H x W, 1 inside any mask; empty without boxes
   Image<float> stair_probability;   ///< H x W [0, 1]
   Image<float> similarity;          ///< any grid over the frame: cosine with the goal's text
 };
 
-/// Boxes and numbers of a sight as a replay keeps them; its images are in a picture beside it.
+/// Boxes and numbers of a sight in a replay; a separate picture holds its images.
 struct SightNote {
   int width_px = 0, height_px = 0;
   std::vector<SightBox> boxes;
-  double similarity_min = 0, similarity_max = 0;  ///< over the grid; equal without one
+  double similarity_min = 0, similarity_max = 0;  ///< over the grid; equal without a grid
 };
 
 SightNote NoteOf(const Sight& sight);
 std::string ToJson(const SightNote& note);
 Result<SightNote> SightNoteFromJson(std::string_view json);
 
-/// The images in one, at most `max_px` wide and high, sampled: red = masks, green = probability of
-/// stairs in 16 steps, blue = similarity between the note's least and greatest in 32 steps.
+/// The images in one picture, at most `max_px` wide and high, sampled: red = masks, green =
+/// probability of stairs in 16 steps, blue = similarity between the note's least and greatest in 32
+/// steps.
 RgbImage MapsOf(const Sight& sight, int max_px);
 
 }  // namespace crossnav::trace

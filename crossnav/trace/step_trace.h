@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What happened in one step, as plain data: the only thing that a viewer or a log ever reads.
-// World frame, metres. Timings are kept apart (StepTiming), so that the same seed gives the same
-// trace, byte for byte.
+// Trace of a step, as plain data: the only input of viewers and logs. World frame, metres. Timings
+// are separate (StepTiming), so that the same seed gives the same trace, byte for byte.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +18,8 @@ namespace crossnav::trace {
 
 struct CandidateTrace {
   std::string kind;  ///< live_poi, history_poi, traversable_frontier, descend_frontier, ...
-  Vector3d p_nav_world = Vector3d::Zero();    ///< where the agent would stand
-  Vector3d p_focus_world = Vector3d::Zero();  ///< what it is about
+  Vector3d p_nav_world = Vector3d::Zero();    ///< standing place
+  Vector3d p_focus_world = Vector3d::Zero();  ///< focus, e.g. centre of the cluster
   double score = 0;
   double path_cost = -1;  ///< [voxels], -1 = not planned
   int size = 0;           ///< [voxels]
@@ -38,8 +37,8 @@ struct VerificationTrace {
 /// The semantic memory after the step.
 struct MemoryTrace {
   std::int64_t rows = 0;            ///< feature-bearing voxels
-  std::int64_t compacted_rows = 0;  ///< of these, int8 under fusion.max_rows
-  std::int64_t dropped_rows = 0;    ///< given up under fusion.max_rows so far
+  std::int64_t compacted_rows = 0;  ///< of these: int8 under fusion.max_rows
+  std::int64_t dropped_rows = 0;    ///< dropped under fusion.max_rows so far
 };
 
 struct StepTrace {
@@ -50,13 +49,13 @@ struct StepTrace {
   Pose T_world_camera = Pose::Identity();
   Action action = Action::kStop;
   std::string mode;    ///< basic_explore, stair_explore, poi_navigation, target_approach
-  std::string reason;  ///< why this mode, now
+  std::string reason;  ///< reason of the mode
   /// none, look_around, go_to, climb, visit, approach; empty under policy.profile = paper
   std::string activity;
   std::vector<CandidateTrace> candidates;  ///< best first within each class
   std::vector<Vector3d> path_world;        ///< planned, from the agent to the target
   VerificationTrace verification;
-  /// Every flight that is known, in steps in which one of them changed; else none.
+  /// Known flights, in steps in which a flight changed; else empty.
   std::optional<std::vector<geometry::StairFlight>> flights;
   std::vector<std::string> events;  ///< e.g. "goal activated: bed", "entrance rejected"
   double level_m = 0;               ///< height of the current exploration level
@@ -66,7 +65,7 @@ struct StepTrace {
   MemoryTrace memory;
 };
 
-/// CPU time of each stage of one step [ms], in order; kept out of StepTrace on purpose.
+/// CPU time of each stage of one step [ms], in order; separate from StepTrace for determinism.
 struct StageTime {
   std::string stage;
   double ms = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A step record as one line of canonical JSON and back: equal records give equal bytes. This is the
-// form that golden hashes are taken of and that replays carry. docs/formats/replay.md lists the
-// keys.
+// A step record as one line of canonical JSON and back: equal records give equal bytes. Golden
+// hashes and replays use this form. docs/formats/replay.md lists the keys.
 #pragma once
 
 #include <string>
@@ -17,8 +16,8 @@ enum class VoxelText { kInclude, kOmit };
 /// One line, without a newline at its end. kOmit leaves the key "voxel_changes" out.
 std::string ToJson(const StepTrace& step, VoxelText voxels = VoxelText::kInclude);
 
-/// Reads what ToJson writes. Unknown keys are ignored; a missing or wrong one is an error whose
-/// `where` is its path, e.g. "candidates[2].score". "voxel_changes" may be absent.
+/// Inverse of ToJson. Unknown keys are ignored; a missing or wrong key is an error with its path in
+/// `where`, e.g. "candidates[2].score". "voxel_changes" may be absent.
 Result<StepTrace> StepTraceFromJson(std::string_view json);
 
 }  // namespace crossnav::trace

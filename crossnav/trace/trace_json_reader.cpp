@@ -114,7 +114,7 @@ void ReadStep(JsonReader& in, const Element& e, StepTrace& step) {
   }
   in.Field(e, "mode", step.mode);
   in.Field(e, "reason", step.reason);
-  // Records written before there were activities lack it.
+  // Absent in records older than the activities.
   if (e["activity"].error() == simdjson::SUCCESS) in.Field(e, "activity", step.activity);
   in.ListField(e, "candidates", step.candidates, ReadCandidate);
   in.ListField(e, "path_world", step.path_world, ReadPoint);
@@ -128,7 +128,7 @@ void ReadStep(JsonReader& in, const Element& e, StepTrace& step) {
   in.Field(e, "level_m", step.level_m);
   in.Field(e, "all_explored", step.all_explored);
   in.Field(e, "detections", step.detections);
-  // Records written before the memory was counted lack it.
+  // Absent in records older than the memory's counters.
   if (e["memory"].error() == simdjson::SUCCESS) {
     const Element memory = *in.Find(e, "memory");
     JsonReader below = in.Below("memory");

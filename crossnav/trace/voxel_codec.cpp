@@ -16,7 +16,7 @@ std::uint64_t ValueOf(const geometry::Voxel& voxel) {
   return static_cast<std::uint64_t>(voxel.state) + (voxel.is_inflated ? 8 : 0);
 }
 
-/// Number of changes from `first` on that continue its run.
+/// Length of the run that begins at `first`.
 std::size_t RunLength(const std::vector<StateChange>& changes, std::size_t first) {
   const VoxelKey start = changes[first].key;
   std::size_t n = 1;

@@ -14,10 +14,10 @@
 
 namespace crossnav::trace {
 
-/// `changes` sorted by key, as StepTrace holds them.
+/// `changes` sorted by key, as in StepTrace.
 std::string EncodeVoxelRuns(const std::vector<geometry::StateChange>& changes);
 
-/// Inverse of EncodeVoxelRuns; `max_count` bounds what damaged bytes can ask for.
+/// Inverse of EncodeVoxelRuns; `max_count` bounds the result for damaged bytes.
 Result<std::vector<geometry::StateChange>> DecodeVoxelRuns(std::string_view runs,
                                                            std::size_t max_count = 1U << 26);
 

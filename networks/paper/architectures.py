@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The paper's networks from their public Python packages, wrapped so that crossnav's adapters can use what they export.
+"""The paper's networks from their public Python packages, wrapped so that crossnav's adapters can use their exports.
 
 Each function takes a `Wish` and gives a `Made`: modules with their inputs, and the lines of the card. With `small` the same classes are built with few
 channels, for tests; without weights they are random, by the seed.
@@ -10,6 +10,8 @@ import sys
 
 import torch
 from torch import nn
+
+from yolov7_layers import yolov7_description
 
 GOALS = ["chair", "bed", "plant", "toilet", "tv_monitor", "sofa"]
 IMAGENET = 'scale = 0.003921568627450980\nmean = [0.485, 0.456, 0.406]\ndeviation = [0.229, 0.224, 0.225]'
@@ -136,11 +138,11 @@ def decode_box(sam, embeddings, box):
 
 
 def small_sam(modeling, TinyViT):
-    side, dim = 1024, 16  # the class works at this size alone
+    side, dim = 1024, 16  # the class works at this size only
     encoder = TinyViT(img_size=side, in_chans=3, num_classes=10, embed_dims=[8, 16, 16, 16], depths=[1, 1, 1, 1], num_heads=[1, 2, 2, 2],
                       window_sizes=[4, 4, 4, 4], mlp_ratio=2.0, drop_rate=0.0, drop_path_rate=0.0, use_checkpoint=False,
                       mbconv_expand_ratio=2.0, local_conv_size=3, layer_lr_decay=0.8)
-    encoder.layers[2].downsample.conv2.c.stride = (1, 1)  # as the class does for the width of the real one
+    encoder.layers[2].downsample.conv2.c.stride = (1, 1)  # as for the real width
     encoder.neck[0] = nn.Conv2d(16, dim, 1, bias=False)
     for i, size in ((1, dim), (3, dim)):
         encoder.neck[i] = type(encoder.neck[i])(size)
@@ -227,11 +229,11 @@ def yolo_world_open(wish):
             row[3] += [dim] if row[2] == "C2fAttn" else []
         description["head"][-1][3] = [count, dim, True]
         short = type("Short", (tasks.WorldModel,), {"txt_feats": property(lambda _: torch.zeros(1, count, dim), lambda *_: None)})
-        model = prepared(short(description, nc=count, verbose=False))  # the class begins with words of 512 numbers
+        model = prepared(short(description, nc=count, verbose=False))  # initial words have 512 numbers
     else:
         model = prepared(ultralytics_model(wish, "yolov8-worldv2.yaml", "WorldModel"))
     model.model[-1].nc = count
-    if not wish.weights:  # as they begin, every score is nothing and every box is the picture
+    if not wish.weights:  # initially all scores are zero and all boxes cover the picture
         for words_head, box_head in zip(model.model[-1].cv4, model.model[-1].cv2):
             words_head.bias.data.fill_(-1.0)
             words_head.logit_scale.data.fill_(1.5)
@@ -273,7 +275,7 @@ def rtdetr(wish):
             d_model=16, num_queries=20, decoder_in_channels=[16, 16, 16], decoder_ffn_dim=16, decoder_layers=1, decoder_attention_heads=2,
             hidden_expansion=0.5, num_labels=len(wish.labels), disable_custom_kernels=True))
     else:
-        model = RTDetrForObjectDetection(RTDetrConfig(num_labels=len(wish.labels), initializer_range=0.15))  # with its own all scores are equal
+        model = RTDetrForObjectDetection(RTDetrConfig(num_labels=len(wish.labels), initializer_range=0.15))  # else all scores are equal
     size = wish.size or (64 if wish.small else 640)
     labels = list(model.config.id2label.values()) if wish.weights else wish.labels
     inputs = {"images": image(size), "orig_target_sizes": torch.tensor([[size, size]])}
@@ -305,17 +307,82 @@ def yolov7(wish):
         model = (saved.get("ema") or saved["model"]).float()
         labels = list(model.names)
     else:
-        anchors = [[12, 16, 19, 36, 40, 28], [36, 75, 76, 55, 72, 146], [142, 110, 192, 243, 459, 401]]
-        c = 8 if wish.small else 64
-        backbone = [[-1, 1, "Conv", [c, 3, 2]], [-1, 1, "Conv", [c, 3, 2]], [-1, 1, "Conv", [c, 3, 2]], [-1, 1, "Conv", [c, 3, 2]],
-                    [-1, 1, "Conv", [c, 3, 2]]]
-        description = {"nc": len(wish.labels), "depth_multiple": 1.0, "width_multiple": 1.0, "anchors": anchors, "backbone": backbone,
-                       "head": [[[2, 3, 4], 1, "Detect", ["nc", "anchors"]]]}
-        model, labels = yolov7_package.models.yolo.Model(description), wish.labels
+        model, labels = yolov7_package.models.yolo.Model(yolov7_description(len(wish.labels), 16 if wish.small else 1)), wish.labels
+        for end in model.model[-1].m:  # as they begin, every score is nothing
+            end.bias.data.zero_()
     model.eval().model[-1].concat = True
     size = wish.size or (64 if wish.small else 640)
     card = f'family = "yolov7"\n{labels_line(labels)}\n[input]\nsize = {size}\nresize = "letterbox"\nantialias = false\n'
     return Made([Part("", model, {"images": image(size)}, ["output"])], card, size)
 
 
-NETWORKS = {f.__name__: f for f in (segformer_b2, clip_text, mobile_sam, yolox, yolov8_seg, yolo_world, yolo_world_open, rtdetr, yolov7)}
+def sed(wish):
+    """Dense features and their text tower: the CLIP model of SED (Xie et al., CVPR 2024), open_clip's `convnext_large_d_320`, asked at every place of
+    its last stage: 768 px give 24 x 24 x 768. Weights: SED's checkpoint (its keys end like open_clip's), or a checkpoint of open_clip alone."""
+    import open_clip
+
+    model = small_convnext_clip() if wish.small else open_clip.create_model("convnext_large_d_320", pretrained=None)
+    if wish.weights:
+        model.load_state_dict(clip_part(torch.load(wish.weights, map_location="cpu", weights_only=False)))
+    model.eval()
+    size = wish.size or (64 if wish.small else 768)
+    with torch.no_grad():
+        _, dim, rows, cols = dense_features(model, image(size)).shape
+    length = model.context_length
+    ids = torch.zeros(1, length, dtype=torch.int64)
+    last = model.vocab_size - 1
+    ids[0, :3] = torch.tensor([last - 1, 320, last])
+    parts = [Part("", Calls(model, dense_features), {"image": image(size)}, ["features"]),
+             Part("_text", Calls(model, text_features), {"input_ids": ids}, ["text_embeds"])]
+    merges = "../tokens/merges.txt" if wish.small else "merges.txt"
+    # Mean and deviation are CLIP's; the templates are those that SED calls "single" and CLIP's first.
+    card = (f'family = "dense"\n[input]\nsize = {size}\nantialias = false\nmean = [0.48145466, 0.4578275, 0.40821073]\n'
+            f'deviation = [0.26862954, 0.26130258, 0.27577711]\n[output]\nrows = {rows}\ncols = {cols}\ndim = {dim}\nlayout = "chw"\n'
+            f'[text]\nencoder = "sed_text.onnx"\ntokenizer = "clip"\nvocabulary = "{merges}"\nlength = {length}\npadding = "zero"\n'
+            'templates = ["A photo of a {} in the scene", "a photo of a {}."]\n')
+    return Made(parts, card, size)
+
+
+def dense_features(model, x):
+    """The projection that open_clip applies to the pooled image, applied to every place of the last stage: 1 x dim x rows x cols."""
+    trunk = model.visual.trunk
+    x = trunk.norm_pre(trunk.stages(trunk.stem(x)))
+    rows, cols = x.shape[2:]
+    places = x.flatten(2).transpose(1, 2).reshape(rows * cols, x.shape[1], 1, 1)
+    places = model.visual.head(trunk.head(places))
+    return places.reshape(1, rows, cols, -1).permute(0, 3, 1, 2)
+
+
+def text_features(model, ids):
+    """open_clip's text tower; a text ends at its largest number."""
+    return model.encode_text(ids)
+
+
+def clip_part(saved):
+    """The tensors of open_clip's model within a checkpoint of SED, of Detectron2 or of open_clip."""
+    for key in ("model", "state_dict"):
+        saved = saved.get(key, saved)
+    inside = "clip_model."
+    if any(inside in name for name in saved):
+        saved = {name.split(inside, 1)[1]: value for name, value in saved.items() if inside in name}
+    return {name.removeprefix("module."): torch.as_tensor(value) for name, value in saved.items()}
+
+
+def small_convnext_clip():
+    """open_clip's class around a ConvNeXt of few channels."""
+    import open_clip
+    from timm.models.convnext import ConvNeXt
+
+    model = open_clip.CLIP(
+        embed_dim=16,
+        vision_cfg=open_clip.CLIPVisionCfg(timm_model_name="convnext_atto", timm_pool="", timm_proj="mlp", image_size=64),
+        text_cfg=open_clip.CLIPTextCfg(context_length=77, vocab_size=1346, width=32, heads=2, layers=2))
+    model.visual.trunk = ConvNeXt(depths=(1, 1, 1, 1), dims=(8, 8, 16, 16), num_classes=0, global_pool="avg")
+    model.visual.head = model.visual.head.__class__()
+    model.visual.head.append(nn.Linear(16, 32))
+    model.visual.head.append(nn.GELU())
+    model.visual.head.append(nn.Linear(32, 16, bias=False))
+    return model
+
+
+NETWORKS = {f.__name__: f for f in (segformer_b2, clip_text, mobile_sam, yolox, yolov8_seg, yolo_world, yolo_world_open, rtdetr, yolov7, sed)}

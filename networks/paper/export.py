@@ -22,7 +22,7 @@ OPSET = 17
 
 @torch.no_grad()
 def set_random(modules, seed):
-    """Random running statistics too: those of a new network would hide errors."""
+    """Random running statistics, too: a new network's statistics would hide errors."""
     generator = torch.Generator().manual_seed(seed)
     for module in modules:
         for norm in module.modules():
@@ -34,19 +34,19 @@ def set_random(modules, seed):
 def write(part, path):
     with torch.no_grad(), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        part.module(*[x.clone() for x in part.inputs.values()])  # grids and anchors are made in the first run
+        part.module(*[x.clone() for x in part.inputs.values()])  # creates grids and anchors
         torch.onnx.export(part.module, tuple(part.inputs.values()), str(path), input_names=list(part.inputs), output_names=part.outputs,
                           opset_version=OPSET, dynamo=False, do_constant_folding=True)
 
 
 def export(name, wish, out, prepare=None):
-    """Files and card of network `name` in folder `out`; what was made. `prepare` may change it before it is written."""
+    """Writes files and card of network `name` to folder `out`; returns the network. `prepare` may change it before."""
     torch.manual_seed(wish.seed)
     made = architectures.NETWORKS[name](wish)
     if not wish.weights:
         set_random([part.module for part in made.parts], wish.seed)
     for part in made.parts:
-        part.module.eval()  # the exporter gives modules back in the mode in which they came
+        part.module.eval()  # the exporter restores the previous mode of modules
     if prepare:
         prepare(made)
     out.mkdir(parents=True, exist_ok=True)
@@ -55,10 +55,11 @@ def export(name, wish, out, prepare=None):
         path = out / f"{name}{part.suffix}.onnx"
         write(part, path)
         hashes.append(hashlib.sha256(path.read_bytes()).hexdigest())
-    card, texts = made.card, out / "clip_text.onnx"
-    if 'encoder = "clip_text.onnx"' in card and texts.exists():  # its last lines are of [text]
-        card += f'sha256 = "{hashlib.sha256(texts.read_bytes()).hexdigest()}"\n'
-    keys = ["sha256", "decoder_sha256"] if name != "clip_text" else []
+    card = made.card
+    for texts in (out / "clip_text.onnx", out / "sed_text.onnx"):
+        if f'encoder = "{texts.name}"' in card and texts.exists():  # its last lines belong to [text]
+            card += f'sha256 = "{hashlib.sha256(texts.read_bytes()).hexdigest()}"\n'
+    keys = {"clip_text": [], "sed": ["sha256"]}.get(name, ["sha256", "decoder_sha256"])
     head = "".join(f'{key} = "{value}"\n' for key, value in zip(keys, hashes))
     source = wish.weights or "random weights"
     suffix = "toml" if name != "clip_text" else "text"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Small random networks of the paper's architectures as files for crossnav's tests, and what PyTorch says of a made-up picture.
+"""Small random networks of the paper's architectures as files for crossnav's tests, and PyTorch's output for a synthetic picture.
 
     reference.py OUT [NETWORK ...]
 
@@ -22,9 +22,9 @@ import export
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 MERGES = pathlib.Path(__file__).resolve().parents[2] / "tests/inference/data/tokens/merges.txt"
-OTHER = "floor lamp"  # a goal that is no label
+OTHER = "floor lamp"  # a goal without a label
 TEXTS = ["chair", "a photo of a bed.", "tv monitor", "Küchentisch", "椅子"]
-BEST = 3  # boxes of a label
+BEST = 3  # boxes per label
 
 
 def picture(size):
@@ -63,6 +63,12 @@ def golden(name, made, wish):
         whole = torch.nn.functional.interpolate(stairs, size=(size, size), mode="bilinear", align_corners=False)[0, 0]
         for i in range(0, size, max(1, size // 8)):
             yield [name, "stairs", i, (3 * i) % size, float(whole[(3 * i) % size, i])]
+    elif name == "sed":
+        x = tensor(size, 1 / 255, [0.48145466, 0.4578275, 0.40821073], [0.26862954, 0.26130258, 0.27577711])
+        features = module(x)[0]
+        for row, col in ((0, 0), (0, features.shape[2] - 1), (features.shape[1] - 1, 0)):
+            yield [name, "feature", row, col, *features[:, row, col].tolist()]
+        yield from sed_texts(made)
     elif name == "mobile_sam":
         box = torch.tensor([[0.25, 0.25, 0.75, 0.875]]) * size
         x = tensor(size, 1, module.model.pixel_mean.flatten().tolist(), module.model.pixel_std.flatten().tolist())
@@ -103,24 +109,38 @@ def module_texts(made):
     return made.parts[0].inputs["texts"].shape[1]
 
 
-def encoder(made):
-    """A text's unit vector. Padded with the end, as transformers does."""
-    from transformers import CLIPTokenizer
-
+def tokenizer():
+    """The tests' merges as a tokenizer of transformers."""
     sys.path.insert(0, str(MERGES.parents[2]))
     import make_tokens
 
-    merges = [tuple(line.split()) for line in MERGES.read_text().splitlines()[1:]]
-    tokenizer: CLIPTokenizer = make_tokens.clip(merges)
+    return make_tokens.clip([tuple(line.split()) for line in MERGES.read_text().splitlines()[1:]])
+
+
+def encoder(made):
+    """A text's unit vector. Padded with the end, as transformers does."""
+    tokens = tokenizer()
     length = made.parts[0].inputs["input_ids"].shape[1]
 
     def encode(text):
-        ids = tokenizer(text)["input_ids"]
+        ids = tokens(text)["input_ids"]
         ids += [ids[-1]] * (length - len(ids))
         vector = made.parts[0].module(torch.tensor([ids]))[0]
         return vector / vector.norm()
 
     return encode
+
+
+def sed_texts(made):
+    """The mean of the templates' unit vectors, as a unit vector. Padded with zeros, as open_clip does."""
+    tokens = tokenizer()
+    length = made.parts[1].inputs["input_ids"].shape[1]
+    templates = next(line for line in made.card.splitlines() if line.startswith("templates")).split('"')[1::2]
+    for text in TEXTS[:3]:
+        ids = [tokens(template.format(text))["input_ids"] for template in templates]
+        vectors = made.parts[1].module(torch.tensor([i + [0] * (length - len(i)) for i in ids]))
+        mean = (vectors / vectors.norm(dim=1, keepdim=True)).mean(0)
+        yield ["sed", "text", text, *(mean / mean.norm()).tolist()]
 
 
 def texts(name, made):
@@ -156,7 +176,7 @@ def main():
 
     args.out.mkdir(parents=True, exist_ok=True)
     if args.full:
-        shutil.copy(MERGES, args.out)  # the card of yolo_world_open names it
+        shutil.copy(MERGES, args.out)  # named by the card of yolo_world_open
     lines = {}
     golden_file = args.out / "golden.tsv"
     if golden_file.exists():
@@ -172,7 +192,9 @@ def main():
         card = args.out / f"{name}.toml"
         if card.exists():
             kept = [line for line in card.read_text().splitlines() if "sha256" not in line]
-            card.write_text("\n".join(kept) + "\n[thresholds]\nscore = 0.0\nnms_iou = 1.0\n")
+            if name != "sed":
+                kept += ["[thresholds]", "score = 0.0", "nms_iou = 1.0"]
+            card.write_text("\n".join(kept) + "\n")
         with torch.no_grad():
             rows = list(golden(name, made, wish))
         lines[name] = ["\t".join(f"{x:.6g}" if isinstance(x, float) else str(x) for x in row) for row in rows]

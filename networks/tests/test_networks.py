@@ -52,7 +52,7 @@ def sample(size=SIZE):
 
 
 def answer_of(made):
-    """What a perfect network would say."""
+    """Output of a perfect network."""
     target = targets.all_of(made, SIZE)
     goals = len(common.GOALS)
     mask = np.eye(goals + 1, dtype=np.float32)[target["mask"]].transpose(2, 0, 1)
@@ -151,7 +151,7 @@ def test_the_loss_falls_on_a_toy_batch():
 
 
 def window_of(box, share=None):
-    """What the second network is given of a box of the toy picture."""
+    """Input of the second network for a box of the toy picture."""
     inputs, _ = batch()
     if share is None:
         share = torch.zeros(1, 1, SIZE // 4, SIZE // 4)

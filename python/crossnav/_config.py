@@ -44,7 +44,7 @@ def _lines(settings: Mapping[str, Any], prefix: str) -> list[str]:
 
 
 def toml_of(settings: object) -> tuple[str, str]:
-    """(TOML text, its name in messages) of what a user gave as settings."""
+    """(TOML text, its name in messages) of the user's settings."""
     if isinstance(settings, str):
         return settings, "config"
     if isinstance(settings, os.PathLike):

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""What goes wrong outside the program: files, settings, observations."""
+"""Errors of outside data: files, settings, observations."""
 
 
 class Error(Exception):
-    """Bad data from outside. ``str(error)`` is what the program `crossnav` would print."""
+    """Bad data from outside. ``str(error)`` is the message of the program `crossnav`."""
 
     what: str
-    """What is wrong and what would help."""
+    """Reason and remedy."""
     where: str
     """The file, and key, line or node inside it; may be empty."""
     code: str

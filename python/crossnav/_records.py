@@ -20,7 +20,7 @@ def play_stage(agent: _core.Agent, simulator: _core.Simulator, goal: str, budget
                recent_m: deque[float]) -> Record:
     """Searches one goal with at most `budget` actions and judges how it ended.
 
-    `recent_m` holds the displacements of the last steps [m]; it goes on from stage to stage.
+    `recent_m` holds the displacements of the last steps [m]; it continues across stages.
     """
     agent.set_goal(goal)
     start = simulator.pose.p_world

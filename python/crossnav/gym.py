@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 import crossnav
 
 ENV_ID = "crossnav/CrossFloorNav-v0"
-_TRIES = 50  # chosen: draws of a start from which all goals can be reached
+_TRIES = 50  # chosen: draws of a start with all goals reachable
 
 Obs = dict[str, Any]
 

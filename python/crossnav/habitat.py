@@ -51,7 +51,7 @@ def foot_from_gps(gps: ArrayLike, flat_world: bool = False) -> NDArray[np.float6
 
 
 def yaw_from_compass(compass: ArrayLike) -> float:
-    """Yaw [rad], counter-clockwise from the first heading, which is what the compass tells."""
+    """Yaw [rad], counter-clockwise from the first heading: the compass reading."""
     yaw = float(np.asarray(compass, dtype=np.float64).reshape(-1)[0])
     if not np.isfinite(yaw):
         raise Error("is not finite", "observations.compass")
@@ -99,7 +99,7 @@ class HabitatAgent:
         self._goal_names = tuple(goal_names)
         self._flat_world = flat_world
         settings = crossnav.Config(config).to_dict()
-        # What the sensor clips is no surface.
+        # Readings at the sensor's limit are no surface.
         settings["map"]["depth_max_m"] = min(settings["map"]["depth_max_m"],
                                              self._depth.max_depth_m)
         self.config = crossnav.Config(settings)
@@ -143,7 +143,7 @@ class HabitatAgent:
                                     self._camera, pose.camera_pose(self._camera_height_m), rgb)
 
     def _note_look(self, action: Action) -> None:
-        """Habitat tells no pitch: it is what was looked up and down."""
+        """Habitat gives no pitch: it is the sum of the looks up and down."""
         if action == Action.LOOK_UP:
             self._looking_rad = min(self._looking_rad + self._pitch_rad, self._max_pitch_rad)
         elif action == Action.LOOK_DOWN:

@@ -37,7 +37,7 @@ _ACTIONS = (None, Action.MOVE_FORWARD, Action.TURN_LEFT, Action.TURN_RIGHT, Acti
 
 
 class Phase(enum.IntEnum):
-    """Where the search for the current goal stands."""
+    """State of the search for the current goal."""
 
     NO_GOAL = 0
     SEARCHING = 1
@@ -45,6 +45,17 @@ class Phase(enum.IntEnum):
     """STOP: the agent says that the goal is here."""
     EXPLORED = 3
     """Nothing is left where it could be."""
+
+
+class PoseState(enum.IntEnum):
+    """Whether the agent knows where it is in its saved map (``serve --pose unknown``)."""
+
+    GIVEN = 0
+    LOCALISING = 1
+    """Actions are for finding out."""
+    KNOWN = 2
+    UNKNOWN = 3
+    """It could not be found out: the agent goes on with an empty memory."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +69,9 @@ class State:
     steps: int
     last_sequence: int
     """Number of the last observation that was answered; 0 = none."""
+    pose: PoseState = PoseState.GIVEN
+    T_map_world: NDArray[np.float64] | None = None
+    """(4, 4), with PoseState.KNOWN: from the world of the poses that are sent to the saved map."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +88,7 @@ class Command:
 
 @dataclass(frozen=True)
 class Answer:
-    """What to do after one observation."""
+    """Answer to one observation."""
 
     sequence: int
     time_ns: int
@@ -90,7 +104,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Welcome:
-    """What the server says of itself."""
+    """Description of the server."""
 
     version: str
     perception: str
@@ -103,11 +117,11 @@ class Welcome:
     watchdog_s: float
     max_frame_bytes: int
     state: State
-    """What an earlier client left."""
+    """State left by an earlier client."""
 
 
 class Refused(Error):
-    """The server answered with an error; the connection goes on unless `fault` is busy or replaced."""
+    """The server answered with an error; the connection stays open unless `fault` is busy or replaced."""
 
     fault: str
     """malformed, late, busy, replaced, refused, failed or unknown."""
@@ -145,7 +159,8 @@ def _command_of(message: Any) -> Command:
 
 def _state_of(message: Any) -> State:
     return State(Phase(message.phase), message.goal, message.goals, message.steps,
-                 message.last_sequence)
+                 message.last_sequence, PoseState(message.pose),
+                 np.array(message.T_map_world).reshape(4, 4) if message.T_map_world else None)
 
 
 def _fill_camera(camera: CameraIntrinsics, message: Any) -> None:
@@ -174,7 +189,7 @@ class Client:
             self.close()
             raise
         self.sequence = self.welcome.state.last_sequence
-        """Of the last observation that was answered; raise it for one that was lost on the way."""
+        """Number of the last answered observation; raise it for a lost observation."""
 
     def _connect(self, timeout_s: float) -> socket.socket:
         try:
@@ -195,7 +210,7 @@ class Client:
         self.close()
 
     def close(self) -> None:
-        """The agent stays as it is, for the next client."""
+        """The agent is unchanged, for the next client."""
         self._socket.close()
 
     def set_goal(self, goal: str) -> State:
@@ -261,7 +276,7 @@ class Client:
                        _state_of(w.state))
 
     def _ask(self, request: Any) -> Any:
-        """The one reply to a request; a stop that comes before it is noted."""
+        """The reply to a request; a stop that arrives before it is noted."""
         payload = request.SerializeToString()
         try:
             self._socket.sendall(_LENGTH.pack(len(payload)) + payload)
@@ -307,4 +322,4 @@ class Client:
 
     def _lost(self, error: Exception) -> Error:
         self.close()
-        return Error(f"{error}; connect again, the agent goes on", str(self.address), "io")
+        return Error(f"{error}; connect again, the agent continues", str(self.address), "io")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Messages of ROS 2 to observations and commands to messages (docs/live.md). Needs no ROS.
 
-Messages are read by their fields, so that rclpy's classes and those of the package rosbags both do.
+Messages are read by their fields, so that the classes of rclpy and of the package rosbags are both accepted.
 """
 
 from typing import Any
@@ -129,3 +129,65 @@ def fill_twist(command: Command, twist: Any) -> Any:
     twist.linear.x, twist.linear.y, twist.linear.z = float(command.v_mps), 0.0, 0.0
     twist.angular.x, twist.angular.y, twist.angular.z = 0.0, 0.0, float(command.w_radps)
     return twist
+
+
+_MARKER = {"cube": 1, "line_list": 5, "text": 9}  # visualization_msgs/Marker
+_GRAPH_COLOURS = {"rooms": (0.11, 0.49, 0.84, 0.15), "objects": (0.84, 0.20, 0.42, 0.4),
+                  "names": (1.0, 1.0, 1.0, 1.0), "passages": (0.18, 0.62, 0.27, 1.0),
+                  "relations": (0.96, 0.62, 0.0, 1.0)}
+
+
+def _marker(make: Any, frame_id: str, space: str, number: int, kind: str) -> Any:
+    marker = make()
+    marker.header.frame_id, marker.ns, marker.id = frame_id, space, number
+    marker.type, marker.action = _MARKER[kind], 0
+    marker.pose.orientation.w = 1.0
+    colour = marker.color
+    colour.r, colour.g, colour.b, colour.a = _GRAPH_COLOURS[space]
+    return marker
+
+
+def _place(point: Any, values: ArrayLike) -> Any:
+    point.x, point.y, point.z = (float(value) for value in np.asarray(values, float))
+    return point
+
+
+def _box(marker: Any, low: ArrayLike, high: ArrayLike) -> Any:
+    least, most = np.asarray(low, float), np.asarray(high, float)
+    _place(marker.pose.position, (least + most) / 2)
+    _place(marker.scale, most - least)
+    return marker
+
+
+def markers_of(graph: dict[str, Any], make_marker: Any, make_point: Any,
+               frame_id: str = "map") -> list[Any]:
+    """A map's graph (JSON of `crossnav map graph`) as visualization_msgs/Marker: fill MarkerArray.
+
+    `make_marker` and `make_point` are the classes Marker and geometry_msgs/Point. Rooms lie as their
+    ground, objects as boxes with their names; passages and relations are lines.
+    """
+    markers = []
+    for room in graph["rooms"]:
+        marker = _marker(make_marker, frame_id, "rooms", room["id"], "cube")
+        low = room["box_min"]
+        markers.append(_box(marker, low, [*room["box_max"][:2], low[2] + 0.05]))
+    for one in graph["objects"]:
+        markers.append(_box(_marker(make_marker, frame_id, "objects", one["id"], "cube"),
+                            one["box_min"], one["box_max"]))
+        name = _marker(make_marker, frame_id, "names", one["id"], "text")
+        middle = (np.array(one["box_min"]) + np.array(one["box_max"])) / 2
+        _place(name.pose.position, [middle[0], middle[1], one["box_max"][2] + 0.1])
+        name.scale.z, name.text = 0.15, one["category"]
+        markers.append(name)
+    rooms = {room["id"]: room["center"] for room in graph["rooms"]}
+    middles = {one["id"]: (np.array(one["box_min"]) + np.array(one["box_max"])) / 2
+               for one in graph["objects"]}
+    ways = [(rooms[room], passage["position"]) for passage in graph["passages"]
+            for room in passage["rooms"]]
+    links = [(middles[link["from"]], middles[link["to"]]) for link in graph["relations"]]
+    for space, pairs in (("passages", ways), ("relations", links)):
+        lines = _marker(make_marker, frame_id, space, 0, "line_list")
+        lines.scale.x = 0.03
+        lines.points = [_place(make_point(), end) for pair in pairs for end in pair]
+        markers.append(lines)
+    return markers

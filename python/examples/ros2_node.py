@@ -63,7 +63,7 @@ class CrossnavNode(Node):
 
     def look(self, colour: Image, info: CameraInfo, depth: Image, depth_info: CameraInfo,
              odom: Odometry) -> None:
-        # Pictures of a robot that still moves are of no use.
+        # Skips pictures of a moving robot.
         if self.is_moving or ros.time_ns_of(depth.header) < self.acts_until.nanoseconds:
             return
         try:
@@ -74,9 +74,9 @@ class CrossnavNode(Node):
                 if self.client.welcome.state.goal != self.goal:
                     self.client.set_goal(self.goal)
             answer = self.client.step(observation)
-        except (live.Refused, TransformException) as error:  # TF may come later than pictures
+        except (live.Refused, TransformException) as error:  # TF may arrive after the pictures
             self.get_logger().warning(str(error))
-        except Error as error:  # the next pictures connect again
+        except Error as error:  # the next pictures reconnect
             self.get_logger().error(str(error))
             self.client = None
             self.stand()

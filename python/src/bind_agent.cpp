@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Agent: set_goal, step, restore, and what a step returned.
+// Agent: set_goal, step, restore, and the result of a step.
 #include "crossnav/agent/agent.h"
 
 #include "crossnav/trace/trace_json.h"
@@ -13,7 +13,7 @@ namespace {
 using agent::StepResult;
 using StatesOut = Array<std::uint8_t, nb::ndim<1>>;
 
-/// The agent with Python's objects that it asks; they go after it.
+/// The agent with the Python objects that it calls; they are destroyed after it.
 struct AgentHandle {
   AgentHandle(const evaluation::RunConfig& c, const PerceptionHandle& p, const nb::object& h)
       : perception(p),
@@ -89,7 +89,7 @@ nb::dict Timing(const StepResult& self) {
 }
 
 void BindResult(nb::module_& m) {
-  nb::class_<StepResult>(m, "StepResult", "What one step decided, and why.")
+  nb::class_<StepResult>(m, "StepResult", "Decision of one step, and its reasons.")
       .def_ro("action", &StepResult::action)
       .def_ro("all_explored", &StepResult::all_explored,
               "No candidate is left; `action` means nothing then.")

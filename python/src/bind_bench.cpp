@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Episodes, the C++ runner, metrics, and worlds made by code.
+// Episodes, the C++ runner, metrics, and generated worlds.
 #include <nanobind/stl/map.h>
 
 #include "crossnav/evaluation/episodes/episodes.h"
@@ -21,7 +21,7 @@
 namespace crossnav::python {
 namespace {
 
-/// Keeps the step records as text.
+/// Collects the step records as text.
 class TraceLog : public evaluation::RunObserver {
  public:
   Result<void> OnStep(const evaluation::StepView& step) override {
@@ -71,9 +71,8 @@ nb::object MetricsOfFiles(const std::vector<std::filesystem::path>& paths) {
   return FromJson(text);
 }
 
-/// report.json of the program with the records of each run, and what follows from each record.
-/// Every run against the first, also where that is not fair; runs that share no episode are left
-/// out.
+/// report.json of the program with the records of each run, and derived figures of each record.
+/// Every run against the first, also if unfair; runs without common episodes are left out.
 std::string CompareWithFirst(const std::vector<evaluation::ReportRun>& runs) {
   std::vector<evaluation::Comparison> comparisons;
   for (std::size_t i = 1; i < runs.size(); ++i) {
@@ -195,7 +194,7 @@ void BindBench(nb::module_& m) {
   m.def("metrics_of_files", &MetricsOfFiles, "paths"_a,
         nb::sig("def metrics_of_files(paths: collections.abc.Sequence[str | os.PathLike[str]]) -> "
                 "dict[str, typing.Any]"),
-        "What `crossnav metrics --json` says of result files.");
+        "The output of `crossnav metrics --json` for result files.");
   m.def("report_of_runs", &ReportOfRuns, "paths"_a, "partial"_a = false,
         nb::sig("def report_of_runs(paths: collections.abc.Sequence[str | os.PathLike[str]], "
                 "partial: bool = False) -> dict[str, typing.Any]"),

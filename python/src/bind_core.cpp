@@ -26,14 +26,14 @@ DepthView DepthOf(Observation& obs) {
                                              static_cast<std::size_t>(obs.depth_m.width)});
 }
 
-/// What an observation may have besides depth.
+/// Optional colour of an observation.
 struct Colour {
   const std::optional<RgbIn>& rgb;
-  const std::optional<CameraIntrinsics>& camera;  ///< its own; nothing = that of depth
+  const std::optional<CameraIntrinsics>& camera;  ///< its own; empty = depth's
   const std::optional<PoseIn>& T_camera_rgb;
 };
 
-/// Of a camera of its own.
+/// Checks the colour of a separate camera.
 void CheckColour(const Colour& colour) {
   if (!colour.camera) {
     if (colour.T_camera_rgb)
@@ -110,7 +110,7 @@ void BindCamera(nb::module_& m) {
 }
 
 void BindObservation(nb::module_& m) {
-  nb::class_<Observation>(m, "Observation", "What the agent gets each step.")
+  nb::class_<Observation>(m, "Observation", "Input of the agent in each step.")
       .def(
           "__init__",
           [](Observation* self, const DepthIn& depth_m, const CameraIntrinsics& camera,

@@ -96,8 +96,8 @@ Array<double, nb::ndim<2>> ToRows(const std::vector<Vector3d>& points) {
   return ToArray<Array<double, nb::ndim<2>>>(std::move(rows), {points.size(), 3});
 }
 
-/// Each flight as a dict of its ends, its steps, how often it was walked, and from where it was
-/// seen and tried.
+/// Each flight as a dict of its ends, its steps, its number of walks, and its viewing and trial
+/// places.
 nb::list Flights(const MapHandle& self) {
   nb::list out;
   for (const geometry::StairFlight& flight : self.Flights()) {
@@ -150,7 +150,7 @@ void BindMap(nb::module_& m) {
           [](const MapHandle& self, const Point& a, const Point& b) {
             return self.map->HasLineOfSight(ToPoint(a, "a_world"), ToPoint(b, "b_world"));
           },
-          "a_world"_a, "b_world"_a, "No surface voxel lies strictly between the two points.")
+          "a_world"_a, "b_world"_a, "No surface voxel is strictly between the two points.")
       .def("nearest_free", &NearestFree, "p_world"_a, "radius_m"_a,
            "Centre of the nearest voxel that one can stand in, or None.")
       .def_prop_ro(
@@ -170,7 +170,7 @@ void BindMap(nb::module_& m) {
 
 void BindGeometry(nb::module_& m) {
   nb::enum_<VoxelState>(m, "VoxelState", nb::is_arithmetic(),
-                        "What a voxel is; UNKNOWN is the absence of a state.")
+                        "State of a voxel; UNKNOWN is the absence of a state.")
       .value("UNKNOWN", VoxelState::kUnknown)
       .value("OCCUPIED", VoxelState::kOccupied)
       .value("TRAVERSABLE", VoxelState::kTraversable)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hooks: the choice of where to look next and the belief in a claim, written in Python.
+// Hooks in Python: the choice of the next place, and the belief in a claim.
 #include <nanobind/trampoline.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using policy::ClaimVerdict;
 
 namespace {
 
-/// A claim that Python may keep.
+/// A copy of a claim that Python may keep.
 struct ClaimOut {
   Vector3d p_center_world;
   int voxels;
@@ -77,17 +77,17 @@ void BindQuestions(nb::module_& m) {
       .def_prop_ro(
           "p_focus_world",
           [](const ExplorationOption& o) { return ToArray(o.candidate.p_focus_world); }, kOwnArray,
-          "(3,) [m]: what it is about.")
+          "(3,) [m]: focus, e.g. the cluster's centre.")
       .def_prop_ro(
           "size", [](const ExplorationOption& o) { return o.candidate.size; }, "Voxels.")
       .def_ro("path_m", &ExplorationOption::path_m, "Path length [m], turns included.")
       .def_ro("way_m", &ExplorationOption::path_m, "Old name of path_m, until version 0.4.")
       .def_ro("score_m", &ExplorationOption::score_m, "The policy's own score; the least wins.");
-  nb::enum_<ClaimVerdict>(m, "ClaimVerdict", "What is made of a claim.")
+  nb::enum_<ClaimVerdict>(m, "ClaimVerdict", "Verdict on a claim.")
       .value("AGREED", ClaimVerdict::kAgreed, "STOP here and now.")
       .value("WEAK", ClaimVerdict::kWeak, "Look from elsewhere.")
       .value("REFUTED", ClaimVerdict::kRefuted, "Give the object up.");
-  nb::class_<ClaimOut>(m, "Claim", "What a frame says of an object that may be the goal.")
+  nb::class_<ClaimOut>(m, "Claim", "Verification of a possible goal object by a frame.")
       .def_prop_ro(
           "p_center_world", [](const ClaimOut& c) { return ToArray(c.p_center_world); }, kOwnArray,
           "(3,) [m]")
@@ -129,7 +129,7 @@ void BindHooks(nb::module_& m) {
           nb::sig("def score_exploration(self, goal: str, agent: AgentPose, options: "
                   "collections.abc.Sequence[ExplorationOption]) -> "
                   "collections.abc.Sequence[float]"),
-          "A score for each place that can be reached: the least is gone to, inf is never.")
+          "A score for each reachable place: the least is chosen, inf never.")
       .def(
           "judge_claim",
           [](Hooks&, const std::string&, const ClaimOut& claim, const Observation&) {

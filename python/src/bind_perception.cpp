@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Detector, Segmenter, StairSegmenter and DenseEncoder as base classes for Python. What comes back
-// from Python is checked here: the rooms below trust its shapes.
+// Detector, Segmenter, StairSegmenter and DenseEncoder as base classes for Python. Results from
+// Python are checked here, because the rooms below trust their shapes.
 #include <nanobind/stl/pair.h>
 #include <nanobind/trampoline.h>
 
@@ -31,7 +31,7 @@ using VectorOut = Array<float, nb::ndim<1>>;
   Raise(ErrorCode::kInvalid, what, where);
 }
 
-/// As `Array` of any dtype that NumPy converts.
+/// Like `Array`, for any dtype that NumPy converts.
 template <class In>
 In ArrayFrom(const nb::object& value, const char* dtype, const char* where) {
   In array;
@@ -62,7 +62,7 @@ void CheckDetection(const Detection& d, const Observation& obs) {
     Wrong("a confidence must lie in [0, 1]", "Detector.detect");
 }
 
-/// f(obs) with colour on the grid of depth, as the agent gives it to perception.
+/// Calls f(obs) with colour on the grid of depth, as the agent passes it to perception.
 template <class F>
 auto OnOneGrid(const Observation& obs, F f) {
   return HasOwnColourGrid(obs) ? f(WithColourOnDepthGrid(obs)) : f(obs);
@@ -70,7 +70,7 @@ auto OnOneGrid(const Observation& obs, F f) {
 
 // --- Python behind the C++ interfaces -----------------------------------------------------------
 
-/// Calls method `name` of the Python object behind a trampoline; refuses one it does not define.
+/// Calls method `name` of the Python object behind a trampoline; refuses an undefined method.
 #define CROSSNAV_CALL_PYTHON(name, ...)                                            \
   constexpr std::uint64_t nb_hash = nb::detail::str_hash(name);                    \
   const nb::detail::ticket nb_ticket(nb_trampoline, name, nb_hash, /*pure=*/true); \
@@ -169,7 +169,7 @@ class PythonEncoder : public DenseEncoder {
   }
 
  private:
-  mutable int dim_ = 0;  // asked once: memories do not change their dimension
+  mutable int dim_ = 0;  // cached: memories do not change their dimension
 };
 
 #undef CROSSNAV_CALL_PYTHON
@@ -248,7 +248,8 @@ void BindFinders(nb::module_& m) {
           },
           nb::sig("def segment(self, observation: Observation, box: tuple[int, int, int, int]) -> "
                   "tuple[numpy.typing.NDArray[typing.Any], float]"),
-          "Mask (H x W, 0 or not) of what the box (u0, v0, u1, v1) holds, and its quality [0, 1].");
+          "Mask (H x W, 0 or not) of the object in the box (u0, v0, u1, v1), and its quality [0, "
+          "1].");
   nb::class_<StairSegmenter, PythonStairs>(m, "StairSegmenter", "Finds stair surfaces.")
       .def(nb::init<>())
       .def(

@@ -14,7 +14,7 @@
 namespace crossnav::python {
 namespace {
 
-/// What simulators and their perception share.
+/// State shared by simulators and their perception.
 struct Body {
   explicit Body(const SceneHandle& s, const evaluation::RunConfig& c)
       : scene(s),
@@ -134,7 +134,7 @@ Array<std::int32_t, nb::ndim<2>> Instances(const SimulatorHandle& self) {
 
 // --- Judging ------------------------------------------------------------------------------------
 
-// Callers hold the scene: its navmesh and its table of targets are one thread's at a time.
+// Callers hold the scene: its navmesh and its table of targets are for one thread at a time.
 const std::vector<evaluation::Target>& TargetsOf(const SceneHandle& scene,
                                                  const std::string& goal) {
   const nb::gil_scoped_release others_run;
@@ -162,7 +162,7 @@ bool IsClaimNear(const SimulatorHandle& self, const std::string& goal, const Poi
 std::optional<double> DistanceTo(const SceneHandle& scene, const Vector3d& p_world,
                                  const std::string& goal) {
   const InUse guard(*scene.in_use);
-  TargetsOf(scene, goal);  // the part that takes long
+  TargetsOf(scene, goal);  // the slow part
   return scene.context->DistanceToGoal(p_world, goal);
 }
 

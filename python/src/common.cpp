@@ -19,7 +19,7 @@ evaluation::RunConfig ConfigOf(const Settings& settings) {
   Unwrap(evaluation::ApplyConfigText(toml, name, config, &warnings));
   for (const std::string& warning : warnings)
     if (PyErr_WarnEx(PyExc_FutureWarning, warning.c_str(), 1) != 0) nb::raise_python_error();
-  if (config.noise.profile != "none") {  // whose settings lie below those of the user
+  if (config.noise.profile != "none") {  // the profile's settings lie below the user's
     config = evaluation::DefaultsOfProfile(config.noise.profile);
     Unwrap(evaluation::ApplyConfigText(toml, name, config));
   }

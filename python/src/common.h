@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What every binding needs: errors as exceptions, settings in all their forms, NumPy arrays in and
-// out. Results become values or raise crossnav.Error; a call that a CROSSNAV_CHECK would abort is
-// refused here first, because a user's slip must not take the interpreter down.
+// Common code of all bindings: errors as exceptions, settings in all their forms, NumPy arrays in
+// and out. Results become values or raise crossnav.Error; a call that would abort in a
+// CROSSNAV_CHECK is refused here first, because a user's mistake must not end the interpreter.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -30,7 +30,7 @@ namespace crossnav::python {
 namespace nb = nanobind;
 using namespace nb::literals;  // NOLINT: "name"_a throughout
 
-/// Travels to Python as crossnav.Error.
+/// Reaches Python as crossnav.Error.
 struct Failure {
   Error error;
 };
@@ -45,7 +45,7 @@ T Unwrap(Result<T> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// The objects that one thread uses at a time, while calls that take long let other threads run.
+/// Objects for one thread at a time, while slow calls let other threads run.
 class InUse {
  public:
   explicit InUse(std::atomic<bool>& flag) : flag_(flag) {
@@ -62,20 +62,20 @@ class InUse {
 
 // --- Settings -----------------------------------------------------------------------------------
 
-/// Whatever a user may give as configuration; crossnav/_config.py says what.
+/// Any form of configuration from a user; crossnav/_config.py lists them.
 struct Settings {
   nb::object value = nb::none();
 };
 
-/// The paper's defaults with these settings on top. Problems raise with the program's own text.
+/// The paper's defaults with these settings on top. Problems raise with the program's text.
 evaluation::RunConfig ConfigOf(const Settings& settings);
 
-/// A path as users give it; named apart for its type in Python.
+/// A path from a user; a separate name for its type in Python.
 struct PathIn {
   std::filesystem::path path;
 };
 
-/// A point as users give it: three numbers in a tuple, a list or an array.
+/// A point from a user: three numbers in a tuple, a list or an array.
 struct Point {
   std::array<double, 3> xyz{};
 };
@@ -111,15 +111,15 @@ inline PointOut ToArray(const Vector3d& p) {
 PoseOut ToArray(const Pose& T);
 KeysOut ToArray(std::span<const geometry::VoxelKey> keys);
 
-/// Raises where the point is not finite.
+/// Raises unless the point is finite.
 Vector3d ToPoint(const Point& p, const char* name);
-/// Raises, naming `key`, where it is no finite rigid transform within the map's reach.
+/// Raises, naming `key`, unless it is a finite rigid transform within the map's reach.
 Pose ToPose(const PoseIn& T, const char* key = "observation.T_world_camera");
 DepthImage ToImage(const DepthIn& depth_m);
-/// Raises where the intrinsics are not finite or of another size.
+/// Raises unless the intrinsics are finite and of this size.
 void CheckCamera(const CameraIntrinsics& camera, std::size_t rows, std::size_t cols);
 
-/// The Python object that this observation is; a copy where there is none.
+/// The Python object behind this observation; a copy if there is none.
 nb::object ToPython(const Observation& obs);
 
 /// json.loads(text)
@@ -135,6 +135,7 @@ void BindHooks(nb::module_& m);
 void BindAgent(nb::module_& m);
 void BindSimulator(nb::module_& m);
 void BindStore(nb::module_& m);
+void BindLanguage(nb::module_& m);
 void BindRecordings(nb::module_& m);
 void BindBench(nb::module_& m);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hooks as Python writes them.
+// Hooks in Python.
 #pragma once
 
 #include "common.h"
@@ -7,8 +7,8 @@
 
 namespace crossnav::python {
 
-/// The hooks behind `hooks`, which must be of crossnav.Hooks and outlive them; null for None.
-/// Raises unless the profile asks hooks.
+/// The hooks behind `hooks`, which must be a crossnav.Hooks and outlive them; null for None. Raises
+/// unless the profile uses hooks.
 agent::Hooks* HooksOf(const nb::object& hooks, const agent::Config& config);
 
 }  // namespace crossnav::python

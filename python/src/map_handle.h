@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps and memories as Python holds them: its own, which it may write, or an agent's, which it may
-// only read. Copies, not moves, go to agents, so that no Python object is left empty.
+// Maps and memories in Python: its own, writable, or an agent's, read-only. Agents get copies, so
+// that no Python object is left empty.
 #pragma once
 
 #include <nanobind/stl/unique_ptr.h>
@@ -21,7 +21,7 @@ struct MapHandle {
   }
   explicit MapHandle(const agent::Agent& a) : map(&a.map()), agent(&a) {}
 
-  /// Raises where the map is an agent's.
+  /// Raises if the map is an agent's.
   geometry::VoxelMap& Writable();
 
   std::vector<geometry::StairFlight> Flights() const { return agent ? agent->flights() : flights; }
@@ -30,12 +30,12 @@ struct MapHandle {
   }
 
   const geometry::VoxelMap* map;
-  const agent::Agent* agent = nullptr;  ///< whose map it is, if it is an agent's
+  const agent::Agent* agent = nullptr;  ///< owner, if the map is an agent's
   std::unique_ptr<geometry::VoxelMap> owned;
-  // Of the file that it was loaded from.
+  // Flights of the file that it was loaded from.
   std::vector<geometry::StairFlight> flights;
   std::vector<geometry::SeenStair> seen_stairs;
-  // The last frame, so that features can be lifted to where it ended.
+  // End voxels of the last frame, for lifting features.
   const geometry::EndVoxels* ends = nullptr;
   DepthImage depth_m;
   CameraIntrinsics camera;
@@ -57,7 +57,7 @@ struct MemoryHandle {
   std::atomic<bool> in_use{false};
 };
 
-/// Raises where the vector is of another length than the memory's rows or has no direction.
+/// Raises if the vector differs in length from the memory's rows or is zero.
 void CheckText(const memory::SemanticMemory& memory, std::span<const float> text);
 
 geometry::VoxelMap CopyOf(const geometry::VoxelMap& map);

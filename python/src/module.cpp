@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The extension module crossnav._core. Users import `crossnav`, which passes its names on.
+// The extension module crossnav._core. Users import `crossnav`, which re-exports its names.
 #include "common.h"
 
 #include "crossnav/core/version.h"
@@ -7,7 +7,7 @@
 namespace crossnav::python {
 namespace {
 
-/// Failure -> crossnav.Error, whose text is what the program would print.
+/// Failure -> crossnav.Error with the program's text.
 void Translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
@@ -26,7 +26,7 @@ NB_MODULE(_core, m) {
   using namespace crossnav::python;  // NOLINT: the macro's scope is ours
   m.doc() = "crossnav's C++ library; import crossnav instead";
   m.attr("VERSION") = CROSSNAV_VERSION;
-  nb::set_leak_warnings(false);  // objects that users keep to the end are no fault
+  nb::set_leak_warnings(false);  // objects alive at exit are no error
   nb::register_exception_translator(Translate);
   BindCore(m);
   BindGeometry(m);
@@ -34,6 +34,7 @@ NB_MODULE(_core, m) {
   BindPerception(m);
   BindSimulator(m);
   BindStore(m);
+  BindLanguage(m);
   BindRecordings(m);
   BindHooks(m);
   BindAgent(m);

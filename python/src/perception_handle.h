@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The four interfaces as Python writes them, and the suite that hands Python's objects to an agent.
+// The four interfaces in Python, and the suite that passes Python's objects to an agent.
 #pragma once
 
 #include "common.h"

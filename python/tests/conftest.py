@@ -41,7 +41,7 @@ def replay(tmp_path_factory: pytest.TempPathFactory) -> Path:
     if not program:
         pytest.skip("scripts/test_python.sh names the program, where it is built")
     out = tmp_path_factory.mktemp("demo")
-    # Exit status 1: no goal is found in so few steps.
+    # Exit status 1: so few steps find no goal.
     done = subprocess.run(
         [program, "demo", "2", "--quiet", "--out", str(out), "--set", "eval.action_budget=30",
          "--set", "sensor.width_px=160", "--set", "sensor.height_px=160"],

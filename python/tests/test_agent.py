@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The agent driven from Python does what the C++ runner does, at no cost worth naming."""
+"""The agent driven from Python equals the C++ runner, at negligible cost."""
 
 import gc
 import json

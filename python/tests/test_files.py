@@ -31,6 +31,21 @@ def test_a_saved_map_is_the_same_when_loaded(agent: crossnav.Agent, tmp_path: Pa
     assert np.allclose(memory.similarity(text), agent.memory.similarity(text), atol=1e-6)
 
 
+def test_a_saved_map_answers_questions(agent: crossnav.Agent, tmp_path: Path,
+                                       simulator: crossnav.Simulator) -> None:
+    walked(agent, simulator)
+    path = tmp_path / "home.map"
+    encoder = agent.perception.encoder
+    crossnav.save_map(path, agent.map, agent.memory, encoder.name())
+    answer = crossnav.ask(path, "where is the sofa?", SMALL)
+    assert answer["kind"] == "where"
+    assert all(thing["category"] == "sofa" for thing in answer["things"])
+    own = crossnav.ask(path, "where is the sofa?", SMALL, encode=encoder.encode_text)
+    assert own["answer"] == answer["answer"]
+    with pytest.raises(crossnav.Error, match="not understood"):
+        crossnav.ask(path, "why?", SMALL)
+
+
 def test_an_agent_starts_from_a_saved_map(agent: crossnav.Agent, tmp_path: Path,
                                           simulator: crossnav.Simulator) -> None:
     walked(agent, simulator)

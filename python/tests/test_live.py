@@ -43,7 +43,7 @@ class Server:
         return live.Client(camera, HEIGHT_M, self.socket, **options)
 
     def end(self, how: signal.Signals = signal.SIGTERM) -> dict[str, Any]:
-        """What it printed at its clean end."""
+        """Its output at a clean end."""
         self.process.send_signal(how)
         out, err = self.process.communicate(timeout=60)
         assert self.process.returncode == 0, err
@@ -98,7 +98,7 @@ class BlindEncoder(crossnav.DenseEncoder):
 
 
 def make_blind_agent(scene: crossnav.Scene) -> crossnav.Agent:
-    """Sees what `--perception none` sees."""
+    """Blind, as `--perception none`."""
     perception = crossnav.Perception(BlindDetector(), BlindSegmenter(), BlindStairs(),
                                      BlindEncoder())
     return crossnav.Agent(perception, scene.config)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The wheel itself: what is in it, that it imports anywhere, and that its types hold."""
+"""The wheel itself: its content, import from any folder, and its types."""
 
 import json
 import os

@@ -12,7 +12,7 @@ import crossnav
 
 
 class Detector(crossnav.Detector):
-    """Passes on what the ground truth finds, and remembers what it was asked."""
+    """Forwards to ground truth, and records the queries."""
 
     def __init__(self, inner: crossnav.Detector) -> None:
         super().__init__()

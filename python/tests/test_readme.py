@@ -1,23 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""What the README shows: its Python lines, and the command that makes its moving picture."""
+"""The command that makes the moving picture of the README; its Python lines are in test_documents.py."""
 import os
 import pathlib
-import re
 import subprocess
 import sys
 
-import crossnav
-
 ROOT = pathlib.Path(os.environ.get("CROSSNAV_ROOT", pathlib.Path(__file__).parents[2]))
-
-
-def test_python_lines_of_the_readme_run(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    crossnav.write_embedded_house("houses")
-    lines = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.S).group(1)
-    names = {}
-    exec(lines, names)  # noqa: S102: our own README
-    assert isinstance(names["action"], crossnav.Action)
 
 
 def test_moving_picture_is_made(tmp_path):

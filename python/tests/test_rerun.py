@@ -112,7 +112,7 @@ def test_path_candidates_and_scores_are_the_records(rows: Rows,
 
 
 def test_the_trail_shows_the_whole_way_at_every_step() -> None:
-    """What a viewer shows at a step: of each piece what was drawn last."""
+    """A viewer's picture at a step: the last drawing of each piece."""
     feet = [[0.25 * step, 0.0, 1.0] for step in range(2 * draw.TRAIL_PIECE + 8)]
     stream = rr.RecordingStream("test")
     memory = stream.memory_recording()

@@ -205,7 +205,7 @@ class StubTime(int):
 
 
 class StubNode:
-    """What the example uses of rclpy's Node."""
+    """The subset of rclpy's Node that the example uses."""
 
     def __init__(self, name: str) -> None:
         self.sent: list[Any] = []
@@ -239,7 +239,7 @@ class StubTransformError(Exception):
 
 
 class StubBuffer:
-    """What tf2 knows: TRANSFORMS."""
+    """The transforms of tf2: TRANSFORMS."""
 
     def lookup_transform(self, target: str, source: str, time: Any) -> Any:
         if (target, source) not in TRANSFORMS:
@@ -318,3 +318,32 @@ def test_the_example_node_moves_ends_its_moves_and_stands_when_the_server_dies(
         server.process.communicate()
         PARAMETERS.clear()
         TRANSFORMS.clear()
+
+
+class StubMarker(types.SimpleNamespace):
+    def __init__(self) -> None:
+        space = types.SimpleNamespace
+        super().__init__(header=space(frame_id=""), ns="", id=0, type=0, action=-1,
+                         pose=space(position=space(x=0.0, y=0.0, z=0.0), orientation=space(w=0.0)),
+                         scale=space(x=0.0, y=0.0, z=0.0), color=space(r=0.0, g=0.0, b=0.0, a=0.0),
+                         points=[], text="")
+
+
+def test_a_graph_becomes_markers() -> None:
+    graph = {"rooms": [{"id": 0, "center": [1, 1, 0], "box_min": [0, 0, 0], "box_max": [2, 2, 2.5]},
+                       {"id": 1, "center": [3, 1, 0], "box_min": [2, 0, 0], "box_max": [4, 2, 2.5]}],
+             "passages": [{"rooms": [0, 1], "position": [2, 1, 0], "width_m": 0.9}],
+             "objects": [{"id": 0, "category": "table", "box_min": [0, 0, 0], "box_max": [1, 1, 0.8]},
+                         {"id": 1, "category": "plant", "box_min": [0.2, 0.2, 0.8],
+                          "box_max": [0.4, 0.4, 1.2]}],
+             "relations": [{"relation": "on", "from": 1, "to": 0}]}
+    markers = ros.markers_of(graph, StubMarker, types.SimpleNamespace, "world")
+    kinds = [(marker.ns, marker.type) for marker in markers]
+    assert kinds == [("rooms", 1)] * 2 + [("objects", 1), ("names", 9)] * 2 + [("passages", 5),
+                                                                              ("relations", 5)]
+    assert all(marker.header.frame_id == "world" for marker in markers)
+    plant, name = markers[4], markers[5]
+    assert (plant.pose.position.x, plant.pose.position.z) == (pytest.approx(0.3), pytest.approx(1.0))
+    assert plant.scale.z == pytest.approx(0.4)
+    assert name.text == "plant" and name.pose.position.z == pytest.approx(1.3)
+    assert len(markers[-2].points) == 4 and len(markers[-1].points) == 2

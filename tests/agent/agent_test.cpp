@@ -46,7 +46,7 @@ TEST(Agent, AFixedCameraIsNeverAskedToTilt) {
   Agent agent(config, FakeSuite(CouchSight()));
   ASSERT_TRUE(agent.SetGoal("couch").has_value());
   BoxWalker walker = TwoRooms();
-  walker.pose.pitch_rad = DegToRad(-20);  // as it is mounted
+  walker.pose.pitch_rad = DegToRad(-20);  // pitch of the mounting
   Action action = Action::kTurnLeft;
   for (int i = 0; i < 400 && action != Action::kStop; ++i) {
     const auto result = agent.Step(walker.Look());
@@ -70,7 +70,7 @@ TEST(Agent, TellsWhenAClosedRoomWithoutTheGoalIsExplored) {
   EXPECT_FALSE(walk.p_claimed_world.has_value());
 }
 
-TEST(Agent, NeverStopsAtWhatItWasNotAskedFor) {
+TEST(Agent, NeverStopsAtAnObjectOfAnotherCategory) {
   Agent agent(SmallConfig(), FakeSuite(CouchSight()));
   ASSERT_TRUE(agent.SetGoal("toilet").has_value());
   BoxWalker walker = TwoRooms();
@@ -126,7 +126,7 @@ TEST(Agent, AMalformedObservationIsAnErrorThatNamesItsField) {
   EXPECT_EQ(where(bad), "observation.depth_m");
   EXPECT_EQ(where(Observation()), "observation.depth_m");
   EXPECT_EQ(agent.map().Stats().known, 0);  // nothing of them got into the map
-  EXPECT_EQ(where(good), "");               // and the agent goes on
+  EXPECT_EQ(where(good), "");               // the agent continues
 }
 
 TEST(Agent, InvalidDepthEverywhereIsNoError) {
@@ -269,7 +269,7 @@ TEST(Agent, MovesOnlyThroughFreeSpace) {
   EXPECT_LE(10 * bumps, forward);
 }
 
-TEST(Agent, WhatIsClaimedIsShownWhereItIs) {
+TEST(Agent, AClaimedObjectIsReportedAtItsPlace) {
   Agent agent(SmallConfig(), FakeSuite(CouchSight()));
   ASSERT_TRUE(agent.SetGoal("couch").has_value());
   BoxWalker walker = TwoRooms();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A detector that lies: it takes a couch for a bed. What the agent does about it.
+// A detector that mistakes a couch for a bed, and the agent's verification of its claims.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST(Claims, OffBelievesTheFrame) {
   EXPECT_TRUE(SearchForBed(Liar(15, false), "off").at_sofa);
 }
 
-TEST(Claims, WhatTheMemoryCallsByAnotherNameIsNotClaimed) {
+TEST(Claims, AnObjectThatTheMemoryNamesOtherwiseIsNotClaimed) {
   const Outcome outcome = SearchForBed(Liar(180, true), "on");
   EXPECT_TRUE(outcome.at_bed) << outcome.walk.traces.size();
   EXPECT_EQ(CountEvents(outcome.walk, "claim refuted"), 1) << "the couch is remembered as refuted";

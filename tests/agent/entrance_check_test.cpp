@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entrance check of policy.profile = paper: what it has looked at is an angle, not a count.
+// The entrance check of policy.profile = paper: its progress is an angle, not a count.
 #include <gtest/gtest.h>
 
 #include "crossnav/agent/paper_behaviour.h"

@@ -56,7 +56,7 @@ struct Choice {
   bool is_flight = false;
 };
 
-/// Of an agent at `start` that looks west, is on its way to `committed` and saw `hints`.
+/// Choice of an agent at `start` that looks west, pursues `committed` and saw `hints`.
 Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart,
               const policy::Candidate* committed = nullptr,
               const std::vector<policy::Sighting>& hints = {}) {
@@ -121,9 +121,9 @@ TEST(Explore, AFlightDownComesFirstForASofaAndLastForABed) {
   EXPECT_FALSE(Choose(map, "chair").is_flight);
 }
 
-// The price of the flight is negative there, and "its class was paid for" took that away: at every
-// second look the door was nearer than what was left of the way.
-TEST(Explore, TheWayToALikelierStoreyIsKeptTo) {
+// Regression: the price of the flight is negative there, and the refund of its class cancelled it:
+// at every second look the door was nearer than the rest of the path.
+TEST(Explore, APathToALikelierFloorIsContinued) {
   VoxelMap map = Room();
   AddTreads(map, 6, 2);
   const VoxelKey at_door{3, 15, 1};
@@ -150,7 +150,7 @@ TEST(Explore, AHintBehindAWallIsGoneToThroughTheDoorThatLeadsThere) {
 }
 
 // The top of a slope to nowhere, 1.2 m up, was taken for a flight of stairs.
-TEST(Explore, WhatMerelyRisesIsNoStair) {
+TEST(Explore, RisingGroundWithoutStepsIsNoStair) {
   const Config config;
   World world(config);
   world.has_level = true;
@@ -166,9 +166,9 @@ TEST(Explore, WhatMerelyRisesIsNoStair) {
   EXPECT_TRUE(IsOverStairs(now, p_top)) << "stairs were seen there";
 }
 
-// Two treads bordering on a few unseen columns were worth a tenth of their way, like what is left
-// behind a bed, and the flight came after everything else on two floors.
-TEST(Explore, TheFirstTreadsDownAreAWayToAStorey) {
+// Regression: two treads that border on a few unseen columns had a tenth of their weight, like
+// ground behind a bed, and the flight came after everything else on two floors.
+TEST(Explore, TheFirstTreadsDownLeadToAnotherFloor) {
   VoxelMap map = Room();
   AddTreads(map, 2, -2);
   for (int y = 11; y <= 18; ++y) Wall(map, kSide + 6, y);  // little unseen ground beyond
@@ -180,13 +180,13 @@ TEST(Explore, TheFirstTreadsDownAreAWayToAStorey) {
 
 // The next tread is always the nearest: the agent went from the third floor to the ground past two
 // floors that it had not looked at.
-TEST(Explore, AFloorOnTheWayDownComesBeforeTheFlightGoesOn) {
+TEST(Explore, AnIntermediateFloorIsExploredBeforeTheNextFlight) {
   VoxelMap map = Room();
   AddTreads(map, 10, -3);
   for (int y = 12; y < 18; ++y) Wall(map, -1, y);  // no door
   constexpr int kFloor = -30, kWest = kSide + 20, kEast = kWest + 36;
   AddGround(map, kWest, 12, kEast, 18, kFloor);
-  AddGround(map, kWest, 18, kWest + 4, 20, kFloor - 3);  // it goes on here
+  AddGround(map, kWest, 18, kWest + 4, 20, kFloor - 3);  // continues here
   for (int z = kFloor - 6; z <= kFloor + 16; ++z) {
     for (int x = kWest; x < kEast; ++x) {
       SetState(map, {x, 11, z}, VoxelState::kOccupied);

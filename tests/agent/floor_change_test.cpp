@@ -95,7 +95,7 @@ TEST(FloorChange, HeightDriftNeitherEndsNorLengthensASearch) {
   EXPECT_LE(level_changes(drifting), level_changes(exact) + 1);
 }
 
-TEST(FloorChange, TheEdgeOfAGalleryIsNoWayDown) {
+TEST(FloorChange, TheEdgeOfAGalleryIsNoFlightDown) {
   // The flight is walled off at its top: nothing leads down, and the agent says so.
   BoxWalker walker = testing::TwoStoreys();
   walker.rooms.solids.push_back(BoxOf(4.1, 0, 0, 4.2, 1.1, 5.4));
@@ -126,8 +126,8 @@ TEST(FloorChange, ALevelIsLookedAroundOnOnce) {
   EXPECT_EQ(looks, 0);
 }
 
-// The links of floors are in the map: a restored one is walked at once.
-TEST(FloorChange, ARestoredMemoryKnowsTheWayToTheOtherFloor) {
+// The map holds the links of floors: a restored map is used at once.
+TEST(FloorChange, ARestoredMemoryKnowsThePathToTheOtherFloor) {
   BoxWalker walker = testing::TwoStoreys();
   walker.rooms.solids.push_back(testing::kUpperCouch);
   FakeSight sight;

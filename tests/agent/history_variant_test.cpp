@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The variants no-history-poi and no-history-poi-pure, and what a new goal starts anew. On equal
-// observations the variant may differ in History POIs and in what follows from them (mode, target,
-// path, action), and in nothing else. Stairs are left out on purpose: they are promoted only in
-// sessions, that is, by what the agent does.
+// The variants no-history-poi and no-history-poi-pure, and the state that a new goal resets. On
+// equal observations the variant may differ in History POIs and their consequences (mode, target,
+// path, action), and in nothing else. Stairs are left out: they are promoted in sessions only, that
+// is, by the agent's actions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ struct Errand {
   int steps;
 };
 
-/// What an agent with or without history sees while it runs the errands.
+/// Observations of an agent with or without history during the errands.
 std::vector<Moment> Record(bool use_history, const std::vector<Errand>& errands) {
   Agent agent(WithHistory(use_history), FakeSuite(CouchSight()));
   BoxWalker walker = TwoRooms();
@@ -72,8 +72,8 @@ std::vector<CandidateTrace> OfKind(const StepTrace& trace, const std::string& ki
   return out;
 }
 
-/// The part of the trace that history must not touch: what it leaves out is mode, reason, target,
-/// path, verification, events and action, and the candidates of classes that were not asked.
+/// The part of the trace that history must not change: without mode, reason, target, path,
+/// verification, events and action, and without candidates of classes that were not requested.
 std::string Untouched(StepTrace trace) {
   trace.action = Action::kStop;
   trace.mode = trace.reason = trace.activity = "";
@@ -120,8 +120,8 @@ Differences Compare(const std::vector<Moment>& moments) {
       ADD_FAILURE() << "step " << i;
       return seen;
     }
-    // Every voxel's state is in the trace of each step. A feature that once differs goes on
-    // differing, so that a look now and then sees it.
+    // Every voxel's state is in the trace of each step. A feature that differs once stays
+    // different, so that occasional checks suffice.
     if (i % 8 == 0 || i + 1 == moments.size()) {
       EXPECT_TRUE(BytesOf(with) == BytesOf(without)) << "after step " << i;
     }
@@ -189,7 +189,7 @@ TEST(HistoryVariant, ANewGoalStartsPoisPathAndVerificationAnew) {
   EXPECT_NE(other->trace.path_world.empty() ? Vector3d::Zero() : other->trace.path_world.back(),
             last->path_world.empty() ? Vector3d::Ones() : last->path_world.back());
   EXPECT_NE(other->action, Action::kStop);
-  // What was live for the old goal is remembered for it when it comes back.
+  // Live POIs of the old goal are restored with it.
   walker.Do(other->action);
   ASSERT_TRUE(agent.SetGoal("couch").has_value());
   const auto back = agent.Step(walker.Look());

@@ -67,7 +67,7 @@ TEST(Hooks, OwnAnswersChangeNoAction) {
 }
 
 TEST(Hooks, TheLeastScoreIsGoneTo) {
-  // Whatever the options are, what is chosen is the one that the hook likes best.
+  // For any options, the choice is the hook's favourite.
   double best = 0;
   Vector3d p_best_world = Vector3d::Zero();
   Prefers far([&](const ExplorationOption& option) { return -option.path_m; });

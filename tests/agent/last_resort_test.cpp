@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// "Cut off" is not "explored": what the agent tries before it says that nothing is left, and the
-// views that decide about a hint. On ground that was set by hand.
+// "Cut off" is not "explored": the agent's last resorts before it declares that nothing is left,
+// and the views that decide about a hint. On ground set by hand.
 #include "crossnav/agent/last_resort.h"
 
 #include <string>
@@ -69,7 +69,7 @@ TEST(CutOff, GroundBehindANarrowGapIsNamedAndTheGapIsTried) {
   EXPECT_TRUE(FindCutOff(given.now).IsEmpty());
 }
 
-TEST(CutOff, ALevelThatNoWayLeadsToIsNamedInTheDeclaration) {
+TEST(CutOff, AnUnreachableLevelIsNamedInTheDeclaration) {
   TwoFloors given;
   AddGround(given.world.map, 0, 0, 10, 10, 28);
   given.world.ground.Rebuild(given.world.map);

@@ -25,7 +25,7 @@ struct Mount {
   double ahead_m = 0, yaw_deg = 0, height_m = 0.88;
 };
 
-/// What a walker's robot sees with such a camera, pitched as the walker's.
+/// View of a walker's robot with such a camera, at the walker's pitch.
 Observation Look(const BoxWalker& walker, const Mount& mount) {
   Observation obs = walker.Look();
   obs.T_base_camera =
@@ -102,7 +102,7 @@ TEST(Mounting, TheHeightOfTheMountingHoldsOnlyWhereItIsGiven) {
   EXPECT_EQ(plain->trace.agent.p_world, walker.pose.p_world);
 }
 
-TEST(Mounting, WhatIsNoMountingIsAnErrorThatNamesItsKey) {
+TEST(Mounting, AnInvalidMountingIsAnErrorThatNamesItsKey) {
   Agent agent(SmallConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());
   const Observation good = Look(ClosedRoom(), {0.2, 0, 0.6});
@@ -124,7 +124,8 @@ TEST(Mounting, WhatIsNoMountingIsAnErrorThatNamesItsKey) {
   expect_bad(changed([](Pose& T) { T.translation().z() = 0; }));
   expect_bad(changed([](Pose& T) { T.translation().z() = 5.1; }));
   expect_bad(changed([](Pose& T) { T.translation().y() = -6; }));
-  // The other way round, and a camera of ROS's other frame (x ahead) instead of the optical one.
+  // The inverse transform, and a camera of ROS's other frame (x ahead) instead of the optical
+  // frame.
   expect_bad(good.T_base_camera->inverse());
   expect_bad(Pose(Eigen::Translation3d(0.2, 0, 0.6)));
   EXPECT_EQ(agent.map().Stats().known, 0);
@@ -177,7 +178,7 @@ TEST(ColourCamera, ThatOfDepthGivesTheSameTracesByteForByte) {
   EXPECT_EQ(traces[0], traces[1]);
 }
 
-TEST(ColourCamera, WhatIsNoneIsAnErrorThatNamesItsKey) {
+TEST(ColourCamera, AnInvalidColourCameraIsAnErrorThatNamesItsKey) {
   Agent agent(SmallConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());
   const auto where = [&](auto&& change) {

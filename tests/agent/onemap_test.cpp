@@ -43,7 +43,7 @@ TEST(OneMap, FindsTheObjectInTheNextRoomAndGoesStraightBackToIt) {
   EXPECT_LT(again.traces.size(), search.traces.size());
 }
 
-TEST(OneMap, AFloorChangeIsBeyondIt) {
+TEST(OneMap, ItCannotChangeFloors) {
   BoxWalker walker = testing::TwoStoreys();
   walker.rooms.solids.push_back(testing::kUpperCouch);
   test::FakeSight sight;
@@ -69,7 +69,7 @@ TEST(OneMap, TheSameObservationsGiveTheSameTraces) {
   EXPECT_EQ(traces[0], traces[1]);
 }
 
-TEST(OneMap, ADetectionThatTheMapDoesNotAgreeWithIsNotBelieved) {
+TEST(OneMap, ADetectionAgainstTheMapIsRejected) {
   test::FakeSight sight = CouchSight();
   sight.text = [](std::string_view) { return std::vector<float>{0, 0.8F, 0.6F, 0}; };
   Config config = OneMapConfig();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // policy.profile = paper: the rules of the supplement, and the readings that docs/paper_map.md
-// lists under "Choices", each by what it does.
+// lists under "Choices", each by its effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ struct Corridor {
     world.step = 100;
   }
 
-  /// What is chosen `steps` after a commitment to a candidate of `kind` at the right end.
+  /// Target `steps` after a commitment to a candidate of `kind` at the right end.
   std::optional<Target> ChosenAfter(int steps, CandidateKind kind) {
     Situation now{config, world, goal, agent, agent, std::nullopt, nullptr};
     now.start = planner::StartVoxel(world.map, agent.p_world);
@@ -169,7 +169,7 @@ TEST(PaperChoices, ASearchBeginsWithOneTurnAndRelaxesOnceBeforeItEnds) {
             1);
 }
 
-// Steps that do not move: a forward action that meets what the map does not show.
+// Steps that do not move: a forward action into an obstacle that the map does not show.
 TEST(PaperChoices, AfterThreeBumpsTheAgentStepsAside) {
   Agent agent(PaperConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());
@@ -215,8 +215,8 @@ TEST(PaperChoices, TheExplorationLevelIsTheOneThatSupportsTheAgent) {
   EXPECT_NEAR(level_m, 2.8, 0.05);
 }
 
-// Where every tread was seen, nothing unsupported borders on the floor: the third condition of a
-// descend frontier, ground under the level's band, is the only one that holds.
+// With every tread seen, nothing unsupported borders on the floor: only the third condition of a
+// descend frontier holds, ground under the level's band.
 TEST(PaperChoices, AFlightDownWhoseTreadsWereAllSeenHasADescendFrontier) {
   test::FlightWorld flight = test::MakeFlight();
   flight.map.UpdateStates();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The guarantee of the full profile: in a static world no (standing voxel, heading, target) comes
-// up more than a few times without new knowledge of the map in between, and what is left to try
-// ends: an agent whose goal does not exist says so.
+// The guarantee of the full profile: in a static world no (standing voxel, heading, target) repeats
+// more than a few times without new knowledge of the map in between, and the search ends: an agent
+// with an absent goal declares it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,7 +94,7 @@ struct Ground {
   }
 };
 
-// Marks of bumps on all sides of a narrow place closed every way out of it, to the end of the
+// Regression: marks of bumps on all sides of a narrow place closed every exit, to the end of the
 // budget.
 TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
   Ground given;
@@ -117,7 +117,7 @@ TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
 }
 
 // A body that slid along a door frame marked the middle of the door.
-TEST(Progress, AStepThatSlidMarksWhatLiesBesideIt) {
+TEST(Progress, ASlidingStepMarksTheObstacleBesideIt) {
   const auto is_open = [](const Vector3d& moved, const VoxelKey& key) {
     Ground given;
     AgentPose before = given.now.agent;  // heads east

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes are chosen, listed, and episodes drawn in those of the list.
+// Chooses scenes, lists them, and draws episodes in the listed scenes.
 #include "cli_fixture.h"
 
 namespace crossnav::test {
@@ -34,11 +34,11 @@ TEST_F(ChooseCli, ScenesAreChosenByFloorsAndCategories) {
 
 TEST_F(ChooseCli, EpisodesAreDrawnInTheListedScenesWithTheWantedCounts) {
   WriteText(At("list.txt"), "# the second by its name\nCrossnavHouse2  # without its number\n");
-  for (const std::string& way : {std::string(), std::string(" --by-scene")}) {
+  for (const std::string& option : {std::string(), std::string(" --by-scene")}) {
     const Outcome outcome =
         Run("episodes generate --json --scenes scenes --scene-list list.txt --count 6 --first 2,0,1"
             " --seed 3 --out drawn.json" +
-            way + kSmall);
+            option + kSmall);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Json document = Json::parse(outcome.out);
     EXPECT_EQ(document["scenes"], 1);

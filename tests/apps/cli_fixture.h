@@ -51,7 +51,7 @@ class Cli : public ::testing::Test {
     }
   }
 
-  /// `before` is what the shell does first.
+  /// `before`: shell code that runs first.
   static Outcome RunIn(const TempFolder& folder, const std::string& arguments,
                        const std::string& before = {}) {
     const fs::path out = folder.path() / "stdout", err = folder.path() / "stderr";

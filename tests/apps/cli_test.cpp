@@ -209,7 +209,7 @@ TEST_F(Cli, RunLeavesRecordTracePicturesReplayMapAndPage) {
   EXPECT_EQ(Run("map export run/m.map --out m.ply").exit_code, 0);
 }
 
-TEST_F(Cli, ARunGoesOnFromASavedMemory) {
+TEST_F(Cli, ARunContinuesFromASavedMemory) {
   const std::string run =
       "run --quiet --json --scenes scenes --episodes e.json --episode " + FirstId() + kSmall;
   ASSERT_EQ(Run(run + " --out first --save-map m.map").exit_code, 0);
@@ -220,7 +220,7 @@ TEST_F(Cli, ARunGoesOnFromASavedMemory) {
     return Json::parse(Run("map info " + std::string(map) + settings).out)["feature_rows"]
         .get<int>();
   };
-  EXPECT_GE(rows("n.map"), rows("m.map"));  // what was known stays known
+  EXPECT_GE(rows("n.map"), rows("m.map"));  // known features stay
 
   EXPECT_EQ(Run(run + " --out third --memory nowhere.map").exit_code, 1);
   const Outcome other = Run(run + " --out third --memory m.map --set map.voxel_m=0.2");
@@ -375,7 +375,7 @@ TEST_F(Cli, WorldStatsCountsHousesAndKeepsNone) {
   EXPECT_FALSE(fs::exists(At("houses")));
 }
 
-TEST_F(Cli, WithoutAPackTheGeneratorSaysSoAndGoesOn) {
+TEST_F(Cli, WithoutAPackTheGeneratorReportsItAndContinues) {
   ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
   const Outcome house = Run(kOneRoom);
   const Outcome wished = Run(std::string(kOneRoom) + " --furniture none");

@@ -89,13 +89,13 @@ TEST_F(EvalCli, AnEpisodeThatStartsOffTheNavmeshIsInvalidAndNoFigureCountsIt) {
   EXPECT_EQ(document["invalid"], 1);
   EXPECT_EQ(document["failed"], Json::object());
   EXPECT_NE(outcome.err.find("failed (invalid)"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("the start lies off the navmesh"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the start is off the navmesh"), std::string::npos) << outcome.err;
   const Outcome text = Run("metrics run/results.jsonl");
   EXPECT_NE(text.out.find("invalid: 1 episodes"), std::string::npos) << text.out;
   EXPECT_EQ(Run("report run --out report").exit_code, 0);
 }
 
-TEST_F(EvalCli, InterruptedEvalGoesOnAndGivesTheSameFile) {
+TEST_F(EvalCli, AnInterruptedEvalResumesAndGivesTheSameFile) {
   const std::string eval =
       std::string("eval --quiet --scenes scenes --episodes e.json --out run") + kSmall;
   ASSERT_EQ(Run(eval).exit_code, 0);
@@ -112,7 +112,7 @@ TEST_F(EvalCli, InterruptedEvalGoesOnAndGivesTheSameFile) {
   EXPECT_EQ(ReadText(At("run/results.jsonl")), again);
 }
 
-TEST_F(EvalCli, EvalKilledAtWorkGoesOnToTheSameRecords) {
+TEST_F(EvalCli, AKilledEvalResumesToTheSameRecords) {
   const std::string eval =
       std::string("eval --quiet --scenes scenes --episodes e.json --jobs 2") + kSmall;
   ASSERT_EQ(Run(eval + " --out whole").exit_code, 0);
@@ -143,7 +143,7 @@ TEST_F(EvalCli, AnEpisodeOutOfTimeIsAFailedRecord) {
   EXPECT_NE(ReadText(At("report/report.md")).find("### Failed episodes"), std::string::npos);
 }
 
-TEST_F(EvalCli, KeepReplaysKeepsThoseOfEpisodesThatDidNotComplete) {
+TEST_F(EvalCli, KeepReplaysKeepsReplaysOfFailedEpisodes) {
   const std::string eval =
       std::string("eval --quiet --json --scenes scenes --episodes e.json --keep-replays failures") +
       kSmall;
@@ -206,7 +206,7 @@ TEST_F(EvalCli, ReportComparesRunsAndRefusesAnotherTask) {
 
 /// A stand-in for the interpreter, so that no Python package is needed; python/tests has the real
 /// one.
-TEST_F(EvalCli, WhatThePythonPackageWritesIsAskedOfIt) {
+TEST_F(EvalCli, HtmlReportsAreMadeByThePythonPackage) {
   WriteText(At("r.mcap"), "a replay");
   WriteText(At("python's own"),
             "#!/bin/sh\nprintf '<%s>' \"$@\" >words\n"

@@ -164,7 +164,7 @@ std::string ManyStaircases() {
   return building.dump();
 }
 
-TEST_F(IfcCli, AnImportEndsAtItsLimitByTheClockWhateverTakesLong) {
+TEST_F(IfcCli, AnImportEndsAtItsLimitOfWallTime) {
   WriteText(At("a.ifc"), SmallIfc());
   const std::pair<std::string, int> readers[] = {{"", 60}, {ManyStaircases(), 0}};
   for (const auto& [text, waits_s] : readers) {
@@ -180,7 +180,7 @@ TEST_F(IfcCli, AnImportEndsAtItsLimitByTheClockWhateverTakesLong) {
   }
 }
 
-TEST_F(IfcCli, AFileCutAnywhereIsRefusedInOneLineOrReadAsFarAsItGoes) {
+TEST_F(IfcCli, ATruncatedFileIsRefusedInOneLineOrReadInPart) {
   if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
   const std::string whole = SmallIfc(), end = "\nENDSEC;\nEND-ISO-10303-21;\n";
   constexpr std::size_t kCuts = 5;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program killed at random moments: what bears its final name is whole, and the same command
-// then does its work as if nothing had been. CROSSNAV_LONG_TESTS=1 kills 25 times a command, not 2.
+// The program killed at random moments: files with a final name are whole, and the same command
+// then succeeds. CROSSNAV_LONG_TESTS=1 kills 25 times a command, not 2.
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -40,12 +40,12 @@ class Killed : public test::Cli {
     return WIFSIGNALED(status);
   }
 
-  /// Kills `arguments` at moments all over the time that it takes; `check` looks after each at what
-  /// is left. Then it runs to its end, over what the last kill left.
+  /// Kills `arguments` at moments spread over its duration; `check` inspects the files after each.
+  /// Then runs it to its end, over the files of the last kill.
   void ExpectNothingHalf(const std::string& arguments, const std::vector<std::string>& outputs,
                          const std::function<void()>& check) {
     SCOPED_TRACE(arguments);
-    ASSERT_EQ(Run(arguments).exit_code, 0);  // leaves what is cached
+    ASSERT_EQ(Run(arguments).exit_code, 0);  // fills the caches
     for (const std::string& output : outputs) fs::remove_all(At(output));
     const auto start = std::chrono::steady_clock::now();
     const Outcome whole = Run(arguments);
@@ -126,7 +126,7 @@ TEST_F(Killed, SceneImportLeavesAWholeSceneOrNone) {
                     [&] { ExpectWholeScenes("homes"); });
 }
 
-TEST_F(Killed, EvalLeavesWholeRecordsAndGoesOnFromThem) {
+TEST_F(Killed, EvalLeavesWholeRecordsAndResumesFromThem) {
   const std::string eval = "eval --quiet --scenes scenes --episodes e.json --out run --jobs 2";
   ExpectNothingHalf(eval + kSmall, {"run"}, [&] { ExpectWholeLines(At("run")); });
   const Outcome metrics = Run("metrics run/results.jsonl --json");

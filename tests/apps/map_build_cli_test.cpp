@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `map build` as a user types it: what it prints and writes, and that errors leave nothing behind.
+// `map build` from the command line: its output, and that errors leave no files behind.
 #include <gtest/gtest.h>
 
 #include "apps/cli_fixture.h"
@@ -18,7 +18,7 @@ class MapBuildCli : public test::Cli {
   static void TearDownTestSuite() {}
   void SetUp() override {}
 
-  /// Exit 1, a message with all parts, and no file besides those in `kept`.
+  /// Exit 1, a message with all parts, and no file except those in `kept`.
   void ExpectRefusal(const std::string& arguments, const std::vector<std::string>& parts,
                      int kept = 0) {
     const Outcome outcome = Run("map build --quiet " + arguments);
@@ -127,10 +127,15 @@ TEST_F(MapBuildCli, ADetectorForPhotographsIsTheDefaultWhereItsFileIs) {
       << chairs.err;
   EXPECT_EQ(Json::parse(chairs.out)["detected"]["detector"], "deimv2_femto_coco");
   EXPECT_EQ(Json::parse(chairs.out)["detected"]["is_class"], true);
+  EXPECT_EQ(Json::parse(chairs.out)["verdict_by"], "detector");
+  EXPECT_EQ(Json::parse(chairs.out)["verdict"],
+            Json::parse(chairs.out)["detected"]["places"].empty() ? "absent" : "present");
   const Outcome own = RunIn(folder_, command + "wall --networks own", with);
   ASSERT_EQ(own.exit_code, 0) << own.err;
   EXPECT_NE(own.err.find("networks: own"), std::string::npos) << own.err;
   EXPECT_EQ(Json::parse(own.out)["detected"]["is_class"], false);
+  EXPECT_EQ(Json::parse(own.out)["verdict"], "unknown");  // nobody can tell
+  EXPECT_EQ(Json::parse(own.out)["verdict_by"], "memory");
 }
 
 }  // namespace

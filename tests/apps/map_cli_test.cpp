@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "apps/cli_fixture.h"
 
@@ -54,13 +55,32 @@ TEST_F(MapCli, QueryTellsBestViewAndAReachablePlaceToStand) {
     EXPECT_GE(place["observation"]["path_m"], 0);
   }
   EXPECT_GT(reachable, 0);
-  // The same place from elsewhere: as good a view, another way.
+  // The same place from elsewhere: an equally good view, another path.
   const auto at = places[0]["observation"]["position"].get<std::vector<double>>();
   const Json here = Query("m.map sofa --from " + std::to_string(at[0]) + "," +
                           std::to_string(at[1]) + "," + std::to_string(at[2]))["places"];
   EXPECT_LT(here[0]["observation"]["path_m"], 0.5);
   EXPECT_TRUE(Query("m.map sofa --from 90,90,0")["places"][0]["observation"].is_null());
   EXPECT_EQ(Run("map query m.map sofa --from 1,2").exit_code, 2);
+}
+
+TEST_F(MapCli, AGraphHasTheRunsObjectsAndIsWrittenAsItsNameSays) {
+  const std::string id = IdOfEpisodeFor("sofa");
+  ASSERT_EQ(Run("run --quiet --scenes scenes --episodes e.json --episode " + id + kSmall +
+                " --save-map m.map --set eval.action_budget=200")
+                .exit_code,
+            0);
+  for (const char* name : {"g.json", "g.graphml", "g.mcap"}) {
+    const Outcome outcome = Run(std::string("map graph --json m.map --to ") + name);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json graph = Json::parse(outcome.out);
+    EXPECT_FALSE(graph["rooms"].empty());
+    ASSERT_FALSE(graph["objects"].empty());
+    EXPECT_EQ(graph["objects"][0]["category"], "sofa");
+    EXPECT_GE(graph["objects"][0]["confidence"], 0.5);
+    EXPECT_TRUE(std::filesystem::exists(At(name)));
+  }
+  EXPECT_NE(Run("map graph m.map --to g.txt").exit_code, 0);
 }
 
 TEST_F(MapCli, ContrastiveRelevancyIsOffUnlessAskedFor) {
@@ -77,7 +97,7 @@ TEST_F(MapCli, ContrastiveRelevancyIsOffUnlessAskedFor) {
   EXPECT_NE(test::ReadText(At("a.ply")), test::ReadText(At("b.ply")));
 }
 
-TEST_F(MapCli, WhatIsNotInTheMapIsAbsentAndWhatIsInItHasAMatchOnTheScale) {
+TEST_F(MapCli, UnknownObjectsAreAbsentAndKnownObjectsHaveAMatch) {
   ASSERT_EQ(Run(RunCommand() + " --save-map m.map --set eval.action_budget=120").exit_code, 0);
   const Json sofa = Query("m.map sofa");
   EXPECT_EQ(sofa["verdict"], "present");

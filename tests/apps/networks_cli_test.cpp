@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "cli_fixture.h"
-#include "networks/small_network.h"
+#include "inference/small_network.h"
 
 namespace crossnav::test {
 namespace {
@@ -21,7 +21,7 @@ class NetworksCli : public Cli {
       " --set networks.stairs=small --set networks.encoder=small";
 };
 
-TEST_F(NetworksCli, ListAndCheckSayWhatIsThere) {
+TEST_F(NetworksCli, ListAndCheckReportTheNetworks) {
   const Outcome list = Run("networks list --json" + use_);
   ASSERT_EQ(list.exit_code, 0) << list.err;
   const Json json = Json::parse(list.out);
@@ -33,6 +33,18 @@ TEST_F(NetworksCli, ListAndCheckSayWhatIsThere) {
   EXPECT_GT(Json::parse(check.out)["networks"][0]["ms"], 0);
   std::ofstream(At("nets/small.onnx")) << "damaged";
   EXPECT_EQ(Run("networks check --quiet" + use_).exit_code, 1);
+}
+
+TEST_F(NetworksCli, CalibrateWritesRetrievalThresholdsThatLaterRunsUse) {
+  const Outcome run = Run("networks calibrate small --scenes scenes --json" + use_);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_GT(json["queries"].size(), 0U);
+  EXPECT_GE(json["best"]["f1"], json["defaults"]["f1"]);
+  EXPECT_NE(ReadText(At("nets/small.toml")).find("[retrieval]"), std::string::npos);
+  EXPECT_EQ(Run("networks check small" + use_).exit_code, 0);
+  ExpectFailure("networks calibrate none --scenes scenes" + use_, {"none.toml"});
+  ExpectFailure("networks calibrate small --scenes nowhere" + use_, {"nowhere"});
 }
 
 TEST_F(NetworksCli, LookDrawsWhatTheySee) {

@@ -13,7 +13,7 @@ using test::kSmall;
 using test::Outcome;
 using test::ReadText;
 
-TEST_F(NoiseCli, TheSweepHasARowForEachValueAndWritesWhatItPrints) {
+TEST_F(NoiseCli, TheSweepWritesItsPrintedRowForEachValue) {
   const Outcome outcome =
       Run("bench noise --scenes scenes --episodes e.json --count 1 --kind slip --out sweep.json "
           "--quiet" +
@@ -30,7 +30,7 @@ TEST_F(NoiseCli, TheSweepHasARowForEachValueAndWritesWhatItPrints) {
   }
 }
 
-TEST_F(NoiseCli, ASweepThatWasCutOffGoesOn) {
+TEST_F(NoiseCli, AnInterruptedSweepResumes) {
   const std::string sweep =
       "bench noise --scenes scenes --episodes e.json --count 1 --kind slip --out sweep.json "
       "--quiet" +
@@ -41,7 +41,7 @@ TEST_F(NoiseCli, ASweepThatWasCutOffGoesOn) {
   cut["rows"].erase(4);
   cut["rows"].erase(2);
   cut["rows"][0]["goals"] = 1000;       // a row that is there is taken, not made again
-  cut["rows"][1].erase("map_error_m");  // and one that is damaged is made
+  cut["rows"][1].erase("map_error_m");  // a damaged row is remade
   test::WriteText(At("sweep.json"), cut.dump());
   ASSERT_EQ(Run(sweep).exit_code, 0);
   Json wanted = Json::parse(whole);

@@ -75,7 +75,7 @@ class Paths : public test::Cli {
 
   std::string RunOf() { return std::string("run --quiet") + kEpisodes + " --episode " + FirstId(); }
 
-  /// Commands that write one file: what stands before the path, and the option.
+  /// Commands with one output file: the text before the path, and the option.
   std::vector<std::pair<std::string, std::string>> FileOutputs() {
     return {{std::string(kOneRoom), "--contact-sheet"},
             {std::string("scene render --top-down") + kScene, "--out"},
@@ -185,7 +185,7 @@ TEST_F(Paths, AFullDiskLeavesNoHalfWrittenFileAndNoFalseSuccess) {
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_NE(outcome.err.find("crossnav: "), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(At("new_file")) && fs::file_size(At("new_file")) > 0);
-    if (option != "--replay") {  // which keeps what fitted
+    if (option != "--replay") {  // which keeps the written part
       EXPECT_FALSE(fs::exists(At("new_file.part")));
     }
     for (const fs::path& path : Files())
@@ -229,7 +229,7 @@ TEST_F(Paths, NamesThatAreNotUtf8AreReadAndWritten) {
   ExpectRefused("scene info scenes/00001-Caf\xe9", {"not UTF-8", "rename"});
 }
 
-TEST_F(Paths, TheSameInputTwiceIsRefusedUnderWhateverName) {
+TEST_F(Paths, TheSameInputTwiceIsRefusedUnderAnyNames) {
   fs::create_symlink("run", At("again"));
   before_ = Files();
   ExpectRefused("merge run again --out new", {"again", "given twice"});

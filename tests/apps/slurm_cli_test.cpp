@@ -26,7 +26,7 @@ void ExpectParts(const std::string& text, const std::vector<std::string>& parts)
   }
 }
 
-/// An executable that stands for one of Slurm's commands, in `bin`.
+/// A stand-in executable for one of Slurm's commands, in `bin`.
 void Fake(const fs::path& bin, const std::string& name, const std::string& body) {
   fs::create_directories(bin);
   WriteText(bin / name, "#!/bin/bash\n" + body + "\n");
@@ -46,7 +46,7 @@ std::vector<Json> Records(const fs::path& path) {
   return lines;
 }
 
-TEST_F(SlurmCli, TheScriptsSayWhatWasAskedFor) {
+TEST_F(SlurmCli, TheScriptsContainTheRequestedOptions) {
   const Outcome outcome =
       Run("slurm " + kEval +
           " --out run --tasks 3 --cpus 2 --time 2:00:00 --memory 4G --partition cpu --account lab "
@@ -91,7 +91,7 @@ TEST_F(SlurmCli, TheTasksRunByHandAreTheRunOfOneProcess) {
     return std::system((scripts + line + " >>log 2>&1").c_str());
   };
   ASSERT_EQ(bash("SLURM_ARRAY_TASK_ID=0 bash shards.sbatch"), 0);
-  EXPECT_NE(bash("bash merge.sbatch"), 0);  // names what is missing
+  EXPECT_NE(bash("bash merge.sbatch"), 0);  // names the missing episodes
   ExpectParts(ReadText(At(folder + "/slurm/log")), {"2 of 4 episodes are missing"});
   EXPECT_FALSE(fs::exists(At(folder + "/results.jsonl")));
   ASSERT_EQ(bash("SLURM_ARRAY_TASK_ID=1 bash shards.sbatch"), 0);
@@ -154,14 +154,14 @@ TEST_F(SlurmCli, AnotherDivisionOfTheSameRunIsRefused) {
   EXPECT_EQ(Run("slurm --dry-run --out run --tasks 4 " + kEval).exit_code, 0);
 }
 
-TEST_F(SlurmCli, MergeRefusesWhatIsMissingUnlessToldOtherwise) {
+TEST_F(SlurmCli, MergeRefusesMissingEpisodesUnlessPartial) {
   ASSERT_EQ(Run("eval --quiet --out run/shards --shard 0/2 " + kEval).exit_code, 0);
   const Outcome outcome = Run("merge run/shards --out merged.jsonl");
   EXPECT_EQ(outcome.exit_code, 1);
   ExpectParts(outcome.err, {"2 of 4 episodes are missing"});
   EXPECT_FALSE(fs::exists(At("merged.jsonl")));
   EXPECT_EQ(Run("merge run/shards --out merged.jsonl --partial").exit_code, 0);
-  // What was merged is a run that eval goes on with.
+  // eval can resume the merged run.
   fs::create_directories(At("rest"));
   fs::rename(At("merged.jsonl"), At("rest/results.jsonl"));
   EXPECT_EQ(Run("eval --quiet --out rest " + kEval).exit_code, 0);

@@ -37,7 +37,7 @@ TEST_F(TracksCli, EpisodesOfEditionTwoAreCheckedByTheirOwnRule) {
   EXPECT_NE(Run(check).err.find("certificate_edition"), std::string::npos);
 }
 
-TEST_F(TracksCli, GapsCompareAVariantThatIsToldWithOneThatIsNot) {
+TEST_F(TracksCli, GapsCompareInformedAndUninformedVariants) {
   const std::string eval =
       std::string("eval --quiet --scenes scenes --episodes e.json --shard 0/4") + kSmall;
   ASSERT_EQ(Run(eval + " --out full").exit_code, 0);

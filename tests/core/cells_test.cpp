@@ -32,7 +32,7 @@ TEST(Cells, NegativeLengthsRoundTowardsTheNamedSide) {
   EXPECT_EQ(CellsCeil(-0.30, 0.1), -3);
 }
 
-TEST(Cells, WholeMultiplesComeBackExactlyWhateverTheCell) {
+TEST(Cells, WholeMultiplesComeBackExactlyForEveryCellSize) {
   Rng rng(3);
   for (int i = 0; i < 2000; ++i) {
     const double cell = rng.Uniform(0.01, 0.5);

@@ -40,7 +40,7 @@ TEST(FootPoseOf, IsTheBaseOfAnyMounting) {
     T_world_base.translate(robot.p_world);
     T_world_base.rotate(Eigen::AngleAxisd(robot.yaw_rad, Vector3d::UnitZ()));
     obs.T_world_camera = T_world_base * *obs.T_base_camera;
-    const AgentPose foot = FootPoseOf(obs, 5);  // a height that nobody needs
+    const AgentPose foot = FootPoseOf(obs, 5);  // unused height
     EXPECT_NEAR((foot.p_world - robot.p_world).norm(), 0, 1e-12);
     EXPECT_NEAR(WrapAngle(foot.yaw_rad - robot.yaw_rad), 0, 1e-12);
     EXPECT_NEAR(foot.pitch_rad, camera_on_base.pitch_rad, 1e-9);
@@ -48,7 +48,7 @@ TEST(FootPoseOf, IsTheBaseOfAnyMounting) {
   }
 }
 
-TEST(FootPoseOf, ABaseThatLeansStillStandsOnItsFoot) {
+TEST(FootPoseOf, ALeaningBaseKeepsItsFoot) {
   Pose T_world_base = Pose::Identity();
   T_world_base.translate(Vector3d(1, 2, 3));
   T_world_base.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));

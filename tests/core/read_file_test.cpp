@@ -10,7 +10,7 @@
 namespace crossnav {
 namespace {
 
-TEST(ReadFile, GivesEveryByteOfAFileAndNothingOfAnEmptyOne) {
+TEST(ReadFile, GivesEveryByteAlsoOfAnEmptyFile) {
   const test::TempFolder folder;
   const std::string bytes("a\0\r\n\xff", 5);
   test::WriteText(folder.path() / "a", bytes);
@@ -19,7 +19,7 @@ TEST(ReadFile, GivesEveryByteOfAFileAndNothingOfAnEmptyOne) {
   EXPECT_EQ(ReadFile(folder.path() / "empty").value(), "");
 }
 
-TEST(ReadFile, NamesWhatCannotBeRead) {
+TEST(ReadFile, NamesUnreadableFiles) {
   const test::TempFolder folder;
   test::WriteText(folder.path() / "a", "12345");
   const auto missing = ReadFile(folder.path() / "none");

@@ -27,14 +27,14 @@ TEST(Rng, SeedsGiveTheGoldenNumbers) {
   EXPECT_EQ(FirstFour(Rng(42, 7)), (Four{851889987u, 1039061325u, 2341589682u, 1512363413u}));
 }
 
-TEST(Rng, UniformNumbersAreTheGoldenOnesToTheLastBit) {
+TEST(Rng, UniformNumbersEqualTheGoldenNumbersToTheLastBit) {
   Rng rng(42);
   EXPECT_EQ(rng.Uniform(), 0.7390628689158624);
   EXPECT_EQ(rng.Uniform(), 0.1390558637779843);
   EXPECT_EQ(rng.Uniform(), 0.19615852706510295);
 }
 
-TEST(Rng, MixedSeedsAndHashesAreTheGoldenOnes) {
+TEST(Rng, MixedSeedsAndHashesEqualTheGoldenValues) {
   EXPECT_EQ(MixSeed(1, 2), 13608149317741381227u);
   EXPECT_NE(MixSeed(1, 2), MixSeed(2, 1));
   // FNV-1a's published test vectors.

@@ -30,7 +30,7 @@ TEST(WriteFile, ReplacesTheWholeContentAndLeavesNothingElse) {
   EXPECT_EQ(FilesIn(folder.path()), 1U);
 }
 
-TEST(WriteFile, ASymbolicLinkStaysOneAndItsTargetIsWritten) {
+TEST(WriteFile, ASymbolicLinkIsKeptAndItsTargetIsWritten) {
   const test::TempFolder folder;
   fs::create_directory(folder.path() / "inner");
   WriteText(folder.path() / "inner/target", "old");
@@ -64,7 +64,7 @@ TEST(WriteFile, DevicesPipesFoldersAndCirclesAreRefusedAndLeftAsTheyAre) {
   EXPECT_EQ(FilesIn(folder.path()), 3U);
 }
 
-TEST(WriteFile, AFolderThatIsNotThereIsNamedWithTheReason) {
+TEST(WriteFile, AMissingFolderIsNamedWithTheReason) {
   const auto ok = WriteFileAtomically("/nowhere/at/all", "x");
   ASSERT_FALSE(ok);
   EXPECT_EQ(ok.error().Message(), "/nowhere/at/all: cannot be written (No such file or directory)");

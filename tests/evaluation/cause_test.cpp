@@ -43,7 +43,7 @@ TEST(CauseWatch, CountsStepsAndKeepsTheLastActivityWithItsEnding) {
   EXPECT_FALSE(cause.is_under_way);
 }
 
-TEST(CauseWatch, AnActivityThatFollowsAnEndingIsUnderWay) {
+TEST(CauseWatch, AnActivityAfterAnEndingIsInProgress) {
   CauseWatch watch(kFloors);
   watch.Add(Doing("go_to"), 0);
   watch.Add(Doing("climb", {"go_to: unreachable"}), 0);
@@ -52,7 +52,7 @@ TEST(CauseWatch, AnActivityThatFollowsAnEndingIsUnderWay) {
   EXPECT_TRUE(watch.Activities().is_under_way);
 }
 
-TEST(CauseWatch, FallsBackToTheModeAndToWhatThePaperProfileSays) {
+TEST(CauseWatch, FallsBackToTheModeAndToThePaperProfilesEvents) {
   CauseWatch watch(kFloors);
   watch.Add(Doing("", {"stairs up verified"}), 0);
   watch.Add(Doing("", {"stairs given up"}), 0);
@@ -126,7 +126,7 @@ const StageCause kLost = {{{"climb", 40}, {"go_to", 800}, {"look_around", 120}},
                           FlightCause{2, 2, true, false, false},
                           0.639};
 
-TEST(CauseLines, SayInOneLineWhatAFailedStageDid) {
+TEST(CauseLines, DescribeAFailedStageInOneLine) {
   EXPECT_EQ(CauseLines(FailedEpisode(Outcome::kOutOfTime, kLost)),
             std::vector<std::string>{
                 "house-f42: bed out_of_time after 1200 | last go_to, ended: no progress | "

@@ -68,7 +68,7 @@ TEST(Comparison, HeadersThatDifferInTheTaskAreUnfairAndTheKeyIsNamed) {
   ExpectUnfair(other, "config_hash: aa and dd");
 }
 
-TEST(Comparison, SettingsOfTheAgentAreWhatIsCompared) {
+TEST(Comparison, SettingsOfTheAgentAreCompared) {
   RunHeader other = Header();
   other.config_json.replace(other.config_json.find("true"), 4, "false");
   other.config_json.replace(other.config_json.find("1800"), 4, "3600");
@@ -79,7 +79,7 @@ TEST(Comparison, SettingsOfTheAgentAreWhatIsCompared) {
                                                        "policy.poi.use_history: true and false"}));
 }
 
-TEST(Comparison, UnfairRunsAreRefusedAndForcedOnesSaySo) {
+TEST(Comparison, UnfairRunsAreRefusedAndForcedRunsAreMarked) {
   ReportRun a = MakeRun("before", 4), b = MakeRun("after", 6);
   b.header->seed = 9;
   const auto refused = CompareRuns(a, b, {100, 1}, /*is_forced=*/false);
@@ -137,7 +137,8 @@ TEST(Comparison, AFlipLinksToTheReplayOfTheRunThatFailed) {
   const auto comparison = CompareRuns(a, b, {100, 1}, false);
   ASSERT_TRUE(comparison) << comparison.error().Message();
   ASSERT_EQ(comparison->flips.size(), 2u);
-  const auto report = std::filesystem::proximate(folder.path()) / "report";  // as it is typed
+  // relative, as from the command line
+  const auto report = std::filesystem::proximate(folder.path()) / "report";
   const std::string text = ComparisonMarkdown(*comparison, report);
   EXPECT_NE(text.find("| House/1:4 | misdetection (0/1) | success (1/1) | stopped at the wrong "
                       "object | [replay](<../runs/before/replays/House_1_4.mcap>) |"),

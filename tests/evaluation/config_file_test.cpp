@@ -198,7 +198,7 @@ TEST(ConfigFile, WarningsOfOldKeysComeOnceUnderANoiseProfileToo) {
   EXPECT_EQ(warnings.size(), 1U);
 }
 
-TEST(ConfigFile, OldAndPresentKeyOfOneSettingInOneSourceAreRefused) {
+TEST(ConfigFile, OldAndNewKeyOfASettingInOneSourceAreRefused) {
   const std::string old_key = "policy.explore.crumb_m", key = "small_frontier_penalty_m";
   RunConfig config;
   std::vector<std::string> warnings;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each row of the paper's frozen configuration (tab:supp_configuration) by what the defaults do:
-// behaviour changes at the value of the table. The agent's half; the simulator's, the evaluator's
-// and the navmesh's are in config_paper_world_test.cpp.
+// Each row of the paper's frozen configuration (tab:supp_configuration) by the effect of the
+// defaults: behaviour changes at the value of the table. The agent's half; the simulator's, the
+// evaluator's and the navmesh's are in config_paper_world_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST(ConfigPaperTable, Sensor) {
   EXPECT_NEAR(obs.T_world_camera.translation().z(), 0.88, 1e-12);
 }
 
-// One turn or pitch action brings ahead what lies between half of it and one and a half.
+// One turn or pitch action serves targets at angles of half to one and a half actions.
 TEST(ConfigPaperTable, YawAndPitchIncrement) {
   const auto turn_to = [](double yaw_deg) {
     const Vector3d p(std::cos(DegToRad(yaw_deg)), std::sin(DegToRad(yaw_deg)), 0.88);
@@ -357,7 +357,7 @@ TEST(ConfigPaperTable, Planner) {
   EXPECT_EQ(CostOf(map, {3, 0, 0}), -1);
   SetState(map, {1, 1, 1}, VoxelState::kTraversable, true);
   EXPECT_NEAR(CostOf(map, {1, 1, 1}, planner::GraphKind::kNormal, true), 2 * std::sqrt(3.0), 1e-12);
-  // tab:supp_astar_penalties, on the way to what lies behind
+  // tab:supp_astar_penalties, on the path to the goal behind
   const std::pair<VoxelState, double> penalties[] = {{VoxelState::kTraversable, 0},
                                                      {VoxelState::kTraversableStair, 0},
                                                      {VoxelState::kStair, 4},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each row of the paper's frozen configuration (tab:supp_configuration) by what the defaults do:
-// the simulator's actions, the navmesh, the encoder's output, the evaluator and the dataset.
+// Each row of the paper's frozen configuration (tab:supp_configuration) by the effect of the
+// defaults: the simulator's actions, the navmesh, the encoder's output, the evaluator and the
+// dataset.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -27,7 +28,7 @@ sim::NavMesh MeshOf(const sim::Scene& scene) {
   return std::move(*mesh);
 }
 
-/// Whether one gets along a corridor of 6 x 4 m past what `block` adds to it.
+/// Whether a path leads along a corridor of 6 x 4 m past the additions of `block`.
 template <class F>
 bool IsPassable(const F& block) {
   MicroScene m;

@@ -80,7 +80,7 @@ TEST(Confirmation, APlaceConfirmsAsTheAgentsThresholdsSay) {
   EXPECT_TRUE(refuses([](RunConfig& c) { c.agent.policy.approach.range_m = 0.3; }));
 }
 
-TEST(Confirmation, NothingIsCertifiedByAnInstanceThatIsNotConfirmable) {
+TEST(Confirmation, AnUnconfirmableInstanceCertifiesNothing) {
   const auto plain = Context(test::SmallConfig());
   EXPECT_TRUE(TargetOf(*plain, "plant", kCactus).is_confirmable);  // edition 1 does not ask
   const auto context = Context(ByDetection());

@@ -66,7 +66,7 @@ TEST_F(EpisodeGenerator, CountsPerStageOfTheFirstTransitionAreExact) {
   EXPECT_EQ(stages, (std::map<int, int>{{0, 4}, {1, 3}, {3, 2}}));
 }
 
-TEST_F(EpisodeGenerator, SceneBySceneNoMoreThanOneIsLoadedAndEveryCountIsMet) {
+TEST_F(EpisodeGenerator, SceneBySceneLoadsOneSceneAtATimeAndMeetsEveryCount) {
   const std::vector<std::string> ids = {scene_id_, scene_id_, scene_id_};
   int loads = 0;
   const auto load = [&](const std::string& id) {
@@ -88,7 +88,7 @@ TEST_F(EpisodeGenerator, SceneBySceneNoMoreThanOneIsLoadedAndEveryCountIsMet) {
   EXPECT_FALSE(file->goals_by_category.empty());
 }
 
-TEST_F(EpisodeGenerator, SceneBySceneWhatOneCannotGiveIsAskedOfAllOnceMore) {
+TEST_F(EpisodeGenerator, SceneBySceneRetriesAllScenesForMissingEpisodes) {
   const std::vector<std::string> ids = {scene_id_};
   int loads = 0;
   const auto load = [&](const std::string& id) {
@@ -141,7 +141,7 @@ TEST_F(EpisodeGenerator, TamperedCertificatesAreFound) {
   }
 }
 
-TEST_F(EpisodeGenerator, RefusesWhatItCannotCertify) {
+TEST_F(EpisodeGenerator, RefusesUncertifiableEpisodes) {
   const GeneratorScene scene{scene_id_, context_.get()};
   RunConfig config = test::SmallConfig();
   config.dataset.goals = 7;  // there are six categories

@@ -205,7 +205,7 @@ struct BadFile {
 
 class BadEpisodes : public testing::TestWithParam<BadFile> {};
 
-TEST_P(BadEpisodes, EndInOneErrorWithFileAndKey) {
+TEST_P(BadEpisodes, GiveOneErrorWithFileAndKey) {
   const crossnav::test::TempFolder folder;
   const auto path = folder.path() / "bad.json";
   ASSERT_TRUE(WriteTextFile(path, GetParam().text));

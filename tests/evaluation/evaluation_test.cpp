@@ -147,11 +147,11 @@ TEST_F(EvaluationTest, AFailedEpisodeCountsAsNotSuccessfulInEveryFigure) {
   EXPECT_EQ(records[0].OutcomeName(), "misdetection");
 }
 
-TEST_F(EvaluationTest, KilledRunGoesOnToTheSameRecordsAndLeavesNoOrphan) {
+TEST_F(EvaluationTest, AKilledRunResumesToTheSameRecordsAndLeavesNoOrphan) {
   ASSERT_TRUE(Run("whole", 1, Plain()));
   const test::PidFolder pids;
   const pid_t parent = ::fork();
-  if (parent == 0) {  // the program: three workers, of which those at e106 and later never finish
+  if (parent == 0) {  // the program: three workers; workers at e106 and later never finish
     Evaluation evaluation;
     evaluation.play = [&](const Episode& episode) -> Result<EpisodeRecord> {
       pids.Add();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be reached without a floor change, held against a house whose ground floor is in two
-// halves, joined by a bridge above.
+// Ground reachable without a floor change, in a house with a ground floor in two halves, joined by
+// a bridge above.
 #include "crossnav/evaluation/scoring/floor_parts.h"
 
 #include "crossnav/evaluation/generation/episode_generator.h"
@@ -79,7 +79,7 @@ TEST_F(FloorPartsTest, AFloorInTwoHalvesIsTwoParts) {
   EXPECT_EQ(parts.PartAt({1, 3, 1}), -1);
 }
 
-TEST_F(FloorPartsTest, WhatIsBeyondTheBridgeRequiresAFloorChange) {
+TEST_F(FloorPartsTest, GroundBeyondTheBridgeRequiresAFloorChange) {
   EXPECT_EQ(From(kLeft, {"sofa", "bed"}).first_transition_stage, 2);
   EXPECT_EQ(From(kRight, {"sofa", "bed"}).first_transition_stage, 1);
   EXPECT_EQ(From(kLeft, {"sofa"}).first_transition_stage, 0);

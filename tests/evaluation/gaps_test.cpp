@@ -6,7 +6,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-/// A successful stage: shortest path, and what was walked in three parts.
+/// A successful stage: shortest path, and the walked path in three parts.
 StageRecord Stage(double shortest_m, double length_m, StageReach reach) {
   StageRecord stage;
   stage.goal = "bed";
@@ -41,7 +41,7 @@ ReportRun RunOf(const std::string& variant, std::vector<EpisodeRecord> episodes)
   return run;
 }
 
-TEST(Gaps, PartsOfAnEpisodeAddUpToWhatItsSplLacks) {
+TEST(Gaps, PartsOfAnEpisodeAddUpToItsMissingSpl) {
   // 10 m where 6 would do: 3 m of detour to the place of reach, .5 of approach, .5 by the place.
   const EpisodeRecord episode = Episode("e", {Stage(6, 10, {8, 5, 6.5})});
   const GapParts parts = PartsOf(episode);
@@ -60,7 +60,7 @@ TEST(Gaps, RecordsWithoutPartsAreNotAttributed) {
   EXPECT_DOUBLE_EQ(PartsOf(old).Sum(), 0.5);
 }
 
-TEST(Gaps, VariantsTellWhatGeometryAndSearchCost) {
+TEST(Gaps, VariantsGiveThePriceOfGeometryAndSearch) {
   const std::vector<ReportRun> runs = {
       RunOf("full", {Episode("a", {Stage(5, 20, {})}), Failed("b"), Failed("only here")}),
       RunOf("known-map", {Episode("a", {Stage(5, 10, {})}), Episode("b", {Stage(5, 10, {})})}),

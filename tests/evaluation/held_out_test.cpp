@@ -40,6 +40,36 @@ TEST(HeldOut, AnotherFrameOfTheSameWallIsPredictedToHalfAVoxel) {
   EXPECT_LE(*std::max_element(result.errors_m.begin(), result.errors_m.end()), 0.1);
 }
 
+TEST(HeldOut, AWallThatNoiseMadeThickIsPredictedInItsMiddle) {
+  geometry::VoxelMap map{geometry::MapConfig{}};
+  for (const double depth_m : {2.95, 3.05, 3.15}) {  // a voxel nearer, and a voxel farther
+    const Observation obs = LookAtWall(depth_m);
+    map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
+  }
+  map.UpdateStates();
+  HeldOutResult result;
+  AddHeldOut(map, LookAtWall(3.05), &result);
+  ASSERT_GT(result.errors_m.size(), 200U);
+  std::nth_element(result.errors_m.begin(), result.errors_m.begin() + 100, result.errors_m.end());
+  EXPECT_LE(result.errors_m[100], 0.02);
+}
+
+TEST(HeldOut, ASlantedWallIsPredictedToATenthOfAVoxel) {
+  Observation obs = LookAtWall(0);
+  for (int v = 0; v < obs.depth_m.height; ++v)
+    for (int u = 0; u < obs.depth_m.width; ++u) {
+      const Vector3d ray = BackProjectPixel(obs.camera, u, v, 1.0);
+      obs.depth_m.At(u, v) = static_cast<float>(2.0 / (1.0 - 0.5 * ray.x()));  // z = 2 + x / 2
+    }
+  geometry::VoxelMap map{geometry::MapConfig{}};
+  map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
+  map.UpdateStates();
+  HeldOutResult result;
+  AddHeldOut(map, obs, &result);
+  std::nth_element(result.errors_m.begin(), result.errors_m.begin() + 100, result.errors_m.end());
+  EXPECT_LE(result.errors_m[100], 0.02);
+}
+
 TEST(HeldOut, ARayThatEndsInTheMiddleOfFreeSpaceViolatesIt) {
   HeldOutResult result;
   AddHeldOut(MapOfWall(3.04), LookAtWall(1.5), &result);
@@ -47,7 +77,7 @@ TEST(HeldOut, ARayThatEndsInTheMiddleOfFreeSpaceViolatesIt) {
   EXPECT_NEAR(result.errors_m.front(), 1.54, 0.1);
 }
 
-TEST(HeldOut, WhatTheMapDoesNotKnowIsNoViolation) {
+TEST(HeldOut, UnknownSpaceIsNoViolation) {
   HeldOutResult result;
   AddHeldOut(MapOfWall(3.04), LookAtWall(4.0), &result);
   EXPECT_EQ(result.violations, 0);

@@ -63,7 +63,7 @@ TEST(Metrics, SuccessWithoutAnyPathCountsAsOptimal) {
   EXPECT_DOUBLE_EQ(ComputeMetrics(episodes).spl, 1.0);
 }
 
-TEST(Metrics, StageNobodyReachedHasNoConditionalFigure) {
+TEST(Metrics, AnUnreachedStageHasNoConditionalFigure) {
   const Metrics m = ComputeMetrics(EpisodesWithCounts(4, {2, 0, 0}));
   EXPECT_TRUE(m.sr_conditional[1].has_value());
   EXPECT_FALSE(m.sr_conditional[2].has_value());

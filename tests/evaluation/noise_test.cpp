@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Imperfect sensors as a run has them: profiles and settings, determinism, what they do to a map.
+// Imperfect sensors in a run: profiles and settings, determinism, effect on a map.
 #include "crossnav/core/config_visitor.h"
 #include "crossnav/evaluation/generation/episode_generator.h"
 #include "crossnav/evaluation/records/result_records.h"
@@ -36,7 +36,7 @@ TEST(NoiseConfig, AProfileGivesItsSettingsAndEvidenceClears) {
   EXPECT_EQ(ConfigHash(again), ConfigHash(config));
 }
 
-TEST(NoiseConfig, WhatTheUserSetsWinsWhereverItStands) {
+TEST(NoiseConfig, UserSettingsTakePrecedenceInAnyOrder) {
   const crossnav::test::TempFolder folder;
   const auto file = folder.path() / "a.toml";
   crossnav::test::WriteText(file, "[noise]\nslip = 0.5\n[map]\nclearing = \"never\"\n");
@@ -47,7 +47,7 @@ TEST(NoiseConfig, WhatTheUserSetsWinsWhereverItStands) {
   EXPECT_EQ(config.agent.map.clearing, "never");
 }
 
-TEST(NoiseConfig, AnUnknownProfileNamesThoseThatThereAre) {
+TEST(NoiseConfig, AnUnknownProfileListsTheKnownProfiles) {
   const auto config = ReadConfig({{}, "full", {"noise.profile=lidar"}});
   ASSERT_FALSE(config);
   EXPECT_NE(config.error().Message().find("noise.profile"), std::string::npos);
@@ -62,7 +62,7 @@ TEST(NoiseConfig, EveryProfileIsWithinTheRangesOfItsSettings) {
   }
 }
 
-/// What an episode of a few steps amounts to.
+/// Summary of an episode of a few steps.
 struct Played {
   std::string record, traces;
   MapError map;
@@ -103,7 +103,7 @@ class NoisyRun : public test::EmbeddedHouseTest {
   }
 };
 
-TEST_F(NoisyRun, OffIsThePerfectRunWhateverTheSeed) {
+TEST_F(NoisyRun, OffIsThePerfectRunForEverySeed) {
   sim::NoiseConfig off;
   off.seed = 77;
   const Played perfect = Play({}), other = Play(off);

@@ -26,7 +26,7 @@ TEST(BoxRadius, IsHorizontalToTheBoxAndOnTheInstancesFloor) {
   EXPECT_FALSE(IsWithinBoxRadius(sofa, {3, 1.5, 3}, 1, kEval));   // right above it
 }
 
-TEST(BoxRadius, InstanceNobodyCanSeeIsNeverReached) {
+TEST(BoxRadius, AnInvisibleInstanceIsNeverReached) {
   Target hidden = SofaOnFloor(0);
   hidden.floors.clear();
   EXPECT_FALSE(IsWithinBoxRadius(hidden, {3, 2, 0}, 0, kEval));

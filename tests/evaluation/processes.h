@@ -24,7 +24,7 @@ class PidFolder {
     }
     return count;
   }
-  /// Polls until nobody is left, or until the time is over.
+  /// Polls until no process is left, or until the time is over.
   bool AreAllGone(double within_s) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(within_s);
     while (IsAnyAlive()) {
@@ -35,7 +35,7 @@ class PidFolder {
   }
 
  private:
-  /// A process that ended but that nobody has waited for (state Z) is not alive.
+  /// A zombie (state Z) is not alive.
   static bool IsAlive(const std::string& pid) {
     std::ifstream stat("/proc/" + pid + "/stat");
     std::string text;

@@ -133,7 +133,7 @@ TEST(Report, HasTheGlobalTablesAndTheOutcomesWithoutHistory) {
     EXPECT_NE(text.find(row), std::string::npos) << row;
 }
 
-TEST(Report, EpisodesWithOneGoalStandBesideTheSingleObjectTable) {
+TEST(Report, EpisodesWithOneGoalAppearBesideTheSingleObjectTable) {
   ReportRun run{"mine", {}, "paper", "oracle-perception", "aa", "bb", {}, {}};
   for (int i = 0; i < 4; ++i)
     run.episodes.push_back(test::MakeEpisode(std::to_string(i), 1, {{i < 3, 2.0, 4.0}}));

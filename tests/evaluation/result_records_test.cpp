@@ -289,7 +289,7 @@ TEST(ResultRecords, FailedRecordRoundTripsAndHasNoStages) {
   EXPECT_FALSE(ReadResults(path));
 }
 
-TEST(ResultRecords, EpisodesAreSortedWhateverTheOrderOfTheFile) {
+TEST(ResultRecords, EpisodesAreSortedForAnyOrderOfTheFile) {
   const crossnav::test::TempFolder folder;
   std::string text = ToJsonLine(MakeHeader()) + "\n";
   for (const char* id : {"c", "a", "b"}) text += ToJsonLine(MakeEpisode(id, 1, {})) + "\n";

@@ -13,18 +13,18 @@
 namespace crossnav::evaluation {
 namespace {
 
-/// Everything that happened, as text, and the agent's way.
+/// All events as text, and the agent's path.
 class Recorder : public RunObserver {
  public:
   Result<void> OnStep(const StepView& step) override {
     text_ += trace::ToJson(step.trace) + "\n";
-    if (!way_.empty()) length_m_ += (step.agent.p_world - way_.back()).norm();
-    way_.push_back(step.agent.p_world);
+    if (!path_.empty()) length_m_ += (step.agent.p_world - path_.back()).norm();
+    path_.push_back(step.agent.p_world);
     goals_.push_back(step.trace.goal);
     return {};
   }
   std::string text_;
-  std::vector<Vector3d> way_;
+  std::vector<Vector3d> path_;
   std::vector<std::string> goals_;
   double length_m_ = 0;
 };
@@ -64,7 +64,7 @@ TEST_F(Runner, SameSeedGivesTheSameRecordsAndTraces) {
   EXPECT_FALSE(traces[0].empty());
 }
 
-// An ObjectNav file's viewpoints are X(g): shortest way and success follow from them.
+// Viewpoints of an ObjectNav file are X(g): shortest path and success follow from them.
 TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
   RunConfig config = test::SmallConfig();
   config.eval.success = "viewpoint";
@@ -73,7 +73,7 @@ TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
   const Target ours = (*context)->TargetsOf("toilet").front();
   const Vector3d p_far = (*context)->TargetsOf("sofa").front().viewpoints_world.front();
   EXPECT_GT(*(*context)->DistanceToGoal(p_far, "toilet"),
-            1);  // what was worked out before is forgotten
+            1);  // earlier results are discarded
   GoalObject goal;
   goal.object_id = ours.instance;
   goal.category = "toilet";
@@ -93,7 +93,7 @@ TEST_F(Runner, ViewpointsOfAnEpisodeFileReplaceOurs) {
 
 // A stage that began where the agent had walked onto a sliver of the mesh ended the whole episode
 // as failed: "cannot be reached from where its stage starts".
-TEST_F(Runner, AStageOffTheMeshStartsFromTheNearestWay) {
+TEST_F(Runner, AStageOffTheMeshStartsFromTheNearestConnectedPlace) {
   const Vector3d p_floor = context_->TargetsOf("sofa").front().viewpoints_world.front();
   const auto from_floor_m = context_->DistanceToGoal(p_floor, "toilet");
   ASSERT_TRUE(from_floor_m);
@@ -107,7 +107,7 @@ TEST_F(Runner, AStageOffTheMeshStartsFromTheNearestWay) {
   EXPECT_FALSE(context_->DistanceToGoalFromAbout(p_off - Vector3d(50, 0, 0), "toilet"));
 }
 
-TEST_F(Runner, RecordAgreesWithWhatWasWatched) {
+TEST_F(Runner, TheRecordAgreesWithTheObserver) {
   const Episode episode = ClimbingEpisode();
   Recorder recorder;
   RunObserver* observers[] = {&recorder};

@@ -21,7 +21,7 @@ std::string PlainName(std::string_view name) {
   return plain;
 }
 
-/// The worlds of two seeds, whichever way a kind of stair is named.
+/// The worlds of two seeds, for either form of a stair's name.
 template <class Kind>
 void ExpectTwoFloorsWithAGoalOnEach(const Kind& kind) {
   for (const std::uint64_t seed : {1, 2}) {
@@ -124,7 +124,7 @@ TEST(StairTrials, TheSameSeedGivesTheSameAttempt) {
   }
 }
 
-TEST(StairTrials, AnAttemptAtWhatIsNoStairEnds) {
+TEST(StairTrials, AnAttemptAtAFalseEntranceEnds) {
   RunConfig config = test::SmallConfig();
   config.eval.action_budget = 20;
   const auto attempt = TryFalseEntrance(FalseEntrance::kFurniture, 1, config);
@@ -132,7 +132,7 @@ TEST(StairTrials, AnAttemptAtWhatIsNoStairEnds) {
   EXPECT_LE(attempt->actions, 20);
 }
 
-// A whole `bench stairs` ended there, and what it had measured was lost.
+// Regression: a whole `bench stairs` ended there, and its results were lost.
 TEST(StairTrials, AWorldWithoutGroundToWalkOnIsPassedOver) {
   RunConfig config = test::SmallConfig();
   config.navmesh.min_island_m2 = 1000;

@@ -24,7 +24,7 @@ SuiteManifest Manifest() {
   return manifest;
 }
 
-TEST(Suite, TheFullOneHasThePapersCounts) {
+TEST(Suite, TheFullSuiteHasThePapersCounts) {
   const auto suite = FindSuite("crossnav-mfmon-1");
   ASSERT_TRUE(suite);
   EXPECT_EQ(suite->houses, 36);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the benchmark tells the variants known-map and known-objects.
+// Initial knowledge of the variants known-map and known-objects.
 #include "crossnav/evaluation/running/survey.h"
 
 #include "crossnav/evaluation/running/runner.h"
@@ -92,7 +92,7 @@ class Teller : public RunObserver {
   SceneSurvey survey_;
 };
 
-TEST_F(Survey, AnAgentThatIsToldWalksLessAndItsRecordSaysInWhichParts) {
+TEST_F(Survey, AnInformedAgentWalksLessAndItsRecordHasTheParts) {
   Episode episode;
   episode.scene_id = "micro";
   episode.start.p_world = Vector3d(1, 0.5, 0);

@@ -108,7 +108,7 @@ TEST(Tracks, VersionTwoHasThreeAndEachIsASuite) {
   EXPECT_FALSE(FindTracks("crossnav-mfmon-3"));
 }
 
-TEST(Tracks, AManifestSaysItsTrackAndOneOfVersionOneDoesNot) {
+TEST(Tracks, AManifestNamesItsTrackFromVersionTwoOn) {
   const crossnav::test::TempFolder folder;
   const auto path = folder.path() / "manifest.json";
   SuiteManifest manifest;

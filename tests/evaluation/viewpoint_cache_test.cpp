@@ -36,7 +36,7 @@ class ViewpointCache : public test::EmbeddedHouseTest {
   }
 };
 
-TEST_F(ViewpointCache, WhatIsReadIsWhatWasFound) {
+TEST_F(ViewpointCache, CachedViewpointsEqualComputedViewpoints) {
   const auto found = Beds();
   ASSERT_EQ(Files().size(), 1u);
   const auto written = fs::last_write_time(Files()[0]);

@@ -114,7 +114,7 @@ TEST(WorkerPoolProcesses, SlowItemHoldsBackNoOther) {
     EXPECT_EQ(answer.end, ItemEnd::kDone);
     order.push_back(item);
     if (order.size() == 3) {
-      EXPECT_EQ(::write(go[1], "x", 1), 1);  // only now item 0 goes on
+      EXPECT_EQ(::write(go[1], "x", 1), 1);  // only now item 0 continues
     }
     return {};
   };
@@ -152,11 +152,11 @@ TEST(WorkerPoolProcesses, NothingToDoIsFine) {
   EXPECT_TRUE(RunPool(task));
 }
 
-TEST(ItemQueue, AWorkerStaysWithItsGroupAndIdleOnesHelpWhereMostIsLeft) {
+TEST(ItemQueue, AWorkerKeepsItsGroupAndIdleWorkersJoinTheLargestGroup) {
   //                   0  1  2  3  4  5  6
   ItemQueue queue(7, {8, 8, 9, 8, 8, 9, 9});
   EXPECT_EQ(queue.Take(-1), 0);  // first worker: group 8
-  EXPECT_EQ(queue.Take(-1), 2);  // second worker: the group nobody has
+  EXPECT_EQ(queue.Take(-1), 2);  // second worker: the free group
   EXPECT_EQ(queue.Take(0), 1);
   EXPECT_EQ(queue.Take(2), 5);
   EXPECT_EQ(queue.Take(5), 6);

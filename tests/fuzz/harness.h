@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the fuzz targets share. A target is a file with FUZZ(name, input) { one reader; }. libFuzzer
-// links one of them (entry.cpp); the ordinary tests link all and run the kept inputs through them
-// (corpus_test.cpp). Readers that take a path get a file, in memory where the system has a place.
+// Common code of the fuzz targets. A target is a file with FUZZ(name, input) { one reader; }.
+// libFuzzer links one target (entry.cpp); the ordinary tests link all and run the kept inputs
+// through them (corpus_test.cpp). Readers that take a path get a file, in memory if the system
+// allows it.
 #pragma once
 
 #include <fcntl.h>

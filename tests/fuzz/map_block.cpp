@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/store/block_codec.h"
+#include "crossnav/store/object_table.h"
 #include "fuzz/harness.h"
 
 // Behind the checksums of a map file, which random bytes do not pass.
@@ -8,5 +9,6 @@ FUZZ(map_block, input) {
   if (const auto block = store::DecodeMapBlock({1, -2, 0}, input))
     (void)geometry::ImportBlocks({*block}, {});
   (void)store::DecodeFeatureBlock({1, -2, 0}, 4, input);
+  if (const auto record = store::DecodeObject(input)) (void)store::EncodeObject(*record);
   (void)store::Decompress(input, store::kMaxMapBlockBytes);
 }

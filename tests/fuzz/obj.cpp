@@ -2,7 +2,7 @@
 #include "crossnav/world/models/obj_reader.h"
 #include "fuzz/harness.h"
 
-// What stands behind the first zero byte is the MTL and the picture that it names.
+// The text behind the first zero byte is the MTL and its picture.
 FUZZ(obj, input) {
   const std::string text = crossnav::fuzz::Text(input);
   const auto zero = text.find('\0');

@@ -255,6 +255,10 @@ void AddTexts(const Seeds& seeds) {
   const std::string defaults = evaluation::DumpToml(evaluation::RunConfig());
   seeds.Put("config", "defaults.toml", defaults);
   seeds.Put("config", "dotted.toml", "[policy]\npoi.use_history = false # comment\n");
+  seeds.Put("words", "lines",
+            "the red armchair near the window upstairs\nthe second chair in the kitchen\n"
+            "where did I last see a toilet?\nhow many chairs are upstairs\n"
+            "which rooms have no plant\nwhat is on the table\n");
   seeds.Put("setting", "lines",
             "map.voxel_m=0.1\npolicy.poi.use_history=false\nmap.clearing=\"never\"");
   for (const char* name : {"crossnav_small", "deimv2_atto_coco"}) {

@@ -24,7 +24,7 @@ Pose LookingDown(double x, double y, double z) {
 
 class FootHeightTest : public ::testing::TestWithParam<double> {};
 
-TEST_P(FootHeightTest, TheAgentStandsOnTraversableAirWhateverTheHeightOfTheFloor) {
+TEST_P(FootHeightTest, TheAgentStandsOnTraversableAirAtEveryFloorHeight) {
   const double floor_m = GetParam();
   VoxelMap map;
   const Vector3d foot(0.55, 0.55, floor_m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// map.clearing = evidence: what moved goes, what stands stays.
+// map.clearing = evidence: moved objects vanish, static objects stay.
 #include <gtest/gtest.h>
 
 #include "tests/geometry/evidence_sets.h"
@@ -67,7 +67,7 @@ TEST_P(EvidenceTest, AnObjectThatMovedAwayIsGoneAfterFiveFramesThatLookThroughIt
     }
 }
 
-TEST_P(EvidenceTest, WhatAppearsWhereAllWasFreeForLongIsThereAfterTwoFramesAndGoesAgain) {
+TEST_P(EvidenceTest, ANewObjectInLongFreeSpaceAppearsAfterTwoFramesAndVanishesAgain) {
   BoxRooms rooms;
   rooms.shell = BoxOf(0.03, 0.03, 0.03, 6.03, 5.03, 2.63);
   BoxRooms with_box = rooms;
@@ -93,7 +93,7 @@ TEST_P(EvidenceTest, WhatAppearsWhereAllWasFreeForLongIsThereAfterTwoFramesAndGo
   EXPECT_EQ(ExportBlocks(map), ExportBlocks(*read));
 }
 
-/// Share of the voxels of the wall y = `wall_y` that stay, of those occupied before.
+/// Share of the occupied voxels of the wall y = `wall_y` that stay.
 double ShareKept(const VoxelMap& map, const KeySet& wall) {
   int kept = 0;
   for (const VoxelKey& key : wall) kept += IsSurface(map.StateAt(key));

@@ -113,7 +113,7 @@ void OnEveryInstructionSet(F&& check) {
   }
 }
 
-TEST(GrazingSurfaceSimd, SegmentsAreThoseOfOneGapAtATimeOnEveryInstructionSet) {
+TEST(GrazingSurfaceSimd, SegmentsEqualTheScalarReferenceOnEveryInstructionSet) {
   Rng rng(3);
   MapConfig config;
   std::size_t found = 0, gap_count = 0;
@@ -153,7 +153,7 @@ Segments RandomSegments(Rng& rng) {
   return segments;
 }
 
-TEST(GrazingSurfaceSimd, VoxelsMetAreThoseOfWalkRayOnEveryInstructionSet) {
+TEST(GrazingSurfaceSimd, VoxelsEqualThoseOfWalkRayOnEveryInstructionSet) {
   Rng rng(4);
   std::size_t met_count = 0;
   for (int round = 0; round < 200; ++round) {
@@ -179,7 +179,7 @@ TEST(GrazingSurfaceSimd, VoxelsMetAreThoseOfWalkRayOnEveryInstructionSet) {
   EXPECT_GT(met_count, 5000U);
 }
 
-TEST(GrazingSurfaceSimd, WhatNoKeyCanNameIsNotWalked) {
+TEST(GrazingSurfaceSimd, SegmentsBeyondTheRangeOfKeysAreSkipped) {
   Segments segments;
   for (const double far : {kNone, 1e300, -1e12, std::numeric_limits<double>::infinity()}) {
     segments.a[1][static_cast<std::size_t>(segments.count)] = far;

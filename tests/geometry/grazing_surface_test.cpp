@@ -31,7 +31,7 @@ struct Passed {
   std::vector<BlockMask> before, after;
 };
 
-/// What the last frame passes, before and after sparing, in a map that has seen those before it.
+/// Voxels passed by the last frame, before and after sparing, in a map of the earlier frames.
 Passed Spare(const std::vector<TestFrame>& frames, GapSearch search) {
   MapConfig config;
   config.clearing = "evidence";
@@ -50,7 +50,7 @@ Passed Spare(const std::vector<TestFrame>& frames, GapSearch search) {
   return {before, PassedOf(data)};
 }
 
-TEST(Grazing, LookingWhereVoxelsAreContestedSparesWhatLookingEverywhereDoes) {
+TEST(Grazing, TheContestedSearchSparesTheSameVoxelsAsTheFullSearch) {
   Rng rng(7);
   int spared = 0, gone = 0;
   for (int round = 0; round < 60; ++round) {

@@ -263,7 +263,7 @@ TEST_P(RaysTest, AClippedMapKeepsOnlyItsBox) {
   }
 }
 
-TEST(IntegrateTest, EndVoxelsAreThoseOfEveryValidPixelInOrder) {
+TEST(IntegrateTest, EndVoxelsCoverEveryValidPixelInOrder) {
   Rng rng(21);
   for (int i = 0; i < 4; ++i) {
     const TestFrame frame = RandomFrame(rng, 33 + 40 * i, 20);
@@ -286,7 +286,7 @@ TEST(IntegrateTest, EndVoxelsAreThoseOfEveryValidPixelInOrder) {
 
 // Rows are computed in float first, which cannot tell the sides of a face, nor place voxels of 2 cm
 // at a hundred metres or far from the origin.
-TEST(IntegrateTest, EndVoxelsAreThoseOfTheFormulaWhereFloatsCannotTell) {
+TEST(IntegrateTest, EndVoxelsFollowTheFormulaBeyondFloatPrecision) {
   Rng rng(22);
   for (const double voxel_m : {0.02, 0.1, 0.125}) {
     for (const double farthest_m : {3.0, 10.0, 100.0}) {

@@ -10,7 +10,7 @@ namespace {
 class MapBlocksTest : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Clearing, MapBlocksTest, ::testing::Values("never", "evidence"));
 
-TEST_P(MapBlocksTest, ARestoredMapIsTheSameAndGoesOnTheSame) {
+TEST_P(MapBlocksTest, ARestoredMapIsEqualAndStaysEqual) {
   MapConfig config;
   config.clearing = GetParam();
   VoxelMap map(config);
@@ -41,6 +41,26 @@ TEST_P(MapBlocksTest, ARestoredMapIsTheSameAndGoesOnTheSame) {
   map.UpdateStates();
   restored->UpdateStates();
   EXPECT_TRUE(ExportBlocks(*restored) == ExportBlocks(map));
+}
+
+// What was built without counts, and long ago, gives way to two frames of today.
+TEST(MapBlocksTest, EvidenceOfAnOldMapGivesWayToTwoFrames) {
+  MapConfig config;
+  config.clearing = "evidence";
+  for (const bool was_counted : {false, true}) {
+    MapBlock block;
+    block.hit.Set(5);
+    block.free.Set(6);
+    if (was_counted) {
+      block.counts.resize(kBlockVoxels);
+      block.counts[5] = {static_cast<std::uint16_t>(config.max_hits), 0};
+    }
+    CountAsOld(config, &block);
+    EXPECT_TRUE(ImportBlocks({block}, config).has_value());
+    EXPECT_EQ(block.counts[5].hits, config.min_hits + 1);
+    EXPECT_EQ(block.counts[5].passes, 0);
+    EXPECT_EQ(block.counts[6].passes, was_counted ? 0 : config.max_hits);
+  }
 }
 
 TEST(MapBlocksTest, BadBlocksAreNamed) {

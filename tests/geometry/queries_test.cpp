@@ -81,7 +81,7 @@ TEST(QueriesTest, LineOfSightIsBlockedBySurfacesStrictlyBetween) {
   EXPECT_TRUE(map.HasLineOfSight({0.05, 0.05, 0.85}, {2.05, 0.05, 0.85}));  // over it
 }
 
-TEST(QueriesTest, ReadersMayShareAMapThatNobodyWrites) {
+TEST(QueriesTest, ReadersMayShareAnUnwrittenMap) {
   Rng rng(6);
   const VoxelMap map = RandomMap(rng);
   const auto read = [&](std::int64_t* known) {

@@ -25,7 +25,7 @@ Vector3d RandomEnd(Rng& rng) {
   return p;
 }
 
-TEST(RayWalkTest, WalksWhatTheLiteralWalkPasses) {
+TEST(RayWalkTest, VisitsTheVoxelsOfTheLiteralWalk) {
   Rng rng(1);
   for (int i = 0; i < 3000; ++i) {
     const Vector3d a = RandomEnd(rng), b = RandomEnd(rng);

@@ -11,7 +11,7 @@
 namespace crossnav::geometry {
 namespace {
 
-TEST(SparseGridTest, KeysAndCellsGoBothWaysForAnySign) {
+TEST(SparseGridTest, KeysAndCellsConvertBothWaysForAnySign) {
   Rng rng(1);
   for (int i = 0; i < 1000; ++i) {
     const VoxelKey key{rng.Int(-100000, 100000), rng.Int(-50, 50), rng.Int(-9, 9)};
@@ -51,7 +51,7 @@ TEST(SparseGridTest, ACursorSeesBlocksMadeAfterItLooked) {
   EXPECT_EQ(*grid.Find({0, 0, 0}), 7);
 }
 
-TEST(SparseGridTest, KnownBlocksAreThoseOfTheGridHoweverManyShareAPlace) {
+TEST(SparseGridTest, KnownBlocksEqualTheGridsDespiteHashCollisions) {
   SparseGrid<int> grid;
   KnownBlocks<int> known;
   Rng rng(4);

@@ -66,6 +66,46 @@ TEST(Treads, OfAFlightAreCountedAndMeasured) {
   }
 }
 
+TEST(Treads, OfWhichOnlyTheRisersAreSeenAreCountedToo) {
+  const Stairs stairs{5, 0.17, 0.28};
+  Pose T_world_camera = CameraPose(0, 0);
+  T_world_camera.translation().z() = 0.45;  // below the third tread
+  const TreadFlight flight = FindTreads(Draw(T_world_camera, stairs), kCamera, T_world_camera);
+  ASSERT_EQ(flight.treads.size(), 5U);
+  EXPECT_GT(flight.treads[0].area_m2, 0);
+  EXPECT_EQ(flight.treads[4].area_m2, 0);
+  EXPECT_NEAR(flight.riser_m, stairs.riser_m, 0.1 * stairs.riser_m);
+  EXPECT_NEAR(flight.tread_m, stairs.tread_m, 0.1 * stairs.tread_m);
+}
+
+TEST(Treads, AreFoundByACameraWhosePoseLeans) {
+  const Pose T_world_camera = CameraPose(25, 0);
+  Pose leaning = T_world_camera;
+  leaning.linear() =
+      Eigen::AngleAxisd(DegToRad(8), Vector3d(1, 0.6, 0).normalized()) * T_world_camera.linear();
+  const TreadFlight flight =
+      FindTreads(Draw(T_world_camera, Stairs{4, 0.17, 0.28}), kCamera, leaning);
+  EXPECT_EQ(flight.treads.size(), 4U);
+  EXPECT_NEAR(flight.riser_m, 0.17, 0.0255);
+  EXPECT_NEAR(flight.tread_m, 0.28, 0.042);
+}
+
+TEST(Treads, AFloorThatLeansHasNone) {
+  const auto is_floor = [](const Vector3d& p) { return p.z() <= 0; };
+  for (const double lean_deg : {3.0, 8.0, 14.0}) {
+    const Pose T_world_camera = CameraPose(25, 0);
+    Pose leaning = T_world_camera;
+    leaning.linear() =
+        Eigen::AngleAxisd(DegToRad(lean_deg), Vector3d::UnitY()) * T_world_camera.linear();
+    DepthImage depth_m = Draw(T_world_camera, is_floor);
+    for (float& depth : depth_m.data) {  // steps of disparity, as the first Kinect has them
+      const float step_m = 0.003F * depth * depth;
+      if (depth > 0) depth = std::round(depth / step_m) * step_m;
+    }
+    EXPECT_TRUE(FindTreads(depth_m, kCamera, leaning).treads.empty()) << lean_deg;
+  }
+}
+
 TEST(Treads, AMaskLeavesPixelsOut) {
   const Pose T_world_camera = CameraPose(25, 0);
   const DepthImage depth_m = Draw(T_world_camera, Stairs{4, 0.17, 0.28});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// docs/hm3d.md does what it says: its blocks of commands run, in their order, on a stand-in.
+// Runs the commands of docs/hm3d.md, in order, on a stand-in.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,8 @@ class Hm3dPage : public testing::Test {
         ("bash '" + At("script.sh").string() + "' >'" + At("log.txt").string() + "' 2>&1").c_str());
   }
 
-  /// Small pictures, few actions: the program of the page's commands, before the real one in PATH.
+  /// Small pictures, few actions: a wrapper for the page's commands, before the real program in
+  /// PATH.
   void MakeWrapper() const {
     fs::create_directories(At("bin"));
     WriteText(At("bin/crossnav"),
@@ -54,7 +55,7 @@ class Hm3dPage : public testing::Test {
     fs::permissions(At("bin/crossnav"), fs::perms::owner_all);
   }
 
-  /// The archives, as they are downloaded. One holds what the other of the scenes does not.
+  /// The archives in their download format. Each holds a file that the other lacks.
   void MakeArchives() const {
     world::HouseParams params;
     params.seed = 3;

@@ -48,7 +48,7 @@ sim::Texture PaletteOf(const sim::Scene& scene, std::map<int, std::array<float, 
   return palette;
 }
 
-/// Keys that HM3D's episodes have, from one of ours.
+/// Keys of HM3D's episodes, from an episode of ours.
 Json EpisodeOf(const Json& ours, const std::string& hash, std::size_t number) {
   return {{"episode_id", std::to_string(number)},
           {"scene_id", "hm3d/val/00800-" + hash + "/" + hash + ".basis.glb"},

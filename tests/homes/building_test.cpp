@@ -81,7 +81,7 @@ TEST(Building, AStoreyWithoutSlabGetsItsFloorFromItsRoomsAndItsDoorsAThreshold) 
   EXPECT_TRUE(HasNote(report, "1 inner 'Door' opened"));
 }
 
-TEST(Building, FurnishingAddsWhatIsMissingAndTheSameSeedGivesTheSameBytes) {
+TEST(Building, FurnishingAddsMissingPiecesAndTheSameSeedGivesTheSameBytes) {
   const crossnav::test::TempFolder a, b, c;
   const ImportReport first = Imported(a.path(), 3), second = Imported(b.path(), 3);
   EXPECT_EQ(first.goals.at("bed"), 1);  // there was one

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The nine example homes that come in Sweet Home 3D's own archive. They are not in this repository:
-// CROSSNAV_SH3D_JAR names sweethome3d.jar; else it is looked for where Debian's package puts it.
-// CROSSNAV_LONG_TESTS=1 imports all nine, otherwise those of several floors.
+// The nine example homes in Sweet Home 3D's own archive. They are not in this repository:
+// CROSSNAV_SH3D_JAR names sweethome3d.jar; default is the place of Debian's package.
+// CROSSNAV_LONG_TESTS=1 imports all nine, otherwise the homes with several floors.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

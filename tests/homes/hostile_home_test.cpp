@@ -45,7 +45,7 @@ class HostileHome : public testing::Test {
   crossnav::test::TempFolder folder_;
 };
 
-TEST_F(HostileHome, ErrorsNameTheFileTheElementAndWhatWouldHelp) {
+TEST_F(HostileHome, ErrorsNameTheFileTheElementAndTheRemedy) {
   ExpectError({{"Home", "old"}}, {"holds no Home.xml", "save it again"});
   ExpectError({{"Home.xml", "<home><wall"}}, {"Home.xml", "line 1", "not well-formed"});
   ExpectError({{"Home.xml", "<house/>"}}, {"no <home> element"});

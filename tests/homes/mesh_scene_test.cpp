@@ -82,7 +82,7 @@ TEST_F(MeshScene, AnObjAndItsObjectsBecomeAScene) {
   EXPECT_EQ(scene->instances[3].name, "unknown");
 }
 
-TEST_F(MeshScene, AGltfNamesItsNodesAndWhatHangsBelowThem) {
+TEST_F(MeshScene, AGltfNamesItsNodesAndTheirDescendants) {
   // One square, placed twice below a node "Bed"; another node is the floor.
   std::string bin;
   const float corners[4][3] = {{0, 0, 0}, {2, 0, 0}, {2, 0, 2}, {0, 0, 2}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Areas must add up: triangles of concave outlines, pieces and what was cut from them.
+// Areas must add up: triangles of concave outlines, pieces and their cut-outs.
 #include "crossnav/homes/polygon.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(Polygon, RepeatedAndStraightPointsDoNotMatter) {
   EXPECT_TRUE(Cleaned({}).empty());
 }
 
-TEST(Polygon, WhatIsCutOutIsGoneAndTheRestStays) {
+TEST(Polygon, SubtractedAreaIsGoneAndTheRestStays) {
   const std::vector<Polygon> holes = {Square(1, 1, 1), Square(1.5, 1.5, 1)};
   const auto rest = Subtract(Triangulate(Square(0, 0, 4)), holes);
   EXPECT_NEAR(AreaOf(rest), 16 - 1.75, 1e-6);
@@ -65,7 +65,7 @@ TEST(Polygon, WhatIsCutOutIsGoneAndTheRestStays) {
   EXPECT_TRUE(Subtract({Square(0, 0, 1)}, std::vector<Polygon>{Square(-1, -1, 3)}).empty());
 }
 
-TEST(Polygon, TheHullLeavesOutWhatIsInside) {
+TEST(Polygon, TheHullLeavesOutInnerPoints) {
   EXPECT_NEAR(SignedArea(Hull({{0, 0}, {1, 1}, {2, 0}, {2, 2}, {0.5, 0.7}, {0, 2}})), 4, 1e-9);
 }
 
@@ -83,7 +83,7 @@ TEST(SvgPath, ReadsTheCutOutsOfTheCatalogue) {
   ASSERT_TRUE(round && round->size() == 1);
 }
 
-TEST(SvgPath, RefusesWhatIsNone) {
+TEST(SvgPath, RefusesInvalidPaths) {
   for (const char* text :
        {"hello", "M0", "M0,0 X1,1", "M0,0 L nan,1", "M0,0 L1e99,1 1,1z", "M,,"}) {
     EXPECT_FALSE(ParseSvgPath(text)) << text;

@@ -148,7 +148,7 @@ TEST_F(SceneImport, ANarrowShaftGetsASpiral) {
   EXPECT_EQ(report->connections.size(), 1U);
 }
 
-TEST_F(SceneImport, AFloorThatNoWayLeadsToIsReportedAndStillImported) {
+TEST_F(SceneImport, AnUnreachableFloorIsReportedAndStillImported) {
   const auto report = Import(With(TwoStoreyHome(), "staircaseCutOutShape='M0,0 v1 h1 v-1 z'", ""));
   ASSERT_TRUE(report.has_value()) << report.error().Message();
   ASSERT_EQ(report->storeys.size(), 2U);

@@ -2,7 +2,7 @@
 #include "crossnav/inference/boxes.h"
 #include "crossnav/inference/sha256.h"
 #include "crossnav/inference/text_table.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -80,7 +80,7 @@ minutes = 6.1
   EXPECT_DOUBLE_EQ(card->thresholds.score, 0.1);
 }
 
-TEST_F(Cards, WhatIsWrongIsNamedByKey) {
+TEST_F(Cards, ErrorsNameTheKey) {
   const std::string good = kCard;
   EXPECT_EQ(ErrorOf(good), "no error");
   EXPECT_EQ(ErrorOf("colour = 1\n" + good), "key \"colour\" is no key of a card");
@@ -99,6 +99,25 @@ TEST_F(Cards, WhatIsWrongIsNamedByKey) {
   EXPECT_EQ(ErrorOf("family = \n").rfind("line 1: ", 0), 0U);
 }
 
+TEST_F(Cards, RetrievalThresholdsAreReadAndWrittenInPlaceOfOldOnes) {
+  const std::string card =
+      "family = \"dense\"\n[input]\nsize = 8\n\n[retrieval]\nmin_z_score = 2\n"
+      "\n[text]  # kept\ntemplates = [\"{}\"]\n";
+  const std::string section = "[retrieval]\nmin_similarity = 0.3\npresent_from = 0.5\n";
+  for (const std::string& before : {card, card.substr(0, card.find("[retrieval]"))}) {
+    const std::string text = WithRetrieval(before, section);
+    EXPECT_EQ(WithRetrieval(text, section), text);
+    EXPECT_EQ(text.find("min_z_score"), std::string::npos);
+    WriteText(path(), text);
+    const auto read = ReadModelCard(path());
+    ASSERT_TRUE(read) << read.error().Message();
+    EXPECT_EQ(read->retrieval.min_similarity, 0.3);
+    EXPECT_EQ(read->retrieval.present_from, 0.5);
+    EXPECT_FALSE(read->retrieval.min_z_score);
+  }
+  EXPECT_NE(WithRetrieval(card, section).find("[text]  # kept"), std::string::npos);
+}
+
 TEST_F(Cards, ATruncatedCardIsAnErrorOrACard) {
   const std::string good = kCard;
   for (std::size_t size = 0; size < good.size(); ++size) {
@@ -110,7 +129,7 @@ TEST_F(Cards, ATruncatedCardIsAnErrorOrACard) {
   }
 }
 
-TEST_F(Cards, TheFileMustBeTheOneThatTheCardDescribes) {
+TEST_F(Cards, TheFileMustMatchTheCardsHash) {
   const std::string hash = Sha256("network");
   WriteText(path(), "sha256 = \"" + hash + "\"\n" + kCard);
   const auto card = ReadModelCard(path());

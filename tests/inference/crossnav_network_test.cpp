@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The adapter of our network, on a small one that sees goals as colours (make_models.py).
+// The adapter of our network, on a small network that sees goals as colours (make_models.py).
 #include "crossnav/core/camera.h"
 #include "crossnav/inference/suite.h"
-#include "networks/small_network.h"
+#include "inference/small_network.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -47,7 +47,8 @@ TEST_F(CrossnavFamily, FindsBoxAndMaskOfTheGoalOnly) {
   ASSERT_TRUE(seen) << seen.error().Message();
   ASSERT_EQ(seen->detections.size(), 1U);
   const auto& chair = seen->detections[0];
-  EXPECT_EQ(chair.box.u0, 8);  // centre 10 in the input, 6 either way, twice as large in the frame
+  // centre 10 in the input, 6 to either side, twice as large in the frame
+  EXPECT_EQ(chair.box.u0, 8);
   EXPECT_EQ(chair.box.v1, 32);
   EXPECT_NEAR(chair.confidence, 1, 0.05);
   EXPECT_EQ(chair.mask.At(19, 19), 1);
@@ -116,7 +117,7 @@ TEST_F(CrossnavFamily, ADepthClusterCanMakeTheMask) {
   EXPECT_EQ(seen->detections[0].mask.At(9, 9), 1);  // a wall fills the whole box
 }
 
-TEST_F(CrossnavFamily, WhatDoesNotFitTheCardIsNamed) {
+TEST_F(CrossnavFamily, MismatchesWithTheCardAreNamed) {
   EXPECT_EQ(ErrorOf(), "no error");
   std::string card = SmallCard();
   Write(card.replace(card.find("size = 32"), 9, "size = 64"));

@@ -5,7 +5,7 @@
 #include "crossnav/inference/boxes.h"
 #include "crossnav/inference/sha256.h"
 #include "crossnav/inference/suite.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "crossnav/inference/parts.h"
 #include "crossnav/sim/scene/image_codec.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -45,7 +45,7 @@ TEST_F(DetrFamily, GivesTheGoalsBoxesInTheFrameOncePerObject) {
   EXPECT_EQ((*model)->MakeEncoder(), nullptr);
 }
 
-/// What the Python reference (Pillow, ONNX Runtime) finds of a goal in docs/images/home.png.
+/// Result of the Python reference (Pillow, ONNX Runtime) for a goal in docs/images/home.png.
 struct Golden {
   const char *network, *goal;
   double score, left, top, right, bottom;

@@ -64,7 +64,7 @@ TEST(ColourTensor, ALetterboxKeepsTheShapeAndPadsWithGrey) {
   EXPECT_EQ(box.v1, 4);
 }
 
-TEST(DepthTensor, TakesTheNearestPixelAndDropsWhatIsNotMeasured) {
+TEST(DepthTensor, TakesTheNearestPixelAndDropsInvalidDepth) {
   DepthImage depth(4, 4, 1.0F);
   depth.At(3, 1) = 2;
   depth.At(1, 1) = std::numeric_limits<float>::quiet_NaN();
@@ -73,7 +73,7 @@ TEST(DepthTensor, TakesTheNearestPixelAndDropsWhatIsNotMeasured) {
   EXPECT_EQ(t.data, (std::vector<float>{0, 2, 0, 1}));
 }
 
-TEST(HeightTensor, IsTheHeightAboveTheFootWhereverTheRobotStands) {
+TEST(HeightTensor, IsTheHeightAboveTheFootAtAnyPose) {
   Observation obs;
   obs.camera = IntrinsicsFromHfov(8, 8, DegToRad(90));
   obs.rgb = RgbImage(8, 8);
@@ -96,7 +96,7 @@ TEST(HeightTensor, IsTheHeightAboveTheFootWhereverTheRobotStands) {
   EXPECT_GT(level.data[0], level.data[7 * 8]);
 }
 
-TEST(HeightTensor, IsThatOfTheMountingWhereThereIsOne) {
+TEST(HeightTensor, UsesTheMountingIfThereIsOne) {
   Observation obs;
   obs.camera = IntrinsicsFromHfov(8, 8, DegToRad(90));
   obs.depth_m = DepthImage(8, 8, 1.0F);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes data/crossnav_small.tsv: what the pipeline's Python makes of boxes in a made-up picture (own_network_test.cpp).
+"""Writes data/crossnav_small.tsv: the Python pipeline's masks of boxes in a synthetic picture (own_network_test.cpp).
 
     make_golden.py
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes data/tokens/: 1,000 texts of all scripts, small vocabularies (kept where they are: their training breaks ties by chance), and what the tokenizers of transformers (CLIPTokenizer,
-BertTokenizer) make of the texts; prints how far open_clip's agrees with them. Needs networks/paper/requirements.txt.
+"""Writes data/tokens/: 1,000 texts of all scripts, small vocabularies (existing files are kept: their training breaks ties at random), and the output of the tokenizers of transformers (CLIPTokenizer,
+BertTokenizer) for the texts; prints the agreement of open_clip's tokenizer. Needs networks/paper/requirements.txt.
 
     make_tokens.py bpe_simple_vocab_16e6.txt.gz vocab.txt
 

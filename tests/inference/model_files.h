@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small networks (made by make_models.py), cards for them, and what can run them.
+// Small networks (made by make_models.py), cards for them, and a backend to run them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ inline bool HasBackend() {
   return BuiltBackends().front() != "none";
 }
 
-/// Skips what has to run a network where no inference library is built in.
+/// Skips tests that run a network if no inference library is built in.
 class WithBackend : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -69,7 +69,7 @@ TEST_P(NetworkFile, OtherPortsThanTheAdapterAsksForAreNamed) {
   EXPECT_NE(ErrorOf(Open(path, other)).find("has an input \"b\""), std::string::npos);
 }
 
-TEST_P(NetworkFile, WhatIsNoNetworkIsOneLineThatNamesTheFile) {
+TEST_P(NetworkFile, AnotherKindOfFileIsOneLineThatNamesIt) {
   const TempFolder folder;
   const std::string whole = *ReadFile(DataFile("crossnav.onnx"));
   const auto check = [&](const std::string& content, const char* name) {
@@ -101,7 +101,7 @@ std::string ErrorOfRun(Result<Network> network) {
   return out ? "no error" : out.error().Message();
 }
 
-TEST_P(NetworkFile, WhatDoesNotFitIntoMemoryIsOneLineThatNamesTheFile) {
+TEST_P(NetworkFile, AFileBeyondMemoryIsOneLineThatNamesIt) {
   const Signature any{kArithmetic.inputs, {{"sum", {-1, -1}}, {"log", {1, 3}}}};
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "operator new of a sanitizer ends the process where others throw";
@@ -119,7 +119,7 @@ TEST_P(NetworkFile, WhatDoesNotFitIntoMemoryIsOneLineThatNamesTheFile) {
   EXPECT_EQ(error.rfind(path.string() + ": ", 0), 0U) << error;
 }
 
-TEST_P(NetworkFile, AProviderThatIsNotHereNamesTheSettingAndTheRemedy) {
+TEST_P(NetworkFile, AMissingProviderNamesTheSettingAndTheRemedy) {
   for (const Backend& backend : Backends())
     for (const char* provider : {"cpu", "cuda", "tensorrt"}) {
       if (backend.name != GetParam()) continue;
@@ -138,7 +138,7 @@ TEST_P(NetworkFile, AProviderThatIsNotHereNamesTheSettingAndTheRemedy) {
     }
 }
 
-TEST(Backend, AnUnknownOneIsNamed) {
+TEST(Backend, AnUnknownBackendIsNamed) {
   SessionOptions options;
   options.backend = "abacus";
   const auto session = OpenSession("", options, "x.onnx");
@@ -146,7 +146,7 @@ TEST(Backend, AnUnknownOneIsNamed) {
   EXPECT_NE(session.error().Message().find("no backend \"abacus\""), std::string::npos);
 }
 
-TEST(Backend, OneThatIsNotAvailableSaysHowToHaveIt) {
+TEST(Backend, AMissingBackendNamesTheRemedy) {
   for (const Backend& backend : Backends()) {
     if (backend.is_available) {
       EXPECT_FALSE(backend.version.empty());
@@ -162,7 +162,7 @@ TEST(Backend, OneThatIsNotAvailableSaysHowToHaveIt) {
   }
 }
 
-TEST(Backend, WithoutALibraryTheErrorSaysHowToHaveOne) {
+TEST(Backend, WithoutALibraryTheErrorNamesTheRemedy) {
   if (HasBackend()) GTEST_SKIP() << "a library is available";
   const auto session = OpenSession("", {}, "x.onnx");
   ASSERT_FALSE(session);

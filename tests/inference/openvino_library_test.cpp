@@ -34,7 +34,7 @@ bool Holds(const std::vector<fs::path>& folders, const fs::path& folder) {
   return std::find(folders.begin(), folders.end(), folder) != folders.end();
 }
 
-TEST(OpenVinoFolders, ANamedFolderIsTheOnlyOne) {
+TEST(OpenVinoFolders, ANamedFolderExcludesTheOthers) {
   const Variable named("CROSSNAV_OPENVINO", "/opt/ov");
   EXPECT_EQ(OpenVinoFolders("/usr/bin"),
             (std::vector<fs::path>{"/opt/ov", "/opt/ov/libs", "/opt/ov/openvino/libs"}));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The networks of our own give the masks that the pipeline's Python gives (make_golden.py), which
-// is what its evaluation measures.
+// Our networks give the same masks as the Python pipeline (make_golden.py), which its evaluation
+// measures.
 #include <fstream>
 #include <sstream>
 
 #include "crossnav/core/camera.h"
 #include "crossnav/inference/parts.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -82,7 +82,7 @@ class OwnNetwork : public EachBackend {
 };
 CROSSNAV_FOR_EACH_BACKEND(OwnNetwork);
 
-TEST_P(OwnNetwork, MasksOfBoxesAreThoseOfThePipelinesPython) {
+TEST_P(OwnNetwork, MasksOfBoxesEqualThePythonPipelines) {
   const Observation obs = Picture();
   std::ifstream file(DataFile("crossnav_small.tsv"));
   int boxes = 0;

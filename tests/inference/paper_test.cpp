@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each adapter against PyTorch, on the architectures of the paper with random weights: small ones
-// in data/paper, or those of networks/paper/reference.py --full in $CROSSNAV_PAPER_NETWORKS.
+// Each adapter against PyTorch, on the architectures of the paper with random weights: small
+// networks in data/paper, or networks of networks/paper/reference.py --full in
+// $CROSSNAV_PAPER_NETWORKS.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -8,7 +9,7 @@
 
 #include "crossnav/inference/parts.h"
 #include "crossnav/inference/text_encoder.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -34,7 +35,7 @@ Observation Picture(int size) {
   return obs;
 }
 
-/// A line of golden.tsv: what it is about, its name, its numbers.
+/// A line of golden.tsv: its subject, its name, its numbers.
 struct Golden {
   std::string kind, name;
   std::vector<double> numbers;
@@ -80,7 +81,7 @@ class PaperNetworks : public EachBackend {
 
 CROSSNAV_FOR_EACH_BACKEND(PaperNetworks);
 
-/// Every box of PyTorch's is among those that the network gives for its label.
+/// Every box of PyTorch is among the network's boxes for its label.
 void ExpectBoxes(perception::Detector& detector, const std::string& network, int size) {
   const auto golden = GoldenOf(network);
   ASSERT_GE(golden.size(), 3U);
@@ -112,7 +113,7 @@ TEST_P(PaperNetworks, DetectorsGiveTheBoxesOfPyTorch) {
   EXPECT_GE(tried, Folder() == DataFile("paper") ? 5 : 1);
 }
 
-TEST_P(PaperNetworks, SegFormersStairsAreThoseOfPyTorch) {
+TEST_P(PaperNetworks, SegFormersStairsEqualPyTorchs) {
   const auto model = OpenIt("segformer_b2");
   ASSERT_NE(model, nullptr);
   const Observation obs = Picture(size_);
@@ -124,6 +125,28 @@ TEST_P(PaperNetworks, SegFormersStairsAreThoseOfPyTorch) {
     EXPECT_NEAR(
         stairs->At(static_cast<int>(wanted.numbers[0]), static_cast<int>(wanted.numbers[1])),
         wanted.numbers[2], kClose);
+}
+
+TEST_P(PaperNetworks, SedsFeaturesAndTextsAreThoseOfPyTorch) {
+  const auto model = OpenIt("sed");
+  ASSERT_NE(model, nullptr);
+  const auto encoder = model->MakeEncoder();
+  const auto grid = encoder->EncodeImage(Picture(size_));
+  ASSERT_TRUE(grid) << grid.error().Message();
+  const auto golden = GoldenOf("sed");
+  ASSERT_EQ(golden.size(), 6U);
+  for (const Golden& wanted : golden) {
+    const bool is_text = wanted.kind == "text";
+    const auto text = is_text ? *encoder->EncodeText(wanted.name) : std::vector<float>{};
+    const auto place =
+        is_text ? 0 : static_cast<std::size_t>(wanted.numbers[0] * grid->cols + wanted.numbers[1]);
+    const std::size_t dim = wanted.numbers.size() - (is_text ? 0 : 2);
+    ASSERT_EQ(dim, static_cast<std::size_t>(grid->dim));
+    for (std::size_t i = 0; i < dim; ++i)
+      EXPECT_NEAR(is_text ? text[i] : grid->data[place * dim + i],
+                  wanted.numbers[is_text ? i : i + 2], kClose)
+          << wanted.kind << " " << wanted.name << " " << i;
+  }
 }
 
 TEST_P(PaperNetworks, MobileSamsMaskIsThatOfPyTorchAndThePictureIsEncodedOnce) {
@@ -147,7 +170,7 @@ TEST_P(PaperNetworks, MobileSamsMaskIsThatOfPyTorchAndThePictureIsEncodedOnce) {
   }
 }
 
-TEST_P(PaperNetworks, ClipsTextVectorsAreThoseOfPyTorch) {
+TEST_P(PaperNetworks, ClipsTextVectorsEqualPyTorchs) {
   ModelCard card;
   card.path = Folder() / "clip_text.toml";
   card.text.encoder = Folder() / "clip_text.onnx";

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Perception from pixels is from pixels: what the simulator knows of instances changes nothing.
+// Perception from pixels uses pixels only: the simulator's instances do not influence it.
 #include <sched.h>
 
 #include <algorithm>
 
 #include "crossnav/inference/suite.h"
 #include "crossnav/sim/sensing/simulator.h"
-#include "networks/small_network.h"
+#include "inference/small_network.h"
 #include "sim/micro_scene.h"
 
 namespace crossnav::inference::test {

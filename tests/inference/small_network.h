@@ -7,7 +7,7 @@
 
 #include "crossnav/inference/networks_config.h"
 #include "crossnav/inference/sha256.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tokenizers against those of transformers, on 1,000 texts of all scripts (make_tokens.py).
+// Tokenizers against transformers' tokenizers, on 1,000 texts of all scripts (make_tokens.py).
 #include "crossnav/inference/tokenizer.h"
 
 #include <zlib.h>
@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "crossnav/inference/unicode.h"
-#include "networks/model_files.h"
+#include "inference/model_files.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -66,7 +66,7 @@ void ExpectEqual(const Tokenizer& tokenizer, std::size_t column) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(Tokenizers, BytePairsEqualThoseOfTransformers) {
+TEST(Tokenizers, BytePairsEqualTransformers) {
   const auto tokenizer = ReadClipTokenizer(DataFile("tokens/merges.txt"));
   ASSERT_TRUE(tokenizer) << tokenizer.error().Message();
   ExpectEqual(**tokenizer, 0);
@@ -89,7 +89,7 @@ TEST(Tokenizers, ClipsOwnVocabularyToo) {
   EXPECT_EQ((*tokenizer)->Encode("a photo of a chair", 77), chair);
 }
 
-TEST(Tokenizers, WordPiecesEqualThoseOfTransformers) {
+TEST(Tokenizers, WordPiecesEqualTransformers) {
   const auto tokenizer = ReadWordPieceTokenizer(DataFile("tokens/vocab.txt"));
   ASSERT_TRUE(tokenizer) << tokenizer.error().Message();
   ExpectEqual(**tokenizer, 2);
@@ -103,7 +103,7 @@ TEST(Tokenizers, BertsOwnVocabularyToo) {
   ExpectEqual(**tokenizer, 3);
 }
 
-TEST(Tokenizers, CutWhatIsTooLongAndKeepTheEnd) {
+TEST(Tokenizers, TruncateLongTextsAndKeepTheEnd) {
   const auto tokenizer = ReadClipTokenizer(DataFile("tokens/merges.txt"));
   ASSERT_TRUE(tokenizer);
   const auto whole = (*tokenizer)->Encode("a b c d e f", kAll);
@@ -113,7 +113,7 @@ TEST(Tokenizers, CutWhatIsTooLongAndKeepTheEnd) {
   EXPECT_EQ(cut.back(), whole.back());
 }
 
-TEST(Tokenizers, AFileOfAnotherKindIsOneClearMessage) {
+TEST(Tokenizers, AnotherKindOfFileIsOneClearMessage) {
   const crossnav::test::TempFolder folder;
   const fs::path path = folder.path() / "words.txt";
   EXPECT_FALSE(ReadClipTokenizer(path));

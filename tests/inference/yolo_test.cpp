@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "crossnav/inference/parts.h"
-#include "networks/model_files.h"
-#include "networks/small_network.h"
+#include "inference/model_files.h"
+#include "inference/small_network.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -108,7 +108,7 @@ class YoloWorld : public YoloFamily {
   }
 };
 
-TEST_F(YoloWorld, IsGivenItsLabelsAndAGoalThatIsNone) {
+TEST_F(YoloWorld, GetsItsLabelsAndAnUnlabelledGoal) {
   const auto model = OpenWorld("3", "\"tv\", \"lamp\"");
   ASSERT_TRUE(model) << model.error().Message();
   EXPECT_EQ(Found(**model, "tv_monitor", 16), "2 4 10 12 90");
@@ -117,7 +117,7 @@ TEST_F(YoloWorld, IsGivenItsLabelsAndAGoalThatIsNone) {
   EXPECT_NE(Found(**model, "couch", 16).find("has no vector for \"couch\""), std::string::npos);
 }
 
-TEST_F(YoloWorld, WhatItsCardLacksIsNamed) {
+TEST_F(YoloWorld, MissingPartsOfItsCardAreNamed) {
   const auto error = [&](const char* classes, const char* names) {
     const auto model = OpenWorld(classes, names);
     return model ? std::string() : model.error().Message();
@@ -163,7 +163,7 @@ TEST_F(GridFamily, StairsAreTheSumOfTheirClasses) {
             std::string::npos);
 }
 
-TEST_F(GridFamily, DenseFeaturesComeInRowsOfCellsWhateverTheLayout) {
+TEST_F(GridFamily, DenseFeaturesComeInRowsOfCellsForEveryLayout) {
   const std::string output = "[output]\nrows = 4\ncols = 4\ndim = 3\nlayout = \"chw\"\n";
   EXPECT_NE(OpenIt("dense", output).error().Message().find("\"text.table\" is missing"),
             std::string::npos);

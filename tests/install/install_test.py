@@ -114,7 +114,7 @@ template crossnav::Result<void> Find(Robot&, crossnav::agent::Agent&, const std:
             self.prefix / "include", program)
 
     def check_answer(self, home, point):
-        """More of what was claimed is found there."""
+        """A query with the claimed point finds a place near it."""
         places = re.findall(r"at (\S+) (\S+) \S+, similarity", self.example("ask_map", home, *point))
         near = [place for place in places if all(
             abs(float(a) - float(b)) < 1.5 for a, b in zip(place, point))]

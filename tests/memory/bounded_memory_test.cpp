@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory under fusion.max_rows: what becomes int8, what is dropped, and what that costs.
+// The memory under fusion.max_rows: compaction, dropping, and their cost.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -123,7 +123,7 @@ TEST(BoundedMemoryTest, ManyFramesUnderALimitKeepRowsFactsAndFeaturesTogether) {
   int same = 0;
   for (std::int64_t row = 0; row < few.Size(); ++row) {
     ASSERT_EQ(few.RowOf(few.Keys()[row]), row);
-    // A voxel that was dropped and came back knows less; the others know what `all` knows.
+    // A voxel that was dropped and came back has less evidence; the others equal `all`.
     const std::int64_t other = *all.RowOf(few.Keys()[row]);
     if (std::abs(few.WeightAt(row) / all.WeightAt(other) - 1) > 1e-4) continue;
     ++same;

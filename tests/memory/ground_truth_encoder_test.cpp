@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The encoder that stands in for a network: what the memory's queries are tested with.
+// The stand-in encoder, with which the memory's queries are tested.
 #include "crossnav/sim/sensing/ground_truth_encoder.h"
 
 #include <gtest/gtest.h>
@@ -108,7 +108,7 @@ TEST_F(GroundTruthEncoderTest, LookAlikesLieNearerThanStrangers) {
   EXPECT_NEAR(Cosine(*encoder, "wall", "floor"), 0.5, 0.06);
 }
 
-TEST_F(GroundTruthEncoderTest, CellsShowWhatIsThereAndRunsRepeat) {
+TEST_F(GroundTruthEncoderTest, CellsShowTheVisibleObjectsAndRunsRepeat) {
   const auto encoder = *MakeGroundTruthEncoder(simulator_, {});
   const Observation obs = LookAt(0);
   const auto grid = encoder->EncodeImage(obs);

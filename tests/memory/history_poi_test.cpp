@@ -98,7 +98,7 @@ TEST(HistoryPoiTest, EqualsBruteForce) {
   EXPECT_GT(clusters.size(), 3u);
 }
 
-TEST(HistoryPoiTest, NothingThatStandsOutGivesNothing) {
+TEST(HistoryPoiTest, WithoutOutstandingVoxelsTheResultIsEmpty) {
   World w;
   w.Floor(40);
   EXPECT_TRUE(Query(w.memory, RandomVector(w.rng, 1.0), {}).empty());
@@ -128,7 +128,7 @@ TEST(HistoryPoiTest, BestViewIsTheCameraThatSawMostOfThePlace) {
   const auto clusters = Query(w.memory, text, {});
   ASSERT_EQ(clusters.size(), 1u);
   EXPECT_EQ(clusters[0].p_best_view_world, Vector3d(1, 2, 3));
-  // A camera turned that way has the centre in its middle.
+  // The best view's direction puts the centre in the middle of the image.
   const MemoryCluster& c = clusters[0];
   const Pose T_world_camera =
       CameraPose({c.p_best_view_world, c.best_view_yaw_rad, c.best_view_pitch_rad}, 0);
@@ -138,7 +138,7 @@ TEST(HistoryPoiTest, BestViewIsTheCameraThatSawMostOfThePlace) {
   EXPECT_GT(p_camera.z(), 0);
 }
 
-TEST(HistoryPoiTest, ContrastiveRelevancySuppressesWhatABackgroundPromptExplainsBetter) {
+TEST(HistoryPoiTest, ContrastiveRelevancySuppressesBackground) {
   World w;
   const std::vector<float> text = RandomVector(w.rng, 1.0);
   std::vector<float> other = RandomVector(w.rng, 1.0);
@@ -161,7 +161,7 @@ TEST(HistoryPoiTest, ContrastiveRelevancySuppressesWhatABackgroundPromptExplains
   }
 }
 
-TEST(HistoryPoiTest, QueryLeavesTheMemoryAsItIs) {
+TEST(HistoryPoiTest, QueryDoesNotChangeTheMemory) {
   World w;
   const std::vector<float> text = RandomVector(w.rng, 1.0);
   w.Blob({10, 10, 5}, 4, text, 2.0);

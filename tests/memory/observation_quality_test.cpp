@@ -48,7 +48,7 @@ TEST(ObservationQualityTest, IsZeroExactlyWhereDepthIsInvalid) {
     }
 }
 
-TEST(ObservationQualityTest, RowsInAnyOrderAreThoseOfTheWholeImage) {
+TEST(ObservationQualityTest, RowsInAnyOrderEqualTheWholeImage) {
   Rng rng(4);
   const CameraIntrinsics camera = IntrinsicsFromHfov(37, 11, 1.5);
   QualityRows rows;
@@ -102,7 +102,7 @@ TEST(ObservationQualityTest, IsWithinAFewRoundingsOfTheFormula) {
           const double expected = testing::LiteralQuality(depth, u, v, factors);
           if (expected == 0) {
             ASSERT_EQ(q.At(u, v), 0) << u << "," << v;
-          } else {  // what is rounded is the exponent
+          } else {  // the exponent is rounded
             const double roundings = 1 - std::log2(expected);
             largest = std::max(largest, std::abs(q.At(u, v) / expected - 1) / roundings);
           }

@@ -24,7 +24,7 @@ std::vector<float> Unit(Rng& rng) {
   return v;
 }
 
-/// Words that share `common`, and what shows one of them.
+/// Words with a common part, and cells that show one of them.
 struct Words {
   SemanticMemory memory;
   Rng rng{3};
@@ -73,22 +73,22 @@ TEST(QueryMatch, ScaleIsTheSameHoweverMuchAllWordsHaveInCommon) {
   }
 }
 
-TEST(QueryMatch, WhatFillsMostOfTheMapIsPresentThoughNoPlaceStandsOut) {
+TEST(QueryMatch, SurfacesThatFillTheMapArePresentWithoutAnOutstandingPlace) {
   Words w(0.5);
   const auto wall = w.Word();
   w.Show(wall, {0, 0, 0}, 12);
   w.Show(w.Word(), {40, 0, 0}, 7);
   const QueryMatch match = w.Ask(wall);
   EXPECT_TRUE(match.places.empty());
-  EXPECT_EQ(Judge(match, "ground-truth"), Verdict::kPresent);
+  EXPECT_EQ(Judge(match, PresentFrom("ground-truth")), Verdict::kPresent);
 }
 
 TEST(QueryMatch, AnEmptyMemoryHoldsNothingAndAnUnmeasuredEncoderIsNotJudged) {
   const SemanticMemory nothing;
   const QueryMatch match = MatchOf(nothing, std::vector<float>(kDim, 1.0F), {});
   EXPECT_EQ(match.best, 0);
-  EXPECT_EQ(Judge(match, "ground-truth"), Verdict::kAbsent);
-  EXPECT_EQ(Judge(match, "somebody-elses"), Verdict::kUnknown);
+  EXPECT_EQ(Judge(match, PresentFrom("ground-truth")), Verdict::kAbsent);
+  EXPECT_EQ(Judge(match, PresentFrom("somebody-elses")), Verdict::kUnknown);
 }
 
 }  // namespace

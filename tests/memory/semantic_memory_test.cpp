@@ -149,7 +149,7 @@ TEST(SemanticMemoryTest, HowTheRunsAreCutChangesNothing) {
 }
 
 // Sums over runs are differences of sums over a whole interval of cells.
-TEST(SemanticMemoryTest, WhatIsFarBesideWhatIsNearIsKeptWithItsWeight) {
+TEST(SemanticMemoryTest, FarPixelsBesideNearPixelsKeepTheirWeight) {
   const CameraIntrinsics camera = IntrinsicsFromHfov(64, 8, DegToRad(90));
   DepthImage depth(64, 8, 1.0F);
   for (int v = 0; v < 8; ++v)
@@ -189,7 +189,7 @@ TEST(SemanticMemoryTest, HalfStorageStaysCloseOverManyFrames) {
   }
 }
 
-TEST(SemanticMemoryTest, SimilarityIsTheCosineOfEveryRowWhateverTheTextsNorm) {
+TEST(SemanticMemoryTest, SimilarityIsTheCosineOfEveryRowForAnyNormOfTheText) {
   Rng rng(2);
   const TestFrame f = MakeFrame(40, 30, 6, 8, 640, rng);
   SemanticMemory memory;

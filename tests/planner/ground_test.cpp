@@ -39,7 +39,7 @@ void AddColumn(VoxelMap& map, int x, int y, int z0, int z1) {
   for (int z = z0; z <= z1; ++z) SetState(map, {x, y, z}, VoxelState::kOccupied);
 }
 
-TEST(GroundMap, OneStandsOnASurfaceWithAirAndHeadRoom) {
+TEST(GroundMap, APlaceIsASurfaceWithAirAndHeadRoom) {
   VoxelMap map;
   AddGround(map, 0, 0, 6, 6, 0);
   SetState(map, {2, 2, 8}, VoxelState::kOccupied);   // a shelf at 0.8 m
@@ -156,7 +156,7 @@ TEST(GroundMap, AGapOfOneColumnIsAPinch) {
   EXPECT_EQ(ground.ClearanceOf({1, 2, 1}), Clearance::kFree);
 }
 
-TEST(GroundMap, WhatWasBumpedIntoIsNoGroundUntilForgotten) {
+TEST(GroundMap, ABumpedColumnIsNoGroundUntilForgotten) {
   VoxelMap map;
   AddGround(map, 0, 0, 5, 5, 0);
   GroundMap ground = GroundOf(map);
@@ -180,7 +180,7 @@ TEST(GroundMap, OnlyBumpsNearByAreForgotten) {
   EXPECT_FALSE(ground.ForgetBlockedAround({0.5, 0.25, 0.1}, 1));
 }
 
-TEST(GroundMap, ChangesGiveWhatARebuildGives) {
+TEST(GroundMap, ChangesEqualARebuild) {
   Rng rng(3);
   VoxelMap map;
   GroundMap changed(map.config());
@@ -227,7 +227,7 @@ TEST(GroundSearch, TheFrontOfASeatIsNoTread) {
   EXPECT_TRUE(CostsFrom(GroundOf(stair), {1, 1, 1}).contains({6, 1, 5}));
 }
 
-/// Bellman and Ford's relaxation until nothing changes, over a dictionary: as slow as it is plain.
+/// Bellman and Ford's relaxation until nothing changes, over a dictionary: slow and simple.
 std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& start, int side) {
   const PlannerConfig config;
   std::map<VoxelKey, double> costs{{start, 0}};
@@ -254,7 +254,7 @@ std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& s
   return costs;
 }
 
-TEST(GroundSearch, CostsAreThoseOfPlainRelaxationOnRandomGround) {
+TEST(GroundSearch, CostsEqualPlainRelaxationOnRandomGround) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Rng rng(seed);
     constexpr int kSide = 22;
@@ -278,8 +278,8 @@ TEST(GroundSearch, CostsAreThoseOfPlainRelaxationOnRandomGround) {
   }
 }
 
-// Searches keep what they asked of a place until something near it changes.
-TEST(GroundSearch, AfterEachChangeTheCostsAreThoseOfAGroundThatIsNew) {
+// Searches cache a place until a change near it.
+TEST(GroundSearch, AfterEachChangeTheCostsEqualThoseOfFreshGround) {
   Rng rng(11);
   VoxelMap map;
   AddGround(map, 0, 0, 40, 40, 0);
@@ -312,7 +312,7 @@ TEST(GroundSearch, AfterEachChangeTheCostsAreThoseOfAGroundThatIsNew) {
   }
 }
 
-TEST(GroundSearch, AWayStartsWhereItBeginsAndTakesNeighbouringPlaces) {
+TEST(GroundSearch, APathBeginsAtItsStartAndTakesNeighbouringPlaces) {
   VoxelMap map;
   AddGround(map, 0, 0, 20, 3, 0);
   const GroundMap ground = GroundOf(map);

@@ -62,7 +62,7 @@ struct Tally {
   int tried = 0, up = 0, down = 0;
 };
 
-TEST(StairCases, WhatTheNavmeshClimbsTheGroundClimbsBothWays) {
+TEST(StairCases, StairsOfTheNavmeshAreClimbedUpAndDown) {
   Rng rng(29);
   int failures = 0;
   const int offsets = IsLong() ? 20 : 1;
@@ -102,7 +102,7 @@ TEST(StairCases, WhatTheNavmeshClimbsTheGroundClimbsBothWays) {
   EXPECT_EQ(failures, 0);
 }
 
-/// A robot that looks and walks as the agent does, 320 px wide, and what it knows of the ground.
+/// A robot that looks and walks as the agent does, 320 px wide, and its knowledge of the ground.
 class Walker {
  public:
   Walker(const sim::Scene& scene, double voxel_m)
@@ -146,8 +146,7 @@ std::vector<Vector3d> StepsBetween(const sim::NavMesh& navmesh, const Vector3d& 
   return steps;
 }
 
-/// Whether a way leads from where the robot is to the next foot position, or as near to it as its
-/// body is wide.
+/// Whether a path leads from the robot to the next foot position, or within a body's width of it.
 bool GoesOn(const GroundMap& ground, const Vector3d& p_world, const Vector3d& p_next_world) {
   constexpr double kNear_m = 0.15;
   const auto start = ground.StandingAt(p_world);
@@ -161,7 +160,7 @@ bool GoesOn(const GroundMap& ground, const Vector3d& p_world, const Vector3d& p_
   return false;
 }
 
-/// Walks from one end to the other and says where the way was not known, or "".
+/// Walks from one end to the other; returns the place where the path was unknown, or "".
 std::string WalkFlight(const StairCase& stair, double voxel_m, bool goes_up) {
   const auto scene = SceneOf(FacetsOf(stair));
   const auto navmesh = sim::NavMesh::Build(scene, {});
@@ -185,7 +184,7 @@ std::string WalkFlight(const StairCase& stair, double voxel_m, bool goes_up) {
   return closed;
 }
 
-TEST(StairCases, AFlightThatIsSeenStepByStepIsWalkedAndLeadsBack) {
+TEST(StairCases, AFlightSeenDuringTheClimbIsWalkedUpAndDown) {
   Rng rng(31);
   int failures = 0, tries = 0;
   for (const double voxel_m : {0.10, 0.05})

@@ -52,7 +52,7 @@ TEST(Viewpoints, AreAllFreeStandingPlacesInRangeWhereSightIsNotAsked) {
       // On the ground the height counts from the foot to the lowest voxel's centre: nothing.
       if (nearest <= 1.23) expected.push_back({x, y, 0});
     }
-  // Standing on the object itself is a place too; the ground around it is what matters here.
+  // Places on the object itself count, too; this test needs the ground around it.
   std::vector<VoxelKey> ground;
   for (const VoxelKey& key : viewpoints)
     if (key.z == 0) ground.push_back(key);
@@ -193,7 +193,7 @@ TEST(Verify, NamesTheOneCheckThatFails) {
   frame = Frame();
   for (VoxelKey& key : frame.sightings[0].voxels) key.y += 20;
   frame.sightings[0].p_center_world.y() += 2;
-  expect(frame, "not detected");  // what is seen is another object
+  expect(frame, "not detected");  // another object is visible
   frame = Frame();
   frame.sightings[0].confidence = 0.69;
   expect(frame, "confidence");

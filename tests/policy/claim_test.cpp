@@ -48,7 +48,7 @@ TEST(Opinion, IsNoneWhereNothingIsRemembered) {
   EXPECT_FALSE(OpinionOf(memory, Column(0), std::vector<float>{1, 0}, {}).has_value());
 }
 
-TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedOnesNoMore) {
+TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedClaimsEnd) {
   const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.7, 0.7, "sofa", 9},
       denies{0.5, 0.9, "sofa", 9};
   EXPECT_EQ(Judge(agrees, 0.9, 1, kConfig), ClaimVerdict::kAgreed);
@@ -57,6 +57,60 @@ TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedOnesNoMore) {
   EXPECT_EQ(Judge(unsure, 0.9, 1, kConfig), ClaimVerdict::kWeak);
   EXPECT_EQ(Judge(denies, 0.99, 3, kConfig), ClaimVerdict::kRefuted);
   EXPECT_EQ(Judge(std::nullopt, 0.9, 1, kConfig), ClaimVerdict::kWeak);
+}
+
+TEST(Judge, ASecondViewAloneDoesNotSaveWhatFrameAndMemoryDoubt) {
+  const MemoryOpinion unsure{0.71, 0.7, "sofa", 9}, against{0.69, 0.7, "sofa", 9};
+  EXPECT_EQ(Judge(unsure, 0.72, 2, kConfig), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(unsure, 0.72, 3, kConfig), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(unsure, 0.9, 2, kConfig), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(against, 0.72, 1, kConfig), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(against, 0.72, 2, kConfig), ClaimVerdict::kRefuted);
+}
+
+TEST(ViewEvidence, NearIdenticalViewsCountOnceAndOthersAtADiscount) {
+  EvidenceConfig config;
+  config.discount = 0.5;
+  const auto view = [&](double score, int frames) {
+    return ViewScore{{}, frames * LogOddsOf(score, config), frames};
+  };
+  EXPECT_DOUBLE_EQ(ProbabilityOf({}, config), 0.5);
+  EXPECT_NEAR(ProbabilityOf({view(0.8, 1)}, config), 0.8, 1e-9);
+  EXPECT_NEAR(ProbabilityOf({view(0.8, 9)}, config), 0.8, 1e-9);
+  const double both = ProbabilityOf({view(0.8, 1), view(0.8, 1)}, config);
+  EXPECT_NEAR(both, 8.0 / 9, 1e-9);  // odds 4 and half as much log-odds again
+  EXPECT_NEAR(ProbabilityOf({view(0.4, 1), view(0.8, 1)}, config),
+              ProbabilityOf({view(0.8, 1), view(0.4, 1)}, config), 1e-12);
+  EXPECT_LT(ProbabilityOf({view(0.8, 1), view(0.4, 1)}, config), 0.8);
+}
+
+TEST(ViewEvidence, DecidesOnceTheSightingsAgree) {
+  const VerifyConfig& config = kConfig;
+  const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.71, 0.7, "sofa", 9},
+      denies{0.5, 0.9, "sofa", 9};
+  const auto view = [&](double score) { return ViewScore{{}, LogOddsOf(score, config.views), 1}; };
+  using Views = std::vector<ViewScore>;
+  EXPECT_EQ(Judge(agrees, Views{view(0.95)}, config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(unsure, Views{view(0.95)}, config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(unsure, Views{view(0.95), view(0.9)}, config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Views{view(0.7)}, config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, Views{view(0.2), view(0.3)}, config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(unsure, Views{view(0.5), view(0.6), view(0.6)}, config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(denies, Views{view(0.99), view(0.99)}, config), ClaimVerdict::kRefuted);
+}
+
+TEST(ViewEvidence, IsNotedByView) {
+  LivePoi poi;
+  poi.id = 7;
+  poi.voxels = Column(0);
+  poi.p_center_world = Vector3d(0, 0, 0.25);
+  ClaimTracker book;
+  for (const Vector3d& p_camera : {Vector3d(2, 0, 0.9), Vector3d(3, 0, 0.9), Vector3d(0, 3, 0.9)})
+    NoteScores({poi}, {SightingOf(0, 0.5)}, p_camera, kObject, kConfig, &book);
+  ASSERT_NE(book.ViewsOf(7), nullptr);
+  ASSERT_EQ(book.ViewsOf(7)->scores.size(), 2U);
+  EXPECT_EQ(book.ViewsOf(7)->scores[0].frames, 2);
+  EXPECT_TRUE(book.ViewsOf(7)->p_cameras_world.empty()) << "too weak a score for a claim";
 }
 
 TEST(Views, AreOthersByAngleAroundTheObjectAndByDistance) {

@@ -44,7 +44,7 @@ TEST(FlightSurvey, EvidenceAloneIsAFlight) {
   EXPECT_EQ(flights[0].DirectionUp(), Vector3d(1, 0, 0));
 }
 
-TEST(FlightSurvey, AStepOrTwoAndWhatWasNeverConfirmedAreNone) {
+TEST(FlightSurvey, TwoStepsOrUnconfirmedEvidenceAreNoFlight) {
   std::vector<StairFlight> flights;
   FlightSurvey().Update(EvidenceOf(FlightEvidence(20, 1, 4)), {}, {0, 0, 0}, kVoxel_m, &flights);
   EXPECT_TRUE(flights.empty());
@@ -106,7 +106,7 @@ TEST(FlightSurvey, TheFarSideOfAWalkedFlightIsTheSameFlight) {
   EXPECT_EQ(flights.size(), 1u);
 }
 
-TEST(FlightSurvey, WhatWasWalkedIsNotSeenOnceMore) {
+TEST(FlightSurvey, AWalkedFlightIsNotSurveyedAgain) {
   const StairEvidence evidence = EvidenceOf(FlightEvidence(20, 1, 14));
   std::vector<StairFlight> flights;
   FlightSurvey survey;

@@ -28,7 +28,7 @@ TEST(Flights, AWalkGivesAFlightFromFootToTop) {
   EXPECT_EQ(flights[0].confidence, 0);
 }
 
-TEST(Flights, TheWayBackIsTheSameFlight) {
+TEST(Flights, TheWalkBackIsTheSameFlight) {
   std::vector<geometry::StairFlight> flights;
   NoteWalk(Path(0, 4, 2.8), {}, 0.1, &flights);
   auto back = Path(0.3, 4.2, 2.8);
@@ -46,7 +46,7 @@ TEST(Flights, ANeighbouringFlightIsAnother) {
   EXPECT_EQ(flights.size(), 2u);
 }
 
-TEST(Flights, WhatLiesOnOneIsBesideIt) {
+TEST(Flights, APointOnAFlightIsBesideIt) {
   std::vector<geometry::StairFlight> flights;
   NoteWalk(Path(0, 4, 2.8), {}, 0.1, &flights);
   EXPECT_TRUE(IsBeside(flights[0], {2, 1.4, 1.5}));
@@ -64,7 +64,7 @@ StairFlight Seen(double from_x, double to_x, double rise_m, int id) {
   return flight;
 }
 
-TEST(Flights, AWalkTakesOverWhatWasOnlySeen) {
+TEST(Flights, AWalkTakesOverTheSeenFlight) {
   std::vector<StairFlight> flights = {Seen(1, 4, 2.1, 5), Seen(10, 14, 2.8, 6)};
   flights[0].seen_from_world = {{0, 0, 0}};
   NoteTry({2, 1, 1}, {{-1, 0, 0}, true, geometry::TryEnding::kUnreachable}, &flights);

@@ -31,7 +31,7 @@ VoxelMap RoomBefore(int depth) {
   return map;
 }
 
-TEST(FrontierWorth, UnseenGroundIsMeasuredUpToWhatWasSeen) {
+TEST(FrontierWorth, UnseenAreaEndsAtSeenGround) {
   const VoxelKey place{19, 10, 1};
   const double pocket = UnseenBeyond(GroundOf(RoomBefore(5)), place, 4.0);
   EXPECT_NEAR(pocket, 0.5 * 2.1, 0.35);  // half a metre deep, as wide as the room
@@ -39,7 +39,7 @@ TEST(FrontierWorth, UnseenGroundIsMeasuredUpToWhatWasSeen) {
   EXPECT_GT(room, 4 * pocket);
   VoxelMap open;
   AddGround(open, 0, 0, 20, 20, 0);
-  // Half a disc of four metres lies beyond the edge of what was seen.
+  // Half a disc of four metres lies beyond the edge of the seen ground.
   EXPECT_NEAR(UnseenBeyond(GroundOf(open), place, 4.0), 0.5 * M_PI * 16, 3);
 }
 
@@ -47,7 +47,7 @@ TEST(FrontierWorth, BeforeAWallThatWasSeenThereIsNone) {
   EXPECT_EQ(UnseenBeyond(GroundOf(RoomBefore(0)), {19, 10, 1}, 4.0), 0);
 }
 
-TEST(FrontierWorth, ScoringSaysWhatCounts) {
+TEST(FrontierWorth, ScoringSelectsTheWeights) {
   const auto pocket = GroundOf(RoomBefore(5)), room = GroundOf(RoomBefore(30));
   const VoxelKey place{19, 10, 1};
   const Relevancy nothing;
@@ -64,7 +64,7 @@ TEST(FrontierWorth, ScoringSaysWhatCounts) {
   EXPECT_EQ(FrontierWorth(pocket, place, nothing, config), worth);
 }
 
-TEST(FrontierWorth, WhatWasSeenAroundItResemblesTheGoal) {
+TEST(FrontierWorth, RelevancyOfSurfacesAroundItRaisesTheWorth) {
   memory::SemanticMemory memory({}, 0.1, 2);
   const auto add = [&](int x, std::vector<std::uint16_t> half) {
     for (int k = 0; k < 5; ++k) {

@@ -111,7 +111,7 @@ TEST(TraversableFrontiers, SmallerThanTheMinimumAreLeftOut) {
   EXPECT_NEAR((frontiers.front().p_focus_world - Vector3d(1.05, 0.2, 0.15)).norm(), 0, 1e-9);
 }
 
-TEST(TraversableFrontiers, NobodyStandsInInflatedVoxels) {
+TEST(TraversableFrontiers, InflatedVoxelsAreNoStandingPlaces) {
   VoxelMap map = Corridor();
   for (int x = 0; x < 10; ++x)
     for (const int y : {0, 3})
@@ -203,7 +203,7 @@ TEST(DescendFrontiers, AreNoneAtASingleLowStep) {
   EXPECT_TRUE(Drops(map).empty());
 }
 
-TEST(DescendFrontiers, OneVoxelAloneIsNone) {
+TEST(DescendFrontiers, ASingleVoxelIsNone) {
   VoxelMap map;
   AddGround(map, 0, 0, 10, 4, 0);
   SetState(map, {10, 2, 1}, VoxelState::kTraversableFake);

@@ -41,7 +41,7 @@ AgentPose Facing(double yaw_rad) {
   return pose;
 }
 
-TEST(Glance, GoesToTheSideThatLiesOpen) {
+TEST(Glance, TurnsToTheOpenSide) {
   const auto heading_rad = GlanceHeading(Room(true), kPlace, Facing(0), kHfov_rad, {}, {});
   ASSERT_TRUE(heading_rad);
   EXPECT_NEAR(*heading_rad, M_PI / 2, 1e-9);
@@ -58,7 +58,7 @@ TEST(Glance, NotForLittleNorWhereTheAgentLooksAlready) {
   EXPECT_FALSE(GlanceHeading(Room(true), kPlace, Facing(M_PI / 2), kHfov_rad, {}, {}));
 }
 
-// What stays unseen however often one looks must not hold the agent up.
+// Ground that stays unseen after a look must not delay the agent.
 TEST(Glance, NotTwiceFromTheSamePlace) {
   LookedAlong looked;
   looked.Add(Facing(M_PI / 2), kHfov_rad);

@@ -60,7 +60,7 @@ TEST(GroundFrontiers, ADropThatWasSeenIsNone) {
   EXPECT_TRUE(AllFrontiers(GroundOf(map), 20, 1).empty());
 }
 
-TEST(GroundFrontiers, AirWhoseFloorIsHiddenIsOne) {
+TEST(GroundFrontiers, AirAboveHiddenFloorIsAFrontier) {
   VoxelMap map = RoomWithDoor(8);
   for (int y = 8; y < 16; ++y)
     for (int z = 0; z <= 16; ++z) SetState(map, {20, y, z}, VoxelState::kTraversableFake);

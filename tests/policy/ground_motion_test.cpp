@@ -37,7 +37,7 @@ void Do(Action what, AgentPose& pose) {
     pose.p_world += 0.25 * Vector3d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad), 0);
 }
 
-TEST(GroundMotion, WalksStraightWhereTheWayIsStraight) {
+TEST(GroundMotion, WalksStraightOnAStraightPath) {
   VoxelMap map;
   AddGround(map, 0, 0, 40, 10, 0);
   const auto ground = GroundOf(map);
@@ -62,9 +62,9 @@ TEST(GroundMotion, EndsNoTurnWithoutAStep) {
   EXPECT_EQ(actions.back(), Action::kMoveForward);
 }
 
-// A way that doubles back behind a wall came near its own end: cost-to-go by distance to the way
-// saw no step that helped, and the agent stood still (found in house 8).
-TEST(GroundMotion, LeavesAPocketWhoseWayDoublesBackBehindAThinWall) {
+// Regression: a path that doubles back behind a wall came near its own end: with cost-to-go by
+// distance to the path no step helped, and the agent stood still (found in house 8).
+TEST(GroundMotion, LeavesAPocketWithAPathThatDoublesBackBehindAThinWall) {
   VoxelMap map;
   AddGround(map, 0, 0, 30, 12, 0);
   for (int x = 0; x < 24; ++x)

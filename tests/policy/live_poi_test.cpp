@@ -57,7 +57,7 @@ Sighting SightingOf(std::vector<VoxelKey> voxels, double confidence = 0.8, doubl
   return sighting;
 }
 
-TEST(LiftDetections, VoxelsAreThoseOfTheMaskedPixels) {
+TEST(LiftDetections, VoxelsComeFromTheMaskedPixels) {
   const Observation obs = Wall();
   const auto sightings = Lift(DetectionOf({20, 24, 44, 40}), obs);
   ASSERT_EQ(sightings.size(), 1u);
@@ -85,7 +85,7 @@ TEST(LiftDetections, FewerThanTenVoxelsAreNothing) {
   EXPECT_EQ(Lift(DetectionOf({20, 30, 40, 31}), Wall()).size(), 1u);
 }
 
-TEST(LiftDetections, TheLargestConnectedPartStandsForTheObject) {
+TEST(LiftDetections, TheLargestConnectedPartRepresentsTheObject) {
   Observation obs = Wall(4.0F);
   // The object's front at 2 m in the left two thirds of the mask, the wall behind it in the rest.
   for (int v = 0; v < kSide_px; ++v)
@@ -140,7 +140,7 @@ TEST(LivePois, TwoObjectsApartStayTwoMostConfidentFirst) {
   EXPECT_NE(stable[0]->id, stable[1]->id);
 }
 
-TEST(LivePois, DiscardedOnesAreOutUntilForgiven) {
+TEST(LivePois, DiscardedPoisAreOutUntilForgiven) {
   LivePois pois;
   for (int step = 0; step < 2; ++step) pois.Update({SightingOf(CubeAt(0))}, {}, 0.1, step);
   const int id = pois.Stable({}).front()->id;

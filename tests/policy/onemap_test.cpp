@@ -144,7 +144,7 @@ TEST(OneMapGoals, TheLastGoalIsKeptWhileItsScoreHolds) {
   EXPECT_EQ(ChooseOneMapGoal({}, &last, belief.View()), -1);
 }
 
-TEST(OneMapGoals, ConsensusIsNearWhatAnswersBest) {
+TEST(OneMapGoals, ConsensusIsNearTheBestAnswer) {
   Belief belief;
   belief.Ground(0, 0, 20, 20, 1, 0.1);
   belief.similarity[{15, 5}] = 0.8;

@@ -106,7 +106,7 @@ TEST(PromoteStairs, FakeStairIsReversible) {
   for (const VoxelKey& key : treads) EXPECT_EQ(world.map.StairMarkAt(key), StairMark::kStair);
 }
 
-TEST(PromoteStairs, TheWayDownDoesNotPromoteAFlightThatLeadsUp) {
+TEST(PromoteStairs, ADescentDoesNotPromoteAFlightUp) {
   FlightWorld world = MakeFlight();
   StairSession session = BeginSession(-1, 0, {-0.3, 0.5, 0}, Below(world, 0.28));
   PromoteStairs(session, SeeAll(world.map, world.flight), world.map, {});

@@ -38,7 +38,7 @@ Vector3d AheadOf(const AgentPose& agent, double distance_m, double turn_deg = 0)
   return agent.p_world + distance_m * Vector3d(std::cos(yaw), std::sin(yaw), 0);
 }
 
-TEST(SteerTowards, TurnsTheShorterWayAndWalksWhenItFaces) {
+TEST(SteerTowards, TurnsInTheShorterDirectionAndWalksWhenItFaces) {
   const VoxelMap map = Hall();
   for (int turn_deg = -160; turn_deg <= 160; turn_deg += 10) {
     const AgentPose agent = At(0.05, 0.05, 40);
@@ -150,7 +150,7 @@ TEST(EscapeActions, LeaveADeadEndThroughItsOpenSide) {
   EXPECT_NEAR(std::abs(HeadingAfter(0, actions)), DegToRad(180), 1e-9);
 }
 
-TEST(BumpMonitor, MarksWhatIsAheadAfterTwoBumps) {
+TEST(BumpMonitor, MarksTheObstacleAheadAfterTwoBumps) {
   BumpMonitor bumps;
   const AgentPose agent = At(0.05, 0.05, 0);
   EXPECT_FALSE(bumps.Update(agent, 0, {}));

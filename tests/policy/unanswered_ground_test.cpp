@@ -22,7 +22,7 @@ struct Platform {
 
   Platform() { sensor.width_px = sensor.height_px = 160; }
 
-  /// What a camera sees of the platform; `wall_m` < 0: none, else an upright plane at that x.
+  /// Camera view of the platform; `wall_m` < 0: none, else an upright plane at that x.
   Observation Look(const AgentPose& agent, double wall_m = -1) const {
     Observation obs;
     obs.camera = sensor.Intrinsics();
@@ -88,7 +88,7 @@ TEST(UnansweredGround, HolesOfNoiseAreNoEdge) {
     EXPECT_GE(geometry::CenterOf(key, 0.1).x(), kEdge_m - 0.05) << "on the platform";
 }
 
-TEST(UnansweredGround, BehindAWallThatIsTooNearNothingIsSettled) {
+TEST(UnansweredGround, BehindANearWallNothingIsSettled) {
   Platform given;
   const double wall_m = 0.4;
   for (int i = 0; i < 5; ++i) given.Add(At(0, 0), given.Look(At(0, 0), wall_m));

@@ -12,7 +12,7 @@ TEST(Whereabouts, BedsLieAboveAndSofasBelow) {
   EXPECT_EQ(UpperStoreyBits("Couch"), UpperStoreyBits("sofa"));
 }
 
-TEST(Whereabouts, NothingIsSaidOfWhatMayBeAnywhereOrIsNotKnown) {
+TEST(Whereabouts, UnbiasedAndUnknownObjectsHaveNoFloorPrior) {
   for (const char* goal : {"chair", "plant", "toilet", "tv_monitor", "zebra", ""})
     EXPECT_EQ(UpperStoreyBits(goal), 0) << goal;
 }

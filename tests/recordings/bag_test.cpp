@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ROS 2 bags: two that the package rosbags wrote (data/, make_bags.py), and made-up ones with
+// ROS 2 bags: two written by the package rosbags (data/, make_bags.py), and synthetic bags with
 // faults.
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ TEST(RosbagsBag, DamageAnywhereEndsInAnErrorOrLeavesValidFrames) {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Bags of three depth images and what else a test wants.
+/// Bags of three depth images and further messages of a test.
 class MadeBag : public ::testing::Test {
  protected:
   static constexpr testing::SevenNumbers kLevel = {0, 0, 0, 0, 0, 0, 1};
@@ -175,7 +175,7 @@ TEST_F(MadeBag, InAFolderNeedsNoMetadata) {
   ExpectError(ReadAll(folder_.path() / "bag"), {"gone.mcap", "cannot be opened"});
 }
 
-TEST_F(MadeBag, ThatLacksSomethingSaysWhatAndHowToGiveIt) {
+TEST_F(MadeBag, NamesTheMissingPartAndTheRemedy) {
   AddColour("/rgb/image", "cam");
   ExpectError(Read(), {"made.mcap", "no depth images", "/rgb/image"});
   AddDepth("/depth/image", "cam");
@@ -199,7 +199,7 @@ TEST_F(MadeBag, ThatLacksSomethingSaysWhatAndHowToGiveIt) {
   EXPECT_EQ(Read(options).frames.at(0).obs.T_world_camera.translation(), Vector3d(5, 0, 0.7));
 }
 
-TEST_F(MadeBag, ThatHasTooMuchListsWhatThereIs) {
+TEST_F(MadeBag, ListsTheAlternativesIfAmbiguous) {
   AddSimple();
   AddDepth("/rear/depth/image", "rear");
   ExpectError(Read(),
@@ -245,7 +245,7 @@ TEST_F(MadeBag, ExtrinsicsComeFromTransformsOrAreAskedFor) {
   EXPECT_EQ(result.frames[0].obs.T_world_camera.translation(), Vector3d(0, 0, 0.5));
 }
 
-TEST_F(MadeBag, LensesAndCamerasThatAreNotReadAreNamed) {
+TEST_F(MadeBag, UnsupportedLensesAndCamerasAreNamed) {
   AddDepth("/depth/image", "cam");
   AddOdometry("/odom", "cam");
   AddInfo("/depth/camera_info", {"cam", "equidistant", 8, 6, 0, {0.1, 0, 0, 0}, 6.0});
@@ -268,7 +268,7 @@ TEST_F(MadeBag, UncalibratedAndBinnedCamerasAreRefused) {
   ExpectError(Read(options), {"binned", "--intrinsics"});
 }
 
-TEST_F(MadeBag, MessagesThatAreNotWhatTheirTypeSaysAreNamed) {
+TEST_F(MadeBag, MessagesThatContradictTheirTypeAreNamed) {
   AddSimple();
   bag_.Add("/tf", "tf2_msgs/msg/TFMessage", 2 * kSecond_ns, std::string("\0\1\0\0\xff\0\0\0", 8));
   ExpectError(Read(), {"made.mcap, /tf at 2.000 s", "no tf2_msgs/msg/TFMessage"});

@@ -85,7 +85,7 @@ TEST_F(Folders, TumIsMatchedInterpolatedAndCounted) {
   EXPECT_EQ(result.frames.back().share_done, 5.0 / 6);
 }
 
-TEST_F(Folders, SevenScenesHasOnePoseAFrameAndNoneForWhatWasLost) {
+TEST_F(Folders, SevenScenesHasOnePoseAFrameAndSkipsLostPoses) {
   for (const char* lost :
        {"nan nan nan nan\n", "-1.#IND -1.#IND -1.#IND -1.#IND\n", "inf 0 0 0\n"}) {
     WriteSevenScenes(lost);
@@ -101,7 +101,7 @@ TEST_F(Folders, SevenScenesHasOnePoseAFrameAndNoneForWhatWasLost) {
   }
 }
 
-TEST_F(Folders, SevenScenesRegistersItsDepthAsItIsTold) {
+TEST_F(Folders, SevenScenesRegistersItsDepthByTheGivenIntrinsics) {
   WriteSevenScenes();
   RecordingOptions options = Small();
   options.depth = Pinhole{12, 12, 11.5, 8.5};  // sees more than the colour camera
@@ -114,7 +114,7 @@ TEST_F(Folders, SevenScenesRegistersItsDepthAsItIsTold) {
       << "the poses are those of the depth camera";
 }
 
-TEST_F(Folders, ErrorsNameTheFileAndWhatItMustHold) {
+TEST_F(Folders, ErrorsNameTheFileAndItsExpectedContent) {
   WriteTum();
   ExpectError(ReadAll(folder_.path()), {folder_.path().string(), "24 x 18", "--intrinsics"});
   const std::string depth = test::ReadText(At("depth.txt"));

@@ -96,7 +96,7 @@ TEST(Registration, TheNearestSurfaceWins) {
   EXPECT_FLOAT_EQ(out.At(20 + shift, 15), 1.0F);
 }
 
-TEST(Registration, WhatLiesBehindTheCameraOrIsNoNumberIsLeftOut) {
+TEST(Registration, PointsBehindTheCameraAndNansAreLeftOut) {
   DepthImage depth_m(8, 6, 1.0F);
   depth_m.At(0, 0) = std::numeric_limits<float>::infinity();
   depth_m.At(1, 0) = std::numeric_limits<float>::quiet_NaN();

@@ -27,7 +27,7 @@ STEP_NS = 10**8
 
 
 def depth_mm(time_ns, size):
-    """What a camera sees that faces the wall: one number."""
+    """Distance seen by a camera that faces the wall."""
     x = SPEED_MPS * 1e-9 * (time_ns - START_NS)
     return np.full((size[1], size[0]), round(1000 * (WALL_M - x)), np.uint16)
 

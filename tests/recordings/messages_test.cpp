@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CDR and the messages in it: both byte orders, and every way of being cut short.
+// CDR and its messages: both byte orders, and truncation at every length.
 #include "crossnav/recordings/ros_messages.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(RosMessages, CountsThatLieAreRefused) {
   EXPECT_FALSE(ReadRosHeader(""));
 }
 
-TEST(RosMessages, ATransformIsReadAsItStands) {
+TEST(RosMessages, ATransformIsReadUnchanged) {
   const auto read = ReadRosTransforms(
       testing::TransformMessage(3, "/odom", "base", {1, 2, 3, 0.5, 0.5, 0.5, 0.5}));
   ASSERT_TRUE(read);

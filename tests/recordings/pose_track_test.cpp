@@ -63,7 +63,7 @@ TEST(PoseTrack, SaysWhereThePoseLeaps) {
   EXPECT_EQ(track.At(5 * kTenth_ns, {}).state, PoseState::kJump) << "turned too fast";
 }
 
-TEST(PoseTrack, RefusesWhatIsNoPose) {
+TEST(PoseTrack, RefusesInvalidPoses) {
   PoseTrack track;
   EXPECT_FALSE(track.Add(0, {std::numeric_limits<double>::quiet_NaN(), 0, 0}, Yaw(0)));
   EXPECT_FALSE(track.Add(0, {1e9, 0, 0}, Yaw(0)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames of a camera that drives towards a wall, as the folder formats hold them; and what a reader
-// makes of a recording.
+// Frames of a camera that drives towards a wall, in the folder formats; and a reader's result for a
+// recording.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -94,6 +94,10 @@ class Checks(unittest.TestCase):
         self.assert_found("docs", {"README.md": "a line\n" * 91}, "91 lines, at most 90")
         self.assert_found("docs", {"README.md": "see [this](docs/gone.md)\n"}, "docs/gone.md")
 
+    def test_a_path_that_is_not_there_is_found(self):
+        self.assert_found("docs", {"docs/page.md": "the room `crossnav/bench`\n"}, "names crossnav/bench")
+        self.assertEqual(self.run_check("docs", {"docs/page.md": "the room `crossnav/core/*.h`\n"})[0], 0)
+
 
 if __name__ == "__main__":
     unittest.main()

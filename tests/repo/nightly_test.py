@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-""".ci/nightly goes on after a failure, sums up, and its exit status tells of it."""
+""".ci/nightly continues after a failure, sums up, and its exit status reports it."""
 import os
 import pathlib
 import shutil

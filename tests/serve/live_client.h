@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A client of the server, in plain blocking calls and with protoc's own messages, so that what is
-// tested is not also what tests.
+// A client of the server, in plain blocking calls and with protoc's own messages, so that the test
+// does not use the tested code.
 #pragma once
 
 #include <arpa/inet.h>

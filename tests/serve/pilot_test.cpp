@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the server answers, without a socket.
+// Replies of the server, without a socket.
 #include "crossnav/serve/pilot.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ class PilotTest : public ::testing::Test {
   test::BoxWalker walker_ = agent::testing::TwoRooms();
 };
 
-TEST_F(PilotTest, WelcomeSaysWhatTheServerIs) {
+TEST_F(PilotTest, WelcomeDescribesTheServer) {
   pilot_->StartConnection();
   const live::Reply reply = Ask(HelloRequest(walker_.sensor.Intrinsics()));
   ASSERT_TRUE(reply.has_welcome());
@@ -74,7 +74,7 @@ TEST_F(PilotTest, NothingWorksBeforeHello) {
   ExpectFault(Look(1), live::FAULT_MALFORMED, "Hello");
 }
 
-TEST_F(PilotTest, ACameraThatIsNoneIsMalformed) {
+TEST_F(PilotTest, AnInvalidCameraIsMalformed) {
   pilot_->StartConnection();
   const CameraIntrinsics good = walker_.sensor.Intrinsics();
   CameraIntrinsics bad = good;
@@ -176,7 +176,7 @@ TEST_F(PilotTest, LateObservationsAreRefusedAndCounted) {
 TEST_F(PilotTest, MissingNumbersAreCounted) {
   Start();
   ASSERT_TRUE(Look(10).has_answer());
-  EXPECT_EQ(counts().dropped, 0u);  // nobody said that it starts at 1
+  EXPECT_EQ(counts().dropped, 0u);  // no rule that it starts at 1
   ASSERT_TRUE(Look(11).has_answer());
   ASSERT_TRUE(Look(15).has_answer());
   EXPECT_EQ(counts().dropped, 3u);
@@ -259,7 +259,7 @@ TEST_F(PilotTest, ColourCameraAndMountingReachTheAgent) {
   EXPECT_FALSE(bytes == agent::testing::BytesOf(plain));  // the body stood elsewhere
 }
 
-TEST_F(PilotTest, AColourCameraOrMountingThatIsNoneNamesItsField) {
+TEST_F(PilotTest, AnInvalidColourCameraOrMountingNamesItsField) {
   Start();
   const live::Request good = ObservationRequest(OfTwoCameras(walker_), 1);
   const auto refused = [&](const char* part, auto&& change) {
@@ -280,7 +280,7 @@ TEST_F(PilotTest, AColourCameraOrMountingThatIsNoneNamesItsField) {
   EXPECT_TRUE(Ask(good).has_answer());
 }
 
-TEST_F(PilotTest, ANewConnectionGoesOnWhereTheLastOneLeft) {
+TEST_F(PilotTest, ANewConnectionContinuesTheLast) {
   Start();
   for (std::uint64_t i = 1; i <= 5; ++i) ASSERT_TRUE(Look(i).has_answer());
   const std::string last = Look(5).SerializeAsString();
@@ -358,6 +358,23 @@ TEST(Command, ActionsAreSpreadOverThePeriod) {
   EXPECT_GT(CommandOf(Action::kLookUp, sizes, 1).pitch_radps, 0);
   EXPECT_LT(CommandOf(Action::kLookDown, sizes, 1).pitch_radps, 0);
   EXPECT_EQ(CommandOf(Action::kStop, sizes, 1), Command{});
+}
+
+TEST_F(PilotTest, EachStepOfTheAgentIsToldOnceToWhoWatches) {
+  std::vector<int> steps;
+  auto options = CouchPilot();
+  options.on_step = [&steps](const Observation& obs, const agent::StepResult& result,
+                             const agent::Agent& agent) {
+    EXPECT_FALSE(obs.depth_m.empty());
+    EXPECT_GT(agent.map().Stats().known, 0);
+    steps.push_back(result.trace.step);
+  };
+  pilot_.emplace(std::move(options));
+  Start();
+  Look(1);
+  Look(1);  // again: the same answer, no step
+  Look(3);
+  EXPECT_EQ(steps, (std::vector<int>{0, 1}));
 }
 
 }  // namespace

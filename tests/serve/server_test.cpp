@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The server on real sockets: who gets the place, what a dead or silent client leaves behind.
+// The server on real sockets: which client is served, and recovery from dead and silent clients.
 #include "crossnav/serve/server.h"
 
 #include <gtest/gtest.h>

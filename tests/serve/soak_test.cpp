@@ -21,8 +21,7 @@ namespace {
 
 constexpr int kKills = 3;
 constexpr double kDropped = 0.05, kMalformed = 0.01;
-// chosen: beyond what the map and the memory of the house take; far from keeping frames (28 kB
-// each)
+// chosen: beyond the growth of map and memory in the house; far below keeping frames (28 kB each)
 constexpr double kGrowth_MB = 4;
 
 int FrameCount() {
@@ -77,7 +76,7 @@ class ServeProgram {
   pid_t process_ = -1;
 };
 
-/// What the agent behind the server must say.
+/// Expected answers of the agent behind the server.
 class Reference {
  public:
   Reference() : agent_(Settings(), serve::BlindPerception()) {}
@@ -91,7 +90,7 @@ class Reference {
     ASSERT_EQ(answer.reason(), step->trace.reason);
     ASSERT_EQ(answer.state().steps(), steps_);
   }
-  /// What an agent that saw the same has in its map and memory.
+  /// Size of map and memory of an agent with the same observations.
   double World_MB() const {
     return static_cast<double>(agent_.map().Stats().bytes + agent_.memory().Bytes()) / 1e6;
   }
@@ -214,7 +213,7 @@ class Soak {
   int answered_ = 0, dropped_ = 0, malformed_ = 0;
 };
 
-TEST(LiveSoak, FramesAreLostAndDamagedAndClientsDieAndTheServerGoesOn) {
+TEST(LiveSoak, TheServerSurvivesLostAndDamagedFramesAndDyingClients) {
   const int frames = FrameCount();
   const TempFolder folder;
   ServeProgram server(folder.path());
@@ -247,8 +246,8 @@ TEST(LiveSoak, FramesAreLostAndDamagedAndClientsDieAndTheServerGoesOn) {
   EXPECT_EQ(stats.dropped(), soak.missing());
   EXPECT_GT(soak.dropped(), frames * kDropped / 2);
   EXPECT_GT(soak.malformed(), 0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which keep what was freed
-  // What the agent has seen since may grow; nothing else does.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which keep freed memory
+  // Only map and memory may grow.
   EXPECT_LT(end_MB - warm_MB, soak.World_MB() - warm_world_MB + kGrowth_MB);
 #endif
   EXPECT_EQ(server.End(), 0);

@@ -27,7 +27,7 @@ TEST(Floors, AFlightOfStairsJoinsTwoFloors) {
   EXPECT_EQ(navmesh->FloorOf({0, 0, 1.8}), 1);
 }
 
-TEST(Floors, TheWayUpIsTheRampThroughTheStairs) {
+TEST(Floors, TheRampThroughTheStairsConnectsTheFloors) {
   const Scene scene = TwoFloors();
   const auto navmesh = NavMesh::Build(scene, {});
   const double run = kFlightEnd_x - kFlight_x;

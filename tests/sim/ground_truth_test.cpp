@@ -81,7 +81,7 @@ TEST(GroundTruth, DetectsTrueInstancesWithTheirTightBoxes) {
   }
 }
 
-TEST(GroundTruth, MissesWhatIsFarOrTiny) {
+TEST(GroundTruth, MissesFarAndTinyObjects) {
   World w;
   const Observation obs = w.simulator.Observe();
   GroundTruthConfig near;
@@ -94,7 +94,7 @@ TEST(GroundTruth, MissesWhatIsFarOrTiny) {
   EXPECT_TRUE(GroundTruthPerception(w.simulator, large)->detector->Detect(obs, "chair")->empty());
 }
 
-TEST(GroundTruth, ConfidenceGrowsOnTheWayThereAndPassesTheStopThreshold) {
+TEST(GroundTruth, ConfidenceGrowsWithApproachAndPassesTheStopThreshold) {
   World w;
   auto suite = *GroundTruthPerception(w.simulator, {});
   float last = 0;
@@ -118,7 +118,7 @@ TEST(GroundTruth, OtherGoalsMatchRawNamesExactly) {
   EXPECT_TRUE(suite.detector->Detect(obs, "bed")->empty());
 }
 
-TEST(GroundTruth, StairPixelsAreExactlyThoseOfStairs) {
+TEST(GroundTruth, StairPixelsAreExactlyThePixelsOfStairs) {
   World w;
   const Observation obs = w.simulator.Observe();
   auto suite = *GroundTruthPerception(w.simulator, {});

@@ -23,7 +23,7 @@ std::vector<fs::path> CachesIn(const fs::path& folder) {
   return found;
 }
 
-/// Each test has a cache of the user of its own: one that an earlier run left would be found.
+/// Each test has a separate user cache, so that no file of an earlier run is found.
 class NavMeshCache : public ::testing::Test {
  protected:
   NavMeshCache() {

@@ -153,13 +153,13 @@ TEST(NavMesh, NeverWalksThroughAWallFromAnywhereInAnyDirection) {
     const bool in_room = end.x() > 0.05 && end.x() < 9.95 && end.y() > 0.05 && end.y() < 7.95;
     const bool in_block = end.x() > 3.95 && end.x() < 6.05 && end.y() < 4.05;
     ASSERT_TRUE(in_room && !in_block) << start.transpose() << " -> " << end.transpose();
-    // Half way it was not in the block either.
+    // The midpoint was not in the block either.
     const Vector3d middle = 0.5 * (start + end);
     ASSERT_FALSE(middle.x() > 3.95 && middle.x() < 6.05 && middle.y() < 4.05);
   }
 }
 
-TEST(NavMesh, LowSillsAreSteppedOverAndHighOnesAreNot) {
+TEST(NavMesh, LowSillsAreSteppedOverAndHighSillsAreNot) {
   for (const double sill_m : {0.25, 0.40}) {
     MicroScene m;
     m.Room(0, 0, 6, 4);

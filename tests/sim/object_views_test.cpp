@@ -37,7 +37,7 @@ MicroScene ChairInARoom() {
   return m;
 }
 
-/// Counts the object's pixels in the whole picture, the plain way.
+/// Reference: counts the object's pixels in the whole picture.
 VisibleObject CountPixels(const World& w, const ObjectView& view, const SensorConfig& sensor) {
   const Frame frame =
       w.caster.Render(sensor.Intrinsics(), CameraPose(view.pose, sensor.camera_height_m));
@@ -76,7 +76,7 @@ TEST(GoodViews, TellTheBoxAndThePixelsOfTheWholePicture) {
     EXPECT_EQ(view.box.u1, plain.box.u1);
     EXPECT_EQ(view.box.v1, plain.box.v1);
     EXPECT_GE(view.box.Area(), 640.0 * 640.0 / 64);
-    EXPECT_NEAR(view.visible_fraction, 1, 0.02);  // nothing is in the way
+    EXPECT_NEAR(view.visible_fraction, 1, 0.02);  // not occluded
   }
 }
 
@@ -97,7 +97,7 @@ TEST(GoodViews, AreNotWhereSomethingHidesMostOfTheObject) {
             World(ChairInARoom().Finish()).ViewsOf("chair", all).size());
 }
 
-TEST(GoodViews, CountWhatLiesOutsideThePictureAsHidden) {
+TEST(GoodViews, CountPartsOutsideThePictureAsHidden) {
   MicroScene m;
   m.Room(0, 0, 8, 8);
   m.Begin("tower", "chair");

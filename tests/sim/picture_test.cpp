@@ -35,7 +35,7 @@ TEST(Picture, PngsReadBackAsTheyWere) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(temp.path()), {}), 1);
 }
 
-TEST(Picture, WhatCannotBeWrittenIsAnError) {
+TEST(Picture, AnUnwritablePictureIsAnError) {
   EXPECT_EQ(WritePng(RgbImage(2, 2), "/nonexistent/p.png").error().code, ErrorCode::kIo);
   EXPECT_EQ(WritePng(RgbImage(), "p.png").error().code, ErrorCode::kInvalid);
 }

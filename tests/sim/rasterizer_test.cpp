@@ -45,7 +45,7 @@ void CompareWithBruteForce(const Scene& scene, const CameraIntrinsics& K, const 
 }
 
 // Sizes that are no multiple of a vector or of a tile, and one pixel.
-TEST(Rasterizer, EveryPixelIsThatOfBruteForceOverAllTriangles) {
+TEST(Rasterizer, EveryPixelEqualsBruteForceOverAllTriangles) {
   Comparison all;
   for (const int count : {60, 1500}) {
     const Scene scene = RandomTriangles(11, count);
@@ -60,7 +60,7 @@ TEST(Rasterizer, EveryPixelIsThatOfBruteForceOverAllTriangles) {
 
 // Pictures of several blocks of tiles, in which near triangles hide parts of tiles and whole
 // blocks.
-TEST(Rasterizer, WhatTilesAndBlocksHideIsHiddenByBruteForce) {
+TEST(Rasterizer, TilesAndBlocksHideTheSameTrianglesAsBruteForce) {
   Comparison all;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Rng rng(seed);
@@ -83,7 +83,7 @@ TEST(Rasterizer, WhatTilesAndBlocksHideIsHiddenByBruteForce) {
 }
 
 // Triangles that reach behind the camera have no box on the picture.
-TEST(Rasterizer, TrianglesAroundTheCameraAreThoseOfBruteForce) {
+TEST(Rasterizer, TrianglesAroundTheCameraEqualBruteForce) {
   Comparison all;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Rng rng(seed);
@@ -137,7 +137,7 @@ TEST(Rasterizer, NoPixelFallsBetweenNeighbours) {
 }
 
 // Walls of neighbouring rooms may lie in one plane; they came out as a pattern of both.
-TEST(Rasterizer, OfSurfacesThatCoincideOneIsShown) {
+TEST(Rasterizer, OneOfTwoCoincidentSurfacesIsShown) {
   MicroScene m;
   m.Begin("wall");
   m.Quad({2, -1, -1}, {2.3, 1.1, -1}, {2.3, 1.1, 1}, {2, -1, 1});
@@ -180,7 +180,7 @@ Scene Colourful(std::uint64_t seed) {
   return scene;
 }
 
-TEST(Rasterizer, ColoursDepthsAndHolesAreThoseOfRays) {
+TEST(Rasterizer, ColoursDepthsAndHolesEqualRays) {
   const Scene scene = Colourful(3);
   const RayCaster caster(scene);
   const Rasterizer rasterizer(scene);

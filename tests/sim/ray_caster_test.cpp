@@ -39,8 +39,8 @@ TEST(RayCaster, SingleRaysAgreeWithBruteForce) {
   }
 }
 
-/// Rounded to float. GCC 12 turns pairs of doubles that become float and double again into what
-/// they were; `volatile` keeps it from that.
+/// Rounded to float. GCC 12 optimises the conversion of a double to float and back away; `volatile`
+/// prevents it.
 Vector3d Single(const Vector3d& p) {
   volatile float x = static_cast<float>(p.x()), y = static_cast<float>(p.y()),
                  z = static_cast<float>(p.z());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray meets, by asking every triangle; and scenes that are hard to draw.
+// Reference of rays: every triangle against one ray; and scenes that are hard to draw.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ struct OracleHit {
   std::int32_t instance = 0;
 };
 
-/// Every triangle against one ray, in double precision. `edge` says how near the ray passes to any
-/// triangle's edge: such rays may fall on either side in single precision.
+/// Every triangle against one ray, in double precision. `edge`: distance of the ray to the nearest
+/// triangle edge; rays near an edge may fall on either side in single precision.
 inline OracleHit CastAll(const Scene& scene, const Vector3d& o, const Vector3d& d) {
   OracleHit hit;
   hit.edge = 1;

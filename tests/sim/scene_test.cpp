@@ -109,7 +109,7 @@ TEST(LoadScene, TheHashDependsOnGeometryAndSemanticsOnly) {
   EXPECT_NE(one->mesh_hash, other->mesh_hash);
 }
 
-TEST(LoadScene, SaysWhatIsMissingAndWhere) {
+TEST(LoadScene, NamesTheMissingFile) {
   const TempFolder temp;
   const auto none = LoadScene(temp.path() / "nowhere");
   ASSERT_FALSE(none.has_value());

@@ -48,7 +48,7 @@ TEST(SemanticText, MalformedLinesAreNamedByFileAndLine) {
             "x.semantic.txt, line 3: expected id,HEXRGB,\"name\",region");
 }
 
-TEST(SemanticText, IdsAndColoursThatAreUsedTwiceAreANote) {
+TEST(SemanticText, DuplicateIdsAndColoursAreNoted) {
   const std::string text = std::string(kHeader) +
                            "1,593A3A,\"wall\",0\n1,1F3D87,\"door\",0\n"
                            "2,593A3A,\"bed\",0\n3,0000FF,\"rug\",0\n";

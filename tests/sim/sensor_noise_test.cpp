@@ -165,7 +165,7 @@ TEST(SensorNoise, DriftGrowsWithTheRootOfTheSteps) {
   EXPECT_NEAR(StatisticsOf(x_m).mean, 0, 0.004);
 }
 
-TEST(SensorNoise, YawDriftBendsTheBelievedWay) {
+TEST(SensorNoise, YawDriftBendsTheBelievedPath) {
   const NoiseConfig noise = With([](NoiseConfig& c) { c.drift_yaw_deg = 0.2; });
   std::vector<double> yaw_deg, y_m;
   for (std::uint64_t episode = 0; episode < 2000; ++episode) {
@@ -229,7 +229,7 @@ TEST(SensorNoise, LostFramesAreEmpty) {
   int lost = 0;
   for (int i = 0; i < 4000; ++i) {
     Frame frame = SmallFrame();
-    one.Disturb(frame);
+    one.Disturb(frame, {}, {});
     if (frame.instance.At(3, 3) == 7) {
       EXPECT_EQ(frame.depth_m.data, SmallFrame().depth_m.data);
       continue;
@@ -264,6 +264,106 @@ TEST(SensorNoise, ExposureIsLogNormalAndBlurKeepsTheLight) {
   EXPECT_EQ(longest, 9);
 }
 
+constexpr CameraIntrinsics kCamera = {kSize_px, kSize_px, 300, 300, 199.5, 199.5};
+
+/// A wall 2 m ahead whose normal is turned by `angle_deg` from the optical axis.
+DepthImage TurnedWall(double angle_deg) {
+  DepthImage depth_m(kSize_px, kSize_px, 0.0F);
+  for (int v = 0; v < kSize_px; ++v)
+    for (int u = 0; u < kSize_px; ++u) {
+      const double x = (u - kCamera.cx) / kCamera.fx;
+      const double z_m = 2 / (1 - x * std::tan(DegToRad(angle_deg)));
+      depth_m.At(u, v) = z_m > 0 && z_m < 6 ? static_cast<float>(z_m) : 0.0F;
+    }
+  return depth_m;
+}
+
+TEST(SensorNoise, SigmaGrowsWithTheAngleByNguyensLaw) {
+  const NoiseConfig noise = With([](NoiseConfig& c) { c.depth_angle_sigma_m = 0.001; });
+  for (const double angle_deg : {30.0, 60.0}) {
+    const DepthImage wall = TurnedWall(angle_deg);
+    std::vector<double> off_m;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      const DepthImage noisy = NoisyDepth(noise, wall, seed, {kCamera, nullptr, nullptr, nullptr});
+      for (int v = 185; v < 215; ++v)  // farther from the middle rays meet the wall at more
+        for (const int u : {199, 200}) off_m.push_back(noisy.At(u, v) - wall.At(u, v));
+    }
+    const double a = DegToRad(angle_deg), share = a / (M_PI_2 - a);
+    const double expected_m = 0.001 * share * share / std::sqrt(2.0);
+    EXPECT_NEAR(StatisticsOf(off_m).sigma, expected_m, 0.15 * expected_m) << angle_deg;
+  }
+  EXPECT_EQ(NoisyDepth(noise, Wall(2), 3).data, Wall(2).data) << "no camera, no angle";
+}
+
+TEST(SensorNoise, GrazingSurfacesAreLostFrom60DegreesOn) {
+  const NoiseConfig noise = With([](NoiseConfig& c) { c.depth_grazing_hole = 0.9; });
+  const auto lost = [&](double angle_deg) {
+    const DepthImage noisy =
+        NoisyDepth(noise, TurnedWall(angle_deg), 3, {kCamera, nullptr, nullptr, nullptr});
+    double sum = 0;
+    for (int v = 190; v < 210; ++v) sum += (noisy.At(199, v) == 0) + (noisy.At(200, v) == 0);
+    return sum / 40;
+  };
+  EXPECT_EQ(lost(40), 0);
+  EXPECT_NEAR(lost(75), 0.45, 0.25);
+}
+
+TEST(SensorNoise, FlyingPixelsLieBetweenTheSidesOfAnEdge) {
+  const NoiseConfig noise = With([](NoiseConfig& c) { c.depth_flying = 0.5; });
+  const DepthImage depth_m = NoisyDepth(noise, Jump(), 3);
+  int flying = 0, elsewhere = 0;
+  for (int v = 0; v < kSize_px; ++v)
+    for (int u = 0; u < kSize_px; ++u) {
+      const bool is_between = depth_m.At(u, v) > 1 && depth_m.At(u, v) < 3;
+      (u == kSize_px / 2 || u == kSize_px / 2 - 1 ? flying : elsewhere) += is_between ? 1 : 0;
+    }
+  EXPECT_NEAR(flying, kSize_px, 0.12 * kSize_px);  // half of two columns
+  EXPECT_EQ(elsewhere, 0);
+}
+
+TEST(SensorNoise, DarkPixelsAndGlassAreLost) {
+  RgbImage rgb(kSize_px, kSize_px, {200, 200, 200});
+  InstanceImage instance(kSize_px, kSize_px, 0);
+  for (int v = 0; v < kSize_px; ++v)
+    for (int u = 0; u < kSize_px / 2; ++u) {
+      rgb.At(u, v) = {0, 0, 0};
+      instance.At(u, v) = 7;
+    }
+  const std::set<std::int32_t> glass = {7};
+  const Scenery scenery = {kCamera, &rgb, &instance, &glass};
+  for (const NoiseConfig& noise : {With([](NoiseConfig& c) { c.depth_dark_hole = 0.5; }),
+                                   With([](NoiseConfig& c) { c.depth_glass_hole = 0.5; })}) {
+    const DepthImage depth_m = NoisyDepth(noise, Wall(2), 3, scenery);
+    EXPECT_NEAR(LostShare(depth_m), 0.25, 0.01);
+    for (int v = 0; v < kSize_px; ++v) EXPECT_EQ(depth_m.At(kSize_px - 1, v), 2);
+    EXPECT_EQ(LostShare(NoisyDepth(noise, Wall(2), 3)), 0) << "without colour and instances";
+  }
+  EXPECT_TRUE(IsGlass("window glass"));
+  EXPECT_TRUE(IsGlass("mirror"));
+  EXPECT_FALSE(IsGlass("window curtain"));
+  EXPECT_FALSE(IsGlass("wall"));
+}
+
+TEST(SensorNoise, RollingExposureLeansWhatIsUpright) {
+  const NoiseConfig noise = With([](NoiseConfig& c) { c.rolling_px = 10; });
+  int farthest = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    RgbImage line(64, 33);
+    for (int v = 0; v < line.height; ++v) line.At(32, v) = {255, 255, 255};
+    const RgbImage rolled = NoisyColour(noise, line, seed);
+    const auto place = [&](int v) {
+      int u = 0;
+      while (u < 63 && rolled.At(u, v).r == 0) ++u;
+      return u;
+    };
+    EXPECT_EQ(place(0), 32);
+    EXPECT_NEAR(place(16) - 32, (place(32) - 32) / 2.0, 1);
+    farthest = std::max(farthest, std::abs(place(32) - 32));
+  }
+  EXPECT_GE(farthest, 9);
+  EXPECT_LE(farthest, 10);
+}
+
 TEST(SensorNoise, OffIsOff) {
   EXPECT_FALSE(SensorNoise(NoiseConfig(), 1).IsOn());
   EXPECT_FALSE(SensorNoise(NoiseOfProfile("none"), 1).IsOn());
@@ -281,8 +381,8 @@ TEST(SensorNoise, TheSameSeedGivesTheSameAndAnotherEpisodeOther) {
     noise.seed = noise_seed;
     SensorNoise one(noise, episode);
     Frame frame = SmallFrame();
-    one.Disturb(frame);
-    one.Disturb(frame);
+    one.Disturb(frame, {}, {});
+    one.Disturb(frame, {}, {});
     return std::make_tuple(frame.depth_m.data, frame.rgb.data, one.MoveFactor(),
                            Walk(one, 10).p_world.y());
   };

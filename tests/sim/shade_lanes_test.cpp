@@ -57,7 +57,7 @@ struct Hits {
   std::array<float, kShadeLanes> s, t;
   std::array<std::array<float, kShadeLanes>, 3> normal, ray;
 
-  /// Of `kinds` triangles at most: one, a few and many are different ways.
+  /// Hits on at most `kinds` triangles: the kernel has separate branches for one, a few and many.
   Hits(Rng& rng, const Scene& scene, int kinds) {
     std::vector<std::int32_t> some;
     while (static_cast<int>(some.size()) < kinds)
@@ -96,7 +96,7 @@ std::uint32_t OneByOne(const Scene& scene, const Hits& hits, std::size_t i) {
   return byte(colour.r) | byte(colour.g) << 8 | byte(colour.b) << 16;
 }
 
-TEST(ShadeLanes, EveryByteIsThatOfShadingOneByOneOnEveryInstructionSet) {
+TEST(ShadeLanes, EveryByteEqualsTheScalarReferenceOnEveryInstructionSet) {
   const std::int64_t all = hwy::SupportedTargets() & HWY_TARGETS;
   std::size_t compared = 0;
   for (const unsigned parts : {0U, unsigned{kTextures}, unsigned{kCorners}, kTextures | kCorners}) {

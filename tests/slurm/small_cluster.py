@@ -47,14 +47,14 @@ def path_of(program):
 
 
 def free_port():
-    """A TCP port that nobody listens on."""
+    """A free TCP port."""
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         return listener.getsockname()[1]
 
 
 class SmallCluster:
-    """Runs while it is entered; `environment` is what Slurm's commands need."""
+    """Context manager; `environment` is for Slurm's commands."""
 
     def __init__(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="crossnav_slurm_", dir="/tmp"))

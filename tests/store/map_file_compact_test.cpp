@@ -69,7 +69,7 @@ TEST(MapFileCompactTest, CompactedRowsTakeHalfTheBlock) {
   EXPECT_EQ(bytes_of(few), 2u + 4 * (26 + 4 + testing::kDim));
 }
 
-TEST(MapFileCompactTest, BrokenBlocksAreRefusedWhateverIsBroken) {
+TEST(MapFileCompactTest, BlocksWithAnyDamageAreRefused) {
   SmallWorld world({}, Bounded(2500));
   for (int i = 0; i < 4; ++i) world.AddFrame(i);
   // Rows of one block, some of each kind.
@@ -114,7 +114,7 @@ void RunSql(const TempFile& file, const std::string& sql) {
   sqlite3_close(db);
 }
 
-/// Makes the file one of format 1, by docs/formats/map_file.md.
+/// Converts the file to format 1, by docs/formats/map_file.md.
 void MakeFormat1(const TempFile& file, const MapHeader& h) {
   std::string bytes;
   const auto put = [&](std::int64_t v) {

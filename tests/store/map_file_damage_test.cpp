@@ -108,7 +108,7 @@ TEST(MapFileDamageTest, KilledFirstSaveLeavesNothingOrEverything) {
     if (loaded) {
       EXPECT_TRUE(IsWhole(*loaded, world));
     }
-    // Either way the next save works.
+    // In both cases the next save works.
     ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, {}));
     const auto again = LoadMemory(file.path());
     ASSERT_TRUE(again);
@@ -180,7 +180,7 @@ TEST(MapFileDamageTest, DamagedBlockIsNamedAndOnlyItIsMissing) {
   EXPECT_EQ(rest->map.Stats().blocks, world.map.Stats().blocks - 2);
   EXPECT_LT(rest->memory.Size(), world.memory.Size());
   EXPECT_GT(rest->memory.Size(), world.memory.Size() / 2);
-  // Saving what is in memory over the damaged file repairs it.
+  // Saving the memory over the damaged file repairs it.
   ASSERT_TRUE(SaveMemory(file.path(), world.map, world.memory, {}));
   const auto repaired = LoadMemory(file.path());
   ASSERT_TRUE(repaired) << repaired.error().Message();
@@ -231,7 +231,7 @@ TEST(MapFileDamageTest, CountsAndVoxelSizesThatNoFileHasAreRefused) {
   EXPECT_NE(loaded.error().what.find("more blocks than the file can hold"), std::string::npos);
 }
 
-TEST(MapFileDamageTest, TruncationIsFoundAndWhatIsLeftLoads) {
+TEST(MapFileDamageTest, TruncationIsFoundAndIntactBlocksLoad) {
   const TempFile file("truncated.map");
   SmallWorld world;
   for (int i = 0; i < 8; ++i) world.AddFrame(i);

@@ -24,7 +24,7 @@ SmallWorld WorldOf(int frames) {
   return world;
 }
 
-/// What a save says where no file can grow beyond `bytes`; "" = it went well.
+/// Error of a save with a file size limit of `bytes`; "" = success.
 std::string SaveWithin(rlim_t bytes, const TempFile& file, const SmallWorld& world) {
   int pipes[2];
   if (pipe(pipes) != 0) return "no pipe";
@@ -83,7 +83,7 @@ TEST(MapFileFaults, AFirstSaveOnAFullDiskLeavesNothing) {
   }
 }
 
-TEST(MapFileFaults, WhoReadsDuringSavesGetsOneWholeRevision) {
+TEST(MapFileFaults, AReaderDuringSavesGetsOneWholeRevision) {
   const TempFile file("read.map");
   const SmallWorld small = WorldOf(3), large = WorldOf(8);
   ASSERT_TRUE(SaveMemory(file.path(), small.map, small.memory, {}));

@@ -25,7 +25,7 @@ const SaveInfo kInfo{.encoder_name = "test-encoder",
                      .encoder_hash = 0xfedcba9876543210ULL,
                      .frame = "kitchen corner"};
 
-TEST(MapFileTest, WhatIsLoadedIsWhatWasSaved) {
+TEST(MapFileTest, LoadedMemoryEqualsSavedMemory) {
   const TempFile file("roundtrip.map");
   SmallWorld world;
   for (int i = 0; i < 6; ++i) world.AddFrame(i);
@@ -77,7 +77,7 @@ TEST(MapFileTest, FlightsAreSavedWithTheMemory) {
 }
 
 // Cause 11 of the navigator: a restored agent had to see every flight again.
-TEST(MapFileTest, WhatWasSeenAsStairsIsSavedWithTheMemory) {
+TEST(MapFileTest, SeenStairsAreSavedWithTheMemory) {
   const TempFile file("seen_stairs.map");
   SmallWorld world;
   world.AddFrame(0);
@@ -102,7 +102,7 @@ TEST(MapFileTest, WhatWasSeenAsStairsIsSavedWithTheMemory) {
   EXPECT_TRUE(rest->seen_stairs.empty());
 }
 
-// Files of before have no such table.
+// Older files have no such table.
 TEST(MapFileTest, FlightsWithoutTheirPlacesLoad) {
   const TempFile file("flights_of_before.map");
   SmallWorld world;
@@ -171,7 +171,7 @@ TEST(MapFileTest, GoingOnFromAFileGivesTheSameBytesAsNeverHavingStopped) {
   }
 }
 
-TEST(MapFileTest, SecondSaveWritesOnlyWhatChanged) {
+TEST(MapFileTest, ASecondSaveWritesOnlyChangedBlocks) {
   const TempFile file("incremental.map");
   SmallWorld world;
   for (int i = 0; i < 12; ++i) world.AddFrame(i);
@@ -194,7 +194,7 @@ TEST(MapFileTest, SecondSaveWritesOnlyWhatChanged) {
   ExpectSame(world.map, world.memory, loaded->map, loaded->memory);
 }
 
-TEST(MapFileTest, SavingASmallerMapOverALargerOneLeavesNothingOfTheLargerOne) {
+TEST(MapFileTest, SavingASmallerMapOverALargerMapRemovesTheLargerMap) {
   const TempFile file("smaller.map");
   SmallWorld large, small;
   for (int i = 0; i < 12; ++i) large.AddFrame(i);
@@ -219,7 +219,7 @@ TEST(MapFileTest, EmptyMapIsAMapToo) {
   EXPECT_GT(loaded->memory.Size(), 0);
 }
 
-TEST(MapFileTest, HeaderAloneSaysWhatIsInTheFile) {
+TEST(MapFileTest, TheHeaderAloneDescribesTheFile) {
   const TempFile file("header.map");
   SmallWorld world;
   world.AddFrame(0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small map with features, built frame by frame from a wavy room, and ways to compare two of
-// them.
+// A small map with features, built frame by frame from a wavy room, and comparisons of two maps.
 #pragma once
 
 #include <gtest/gtest.h>

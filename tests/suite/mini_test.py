@@ -30,7 +30,7 @@ def outcomes_of(record):
 
 
 def play(program):
-    """The suite's hash and what became of each episode."""
+    """The suite's hash and the ending of each episode."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         made = run(program, "suite", "make", SUITE, folder=folder)

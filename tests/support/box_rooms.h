@@ -118,8 +118,8 @@ inline AgentPose RandomStand(Rng& rng, const BoxRooms& rooms, int storey,
   }
 }
 
-/// A walk of `count` poses from stand to stand: turns of 30 degrees and steps of 0.25 m, as an
-/// agent makes them, but through walls where they are in the way; poses inside solids are left out.
+/// A walk of `count` poses from stand to stand: turns of 30 degrees and steps of 0.25 m, as by an
+/// agent, but through walls; poses inside solids are left out.
 inline std::vector<AgentPose> RandomWalk(std::uint64_t seed, const BoxRooms& rooms, int count,
                                          int storeys = 1) {
   Rng rng(seed);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A walker in a house of boxes: what the agent's actions do and what its sensor then sees, without
-// the simulator. A forward step ends where a box stops it, climbs what is up to 0.3 m higher, and
-// never leads down farther than that. World frame, metres.
+// A walker in a house of boxes: the effect of the agent's actions and the resulting sensor data,
+// without the simulator. A forward step ends at a box, climbs up to 0.3 m, and never descends more
+// than that. World frame, metres.
 #pragma once
 
 #include <cmath>
@@ -36,8 +36,8 @@ struct BoxWalker {
     return obs;
   }
 
-  /// Height of what a foot coming from height `from_m` finds at (x, y): the highest top of a box
-  /// that it can step onto, or the floor.
+  /// Height of the ground at (x, y) for a foot at height `from_m`: the highest top of a box within
+  /// a step, or the floor.
   double GroundAt(const Vector3d& p, double from_m) const {
     constexpr double kClimb_m = 0.3;
     double ground_m = rooms.shell.min.z();
@@ -70,7 +70,7 @@ struct BoxWalker {
     if (what != Action::kMoveForward) return;
     believed_above_m += drift_z_m;
     if (std::abs(believed_above_m) >= most_drift_z_m) drift_z_m = -drift_z_m;
-    // In five parts, as far as the way is free: steps may be climbed, drops are not jumped down.
+    // In five parts, until it is blocked: steps may be climbed, drops are not taken.
     for (int part = 0; part < 5; ++part) {
       Vector3d next =
           pose.p_world +
@@ -82,7 +82,7 @@ struct BoxWalker {
   }
 };
 
-/// A detector and segmenter that know which pixels show `object`: those whose end point lies on it.
+/// A detector and segmenter that know the pixels of `object`: pixels with their end point on it.
 inline void SeeBox(const Box3& object, std::string_view name, FakeSight* sight) {
   const auto mask_of = [object](const Observation& obs) {
     MaskImage mask(obs.rgb.width, obs.rgb.height, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps with states set by hand, for tests of what reads a map. Evidence stays empty: such a map
-// must not be updated.
+// Maps with states set by hand, for tests of code that reads a map. Evidence stays empty: do not
+// update such a map.
 #pragma once
 
 #include <vector>

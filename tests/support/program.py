@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The program as Python tests start it, and what it wrote."""
+"""Starts the program for Python tests, and reads its output."""
 import json
 import os
 import pathlib
@@ -37,7 +37,7 @@ def children(pid):
 
 
 def is_alive(pid):
-    """False for one that ended and that nobody has waited for, too."""
+    """False also for a zombie process."""
     try:
         stat = pathlib.Path(f"/proc/{pid}/stat").read_text()
     except OSError:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole files as text; a missing one is empty.
+// Whole files as text; empty for a missing file.
 #pragma once
 
 #include <filesystem>

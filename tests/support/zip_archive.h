@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Zip archives as strings, for tests of what reads them.
+// Zip archives as strings, for tests of their readers.
 #pragma once
 
 #include <cstdint>

@@ -27,7 +27,7 @@ class Foxglove : public testing::Test {
     for (const auto& file : files.file()) ASSERT_NE(pool_.BuildFile(file), nullptr);
   }
 
-  /// Text form of the message, or what is wrong with it.
+  /// Text form of the message, or its error.
   std::string Parse(const std::string& type, const std::string& bytes) {
     const pb::Descriptor* descriptor = pool_.FindMessageTypeByName(type);
     if (descriptor == nullptr) return "no type " + type;

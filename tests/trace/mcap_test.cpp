@@ -179,7 +179,7 @@ class SmallDisk {
   void (*handler_)(int) = nullptr;
 };
 
-TEST(Mcap, ReportsAFullDiskAndKeepsWhatFits) {
+TEST(Mcap, ReportsAFullDiskAndKeepsTheWrittenPart) {
   const test::TempFolder folder;
   const auto path = folder.path() / "a.mcap";
   McapOptions options;

@@ -186,8 +186,10 @@ TEST(ReplayPage, HoldsEverythingAndAsksForNothing) {
   WriteSample(folder.path() / "a.mcap");
   const auto replay = ReadReplay(folder.path() / "a.mcap");
   ASSERT_TRUE(replay);
-  const std::string page = ReplayPage(*replay);
+  std::string page = ReplayPage(*replay);
   EXPECT_EQ(page, ReplayPage(*replay));
+  const std::string xhtml = "http://www.w3.org/1999/xhtml";  // a name that three.js needs
+  page.erase(page.find(xhtml), xhtml.size());
   for (const char* sign : {"http://", "https://", "@REPLAY_DATA@", "@OTHER_DATA@", "/*SCRIPT*/",
                            "/*STYLE*/", "\nimport ", "\nexport ", "<link", " src=\"", "fetch("}) {
     EXPECT_EQ(page.find(sign), std::string::npos) << sign;

@@ -102,7 +102,7 @@ Observation Look(const std::vector<Block>& house, const Pose& T_world_camera, in
   return obs;
 }
 
-/// What a made-up perception would say: masks of what is red or green, stairs on the flight.
+/// Synthetic perception: masks of red and green surfaces, stairs on the flight.
 Sight SightOf(const Observation& obs) {
   Sight sight;
   sight.width_px = obs.rgb.width;
@@ -201,17 +201,17 @@ class Recorder {
   void GoTo(std::size_t leg) {
     const Waypoint& to = route_[leg];
     const Vector3d from = agent_.p_world;
-    const Vector3d way = to.p - from;
-    const double heading = std::atan2(way.y(), way.x());
+    const Vector3d move = to.p - from;
+    const double heading = std::atan2(move.y(), move.x());
     for (int guard = 0; guard < 12; ++guard) {
       const double error = WrapAngle(heading - agent_.yaw_rad);
       if (std::abs(error) < 0.27) break;
       Turn(to, error > 0 ? 1 : -1, 30);
     }
-    const int moves = static_cast<int>(std::ceil(way.head<2>().norm() / 0.25));
+    const int moves = static_cast<int>(std::ceil(move.head<2>().norm() / 0.25));
     for (int i = 1; i <= moves; ++i) {
       Record(to, Action::kMoveForward);
-      agent_.p_world = from + way * (static_cast<double>(i) / moves);
+      agent_.p_world = from + move * (static_cast<double>(i) / moves);
     }
     if (std::string_view(to.mode) == "target_approach") Verify(leg);
   }

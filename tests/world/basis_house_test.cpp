@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A generated house with .basis textures shows what its twin with PNG textures shows.
+// A generated house with .basis textures looks like its twin with PNG textures.
 #include <gtest/gtest.h>
 
 #include <cmath>

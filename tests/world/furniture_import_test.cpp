@@ -104,7 +104,7 @@ TEST(FurnitureImport, FitsTheCatalogueSizeAndKeepsTheCredits) {
   EXPECT_NE(text.find("creativecommons.org/licenses/by/3.0/"), std::string::npos);
 }
 
-TEST(FurnitureImport, SaysWhatIsMissing) {
+TEST(FurnitureImport, NamesMissingParts) {
   const test::TempFolder dir;
   EXPECT_EQ(ImportFurniture(dir.path(), dir.path() / "pack").error().code, ErrorCode::kNotFound);
   EXPECT_EQ(FurniturePack::Load(dir.path()).error().code, ErrorCode::kNotFound);

@@ -55,8 +55,8 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
   EXPECT_NE(test::ReadText(a->folder / file), test::ReadText(c->folder / "House10.glb"));
 }
 
-/// What was drawn before there were editions: named benchmarks are made of it.
-TEST(HouseGenerator, EditionOneDrawsTheHousesThatItAlwaysDrew) {
+/// Houses from before the editions: named benchmarks use them.
+TEST(HouseGenerator, EditionOneDrawsUnchangedHouses) {
   struct Known {
     std::uint64_t seed;
     int floors;
@@ -84,7 +84,7 @@ TEST(HouseGenerator, EditionOneDrawsTheHousesThatItAlwaysDrew) {
   }
 }
 
-TEST(HouseGenerator, EditionTwoHasWhatOthersBuild) {
+TEST(HouseGenerator, EditionTwoHasTheShapesOfRealBuildings) {
   std::map<std::string, int> seen;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     HouseParams params;
@@ -259,7 +259,7 @@ TEST(HouseGenerator, FurnitureKeepsDoorsFree) {
 }
 
 /// A house of one room with a chair, a wall across it, or a second storey without a stair.
-TEST(HouseGate, RefusesWhatCannotBeReached) {
+TEST(HouseGate, RefusesUnreachableRooms) {
   HouseParams params;
   params.seed = 5;
   params.floors = 2;

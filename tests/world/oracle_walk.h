@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A follower that knows the navmesh: at each step it tries the twelve headings, walks the one whose
-// end is nearest to the goal, and turns there by 30 degree steps. Uses the simulator's actions
-// only.
+// A follower with knowledge of the navmesh: at each step it tries the twelve headings, selects the
+// heading with the end nearest to the goal, and turns there by 30 degree steps. Uses the
+// simulator's actions only.
 #pragma once
 
 #include <cmath>

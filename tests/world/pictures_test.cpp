@@ -90,7 +90,7 @@ TEST(Pictures, DifferFromSeedToSeedAndRepeatWithIt) {
 }
 
 TEST(RenderedMesh, NamesNothing) {
-  // A material or node that said "chair" would tell an agent what it should find out.
+  // A material or node named "chair" would reveal the category to an agent.
   Rng rng(5);
   SceneBuilder builder;
   const FurnitureSource source{nullptr, true};

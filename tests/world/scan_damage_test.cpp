@@ -22,7 +22,7 @@ double AreaOf(const sim::TriangleMesh& mesh) {
   return area;
 }
 
-/// Nothing of what a scan does.
+/// All faults off.
 ScanDamage None() {
   ScanDamage damage;
   damage.holes_per_m2 = damage.noise_m = damage.blanks_per_m2 = 0;

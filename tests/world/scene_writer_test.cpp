@@ -12,9 +12,12 @@
 #include <map>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "crossnav/core/write_file.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/shell/scene_builder.h"
+#include "sim/micro_scene.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
@@ -50,7 +53,7 @@ TEST(SceneWriter, SemanticColoursAsLightAreTheSameNamesToTheReader) {
   EXPECT_EQ(after->mesh_hash, before->mesh_hash);
 }
 
-TEST(SceneWriter, WhatIsWrittenIsWhatTheReaderGives) {
+TEST(SceneWriter, AWrittenSceneIsReadUnchanged) {
   const test::TempFolder dir;
   const sim::Scene scene = TwoBoxes();
   const auto folder = WriteScene(scene, dir.path());
@@ -105,6 +108,26 @@ TEST(SceneWriter, SemanticTextFollowsHm3d) {
   EXPECT_EQ(line, "HM3D Semantic Annotations");
   std::getline(text, line);
   EXPECT_EQ(line, "1,9E3779,\"wall\",3");
+}
+
+TEST(SceneWriter, ColoursAsShownAreTheBytesOfThePictureAsNumbers) {
+  sim::test::MicroScene micro;
+  micro.Begin("box");
+  micro.Box({0, 0, 0}, {1, 1, 1});
+  micro.scene().materials = {{{40, 120, 200}}};
+  micro.scene().mesh.vertex_colours.assign(micro.scene().mesh.vertices.size(), {30, 90, 220});
+  sim::Scene scene = micro.Finish();
+  scene.id = "00001-Box";
+  const std::string glb = EncodeRenderGlb(scene, RenderColours::kAsShown);
+  const std::string text = glb.substr(20, glb.find("BIN") - 24);
+  const auto json = nlohmann::json::parse(text);
+  const auto factor = json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
+  EXPECT_NEAR(factor[0].get<double>() * 255, 40, 1e-6);
+  EXPECT_NEAR(factor[2].get<double>() * 255, 200, 1e-6);
+  const std::uint16_t shown[] = {30 * 257, 90 * 257, 220 * 257};
+  EXPECT_NE(glb.find(std::string(reinterpret_cast<const char*>(shown), sizeof(shown))),
+            std::string::npos);
+  EXPECT_NE(glb, EncodeRenderGlb(scene));
 }
 
 TEST(SceneWriter, SemanticColoursAreDistinct) {

@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryStair,
                                          Case{StairKind::kAttic, StairBody::kOpenRisers}),
                          NameOfCase);
 
-TEST(Stairs, RisersAndTreadsAreWhatWasAskedFor) {
+TEST(Stairs, RisersAndTreadsHaveTheRequestedSizes) {
   for (StairKind kind :
        {StairKind::kStraight, StairKind::kStraightLanding, StairKind::kU, StairKind::kL,
         StairKind::kWinder, StairKind::kHalfWinder, StairKind::kAttic}) {

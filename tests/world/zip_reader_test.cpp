@@ -11,7 +11,7 @@ namespace {
 
 using test::Zip;
 
-TEST(ZipReader, ReadsWhatWasWrittenAndRefusesTheRest) {
+TEST(ZipReader, ReadsValidArchivesAndRefusesOthers) {
   const std::string bytes = Zip({{"a.txt", "hello"}, {"b/c.txt", "world"}});
   const auto zip = ZipReader::Parse(bytes, "test.zip");
   ASSERT_TRUE(zip.has_value()) << zip.error().Message();

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
-// An orbit camera above a z-up world: where it looks, its matrix, and where a point lands on screen.
-
-export function cross(a, b) {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-}
-
-export function dot(a, b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+// An orbit camera above a z-up world: target, matrix, and projection of points to the screen.
+import { MathUtils, Matrix4, PerspectiveCamera, Vector3 } from "three";
 
 const FIELD_OF_VIEW = 0.75;  // rad, vertical
 
 export class OrbitCamera {
   constructor() {
+    this.three = new PerspectiveCamera(MathUtils.radToDeg(FIELD_OF_VIEW));
     this.target = [0, 0, 0];
     this.yaw = -2.2;
     this.pitch = 0.95;
@@ -21,7 +15,7 @@ export class OrbitCamera {
     this.shift = 0;  // of the picture to the right, in half widths
   }
 
-  /// Shows a box whole, as large as fits beside what covers the view at its left.
+  /// Shows a whole box, as large as fits beside the panel at the left.
   frame(lo, hi) {
     this.target = lo.map((v, i) => (v + hi[i]) / 2);
     let near = 1, far = 400;
@@ -47,35 +41,32 @@ export class OrbitCamera {
   axes() {
     const cp = Math.cos(this.pitch), sp = Math.sin(this.pitch);
     const cy = Math.cos(this.yaw), sy = Math.sin(this.yaw);
-    const back = [cp * cy, cp * sy, sp];
-    const right = [-sy, cy, 0];
-    return { back, right, up: cross(back, right) };
+    const back = new Vector3(cp * cy, cp * sy, sp), right = new Vector3(-sy, cy, 0);
+    return { back, right, up: new Vector3().crossVectors(back, right) };
   }
 
   eye() {
     const { back } = this.axes();
-    return this.target.map((v, i) => v + this.distance * back[i]);
+    return this.target.map((v, i) => v + this.distance * back.getComponent(i));
+  }
+
+  /// Copies the pose to three.js' camera.
+  update() {
+    const { back, right, up } = this.axes(), camera = this.three;
+    camera.position.set(...this.eye());
+    camera.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(right, up, back));
+    camera.near = Math.max(0.05, this.distance * 0.02);
+    camera.far = this.distance * 4 + 60;
+    const width = 2 * this.aspect;
+    camera.setViewOffset(width, 2, -this.shift * this.aspect, 0, width, 2);  // sets the aspect, too
+    camera.updateMatrixWorld();
+    return camera;
   }
 
   /// Clip from world, column-major.
   matrix() {
-    const { back, right, up } = this.axes();
-    const eye = this.eye();
-    const near = Math.max(0.05, this.distance * 0.02), far = this.distance * 4 + 60;
-    const f = 1 / Math.tan(FIELD_OF_VIEW / 2);
-    const across = scaleRow(right, eye, f / this.aspect);
-    const away = [-back[0], -back[1], -back[2], dot(back, eye)];
-    const rows = [
-      across.map((v, i) => v + this.shift * away[i]),
-      scaleRow(up, eye, f),
-      depthRow(back, eye, near, far),
-      away,
-    ];
-    const m = new Float32Array(16);
-    for (let row = 0; row < 4; ++row) {
-      for (let column = 0; column < 4; ++column) m[4 * column + row] = rows[row][column];
-    }
-    return m;
+    const camera = this.update();
+    return new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
   }
 
   orbit(dx, dy) {
@@ -86,21 +77,13 @@ export class OrbitCamera {
   pan(dx, dy, height_px) {
     const { right, up } = this.axes();
     const k = (2 * this.distance * Math.tan(FIELD_OF_VIEW / 2)) / height_px;
-    this.target = this.target.map((v, i) => v - k * dx * right[i] + k * dy * up[i]);
+    this.target = this.target.map(
+      (v, i) => v - k * dx * right.getComponent(i) + k * dy * up.getComponent(i));
   }
 
   zoom(factor) {
     this.distance = Math.min(400, Math.max(0.8, this.distance * factor));
   }
-}
-
-function scaleRow(axis, eye, scale) {
-  return [axis[0] * scale, axis[1] * scale, axis[2] * scale, -dot(axis, eye) * scale];
-}
-
-function depthRow(back, eye, near, far) {
-  const a = (far + near) / (near - far), b = (2 * far * near) / (near - far);
-  return [a * back[0], a * back[1], a * back[2], -a * dot(back, eye) + b];
 }
 
 /// Pixel of a world point, or null behind the camera.

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Two replays of one episode: where they part, and what the other one does at the step that is shown.
+// Two replays of one episode: their first difference, and the other run's state at the current
+// step.
 import { words } from "./data.js";
 import { byId } from "./panels.js";
 
-/// Equal for steps at which the agent stood at the same place and did the same.
+/// Equal for steps with the same pose and action.
 function actionKey(step) {
   const { p_world, yaw_rad, pitch_rad } = step.agent;
   return JSON.stringify([step.goal, step.action,
     ...[...p_world, yaw_rad, pitch_rad].map((v) => Math.round(v * 1e4))]);
 }
 
-/// Equal for steps at which the agent wanted the same.
+/// Equal for steps with the same decision.
 function decisionKey(step) {
   const target = step.candidates.find((candidate) => candidate.is_target);
   return JSON.stringify([step.goal, step.mode, step.activity, step.reason, target?.kind, target?.p_world]);
 }
 
-/// First indices at which two runs decide and act differently; a run that ends parts from one that
-/// goes on. -1: they never do.
+/// First indices at which two runs differ in decision and in action; the end of the shorter run is
+/// a difference. -1: none.
 export function partingOf(a, b) {
   const common = Math.min(a.steps.length, b.steps.length);
   const first = (key) => {
@@ -27,7 +28,7 @@ export function partingOf(a, b) {
   return { decision: first(decisionKey), action: first(actionKey) };
 }
 
-/// "full", or "full 12ab34cd" where the variants are the same.
+/// "full", or "full 12ab34cd" if the variants are equal.
 export function runNames(runs) {
   const [a, b] = runs.map(({ info }) => info.variant || "run");
   if (a !== b) return [a, b];
@@ -55,7 +56,7 @@ export class CompareBar {
         `differently from ${action < 0 ? "no step" : at(action)}.`;
   }
 
-  /// Where the page opens; the runs may be the same to the end.
+  /// Step at which the page opens; the runs may be equal to the end.
   opening() {
     const { decision, action } = this.parting;
     return { index: Math.max(0, decision < 0 ? action : decision), text: "" };

@@ -4,7 +4,7 @@ import { figure } from "./data.js";
 import { byId, make } from "./panels.js";
 import { kindOf } from "./scene.js";
 
-/// A button for each floor of the run that is shown.
+/// Makes a button for each floor of the current run.
 export function fillFloors(app) {
   const floors = [["Auto", "auto", "the robot's floor and what is below it"], ["All", "all", ""],
     ...app.levels.map((level, i) => [String(i + 1), i, `the floor at ${level.toFixed(2)} m alone`])];
@@ -59,6 +59,7 @@ export function connectKeys(app) {
     "?": () => byId("help").showModal(),
     t: () => app.lookFromTop(),
     f: () => app.toggleFollow(),
+    l: () => app.seek(Infinity),
     0: () => app.showWhole(),
   };
   window.addEventListener("keydown", (event) => {
@@ -81,6 +82,7 @@ export function connectPointer(app) {
   canvas.addEventListener("pointermove", (e) => {
     const box = canvas.getBoundingClientRect();
     if (e.buttons) {
+      app.hasOwnView = true;
       if (e.shiftKey || e.buttons & 6) app.camera.pan(e.movementX, e.movementY, box.height);
       else app.camera.orbit(e.movementX, e.movementY);
       app.redraw();
@@ -98,6 +100,7 @@ export function connectPointer(app) {
   });
   canvas.addEventListener("wheel", (e) => {
     e.preventDefault();
+    app.hasOwnView = true;
     app.camera.zoom(Math.exp(0.0012 * e.deltaY));
     app.redraw();
   }, { passive: false });

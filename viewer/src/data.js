@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The replay's data as it stands in the page, brought into arrays that are quick to use.
+// Decodes the replay's data in the page to arrays.
 
 export function bytesOfBase64(text) {
   const binary = atob(text);
@@ -39,7 +39,7 @@ export function forEachRunVoxel(bytes, begin, end, visit) {
   }
 }
 
-/// Heights of the floors: exploration levels on which most steps were spent, at least `gap_m` apart.
+/// Heights of the floors: exploration levels with the most steps, at least `gap_m` apart.
 export function floorLevels(steps, gap_m = 1.8) {
   const counts = new Map();
   for (const step of steps) counts.set(step.level_m, (counts.get(step.level_m) || 0) + 1);
@@ -51,10 +51,10 @@ export function floorLevels(steps, gap_m = 1.8) {
   return levels.sort((a, b) => a - b);
 }
 
-/// A floor's own surface lies at most so far below its level; what is lower is a ceiling.
+/// A floor's own surface is at most this far below its level; lower surfaces are ceilings.
 export const FLOOR_MARGIN_M = 0.13;
 
-/// Index of the floor that a height belongs to.
+/// Index of the floor at a height.
 export function floorOf(levels, z) {
   let floor = 0;
   for (let i = 1; i < levels.length; ++i) {
@@ -63,7 +63,7 @@ export function floorOf(levels, z) {
   return floor;
 }
 
-/// The flights of stairs that are known after a step: a record has them only where one changed.
+/// Known flights of stairs after a step: records hold them only after a change.
 export function flightsAt(steps, index) {
   for (let i = index; i >= 0; --i) if (steps[i].flights) return steps[i].flights;
   return [];
@@ -81,7 +81,7 @@ export function segments(steps, key) {
   return out;
 }
 
-/// Everything worth a line in the log: [{index, kind, text}].
+/// Lines of the log: [{index, kind, text}].
 export function logLines(replay) {
   const lines = [];
   let mode = null, reason = null;
@@ -106,8 +106,9 @@ export function logLines(replay) {
 
 const BAD_ENDING = /^(go_to|climb|visit|approach): (no progress|unreachable|refuted)$/;
 
-/// Where to open, {index, text}: the start where nothing failed (text ""), else the first failed
-/// stage: its last activity that ended badly, or its last step where none did or the agent stopped.
+/// Opening step, {index, text}: the start if nothing failed (text ""), else in the first failed
+/// stage: its last activity with a bad ending, or its last step if there is none or the agent
+/// stopped.
 export function openingOf(replay) {
   const stage = replay.stages.find((s) => !s.success);
   let last = -1, bad = -1, why = "";
@@ -124,7 +125,7 @@ export function openingOf(replay) {
   return { index, text: `${head} Opened at step ${replay.steps[index].step}, ${where}.` };
 }
 
-/// A figure with so many decimals; a dash for what was not finite when it was written.
+/// A figure with this many decimals; a dash for numbers that were not finite.
 export function figure(value, decimals) {
   return value === null ? "–" : value.toFixed(decimals);
 }

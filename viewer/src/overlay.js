@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Labels over the 3D view: candidates, target, goals, floors. Also draws the lines where WebGL is
-// missing, so that the page still shows where the robot went.
+// Labels over the 3D view: candidates, target, goals, floors. Without WebGL it also draws the
+// lines, so that the page shows the robot's path.
 import { projectPoint } from "./camera.js";
 import { LINE_FLOATS } from "./renderer.js";
 import { GOAL_COLOUR, OTHER_GOAL_COLOUR, above, kindOf } from "./scene.js";
@@ -9,7 +9,7 @@ export class Overlay {
   constructor(canvas, builder) {
     this.canvas = canvas;
     this.builder = builder;
-    this.spots = [];  // what can be pointed at: {x, y, radius, candidate}
+    this.spots = [];  // targets of the pointer: {x, y, radius, candidate}
     this.highlight = -1;
   }
 
@@ -50,7 +50,7 @@ export class Overlay {
   }
 
   drawCandidates(step) {
-    // The target last, on top.
+    // Draws the target last, on top.
     step.candidates.forEach((c, i) => { if (!c.is_target) this.drawCandidate(c, i); });
     this.drawTarget(step);
   }

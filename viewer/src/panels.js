@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panels beside the 3D view: what the camera saw, what the agent decided and why.
+// Panels beside the 3D view: camera images, decisions of the agent and their reasons.
 import { figure, floorOf, logLines, words } from "./data.js";
 import { GOAL_COLOURS, MODE_COLOURS, kindOf } from "./scene.js";
 
@@ -7,7 +7,18 @@ export function byId(id) {
   return document.getElementById(id);
 }
 
-/// Scrolls `box` (which must be positioned) so far that `row` can be seen.
+/// Adds to the line below the head.
+export function showNotice(text) {
+  const notice = byId("notice");
+  notice.textContent = notice.hidden ? text : `${notice.textContent} ${text}`;
+  notice.hidden = false;
+}
+
+export function hideNotice() {
+  byId("notice").hidden = true;
+}
+
+/// Scrolls `box` (which must be positioned) until `row` is visible.
 function keepInView(row, box) {
   const top = row.offsetTop;
   if (top < box.scrollTop || top + row.offsetHeight > box.scrollTop + box.clientHeight) {
@@ -34,7 +45,7 @@ export function modeColour(mode) {
   return MODE_COLOURS[mode] || "#868e96";
 }
 
-// Near is bright, far is dark; 0 (invalid) is drawn apart.
+// Near is bright, far is dark; 0 (invalid) has a separate colour.
 const DEPTH_STOPS = [[253, 231, 155], [246, 151, 99], [201, 79, 121], [114, 47, 130], [33, 20, 70]];
 
 function depthColour(share) {
@@ -100,9 +111,10 @@ export class CameraPanel {
 }
 
 export class StatusPanel {
-  constructor(replay, levels) {
+  /// `view.levels`: heights of the known floors.
+  constructor(replay, view) {
     this.replay = replay;
-    this.levels = levels;
+    this.view = view;
   }
 
   show(index) {
@@ -111,8 +123,8 @@ export class StatusPanel {
     mode.textContent = words(step.mode) || "no mode";
     mode.style.background = modeColour(step.mode);
     byId("reason").textContent = step.reason || "no reason given";
-    const z = step.agent.p_world[2];
-    const floor = this.levels.length > 1 ? `${floorOf(this.levels, z) + 1} of ${this.levels.length}` : "1";
+    const z = step.agent.p_world[2], { levels } = this.view;
+    const floor = levels.length > 1 ? `${floorOf(levels, z) + 1} of ${levels.length}` : "1";
     const degrees = (rad) => `${Math.round((rad * 180) / Math.PI)}°`;
     const facts = [
       ["Goal", words(step.goal)],
@@ -175,13 +187,19 @@ const CHECKS = [
 export class VerificationPanel {
   constructor(replay) {
     this.replay = replay;
-    // For each step the last one at or before it, within the goal, that verified something.
-    let last = -1;
-    this.lastActive = replay.steps.map((step, i) => {
-      if (i > 0 && replay.steps[i - 1].goal_index !== step.goal_index) last = -1;
-      if (step.verification.is_active) last = i;
-      return last;
-    });
+    // For each step the last step up to it, within the goal, with a verification.
+    this.lastActive = [];
+    this.grow();
+  }
+
+  /// Called after steps were added.
+  grow() {
+    const { steps } = this.replay;
+    for (let i = this.lastActive.length; i < steps.length; ++i) {
+      const isSameGoal = i > 0 && steps[i - 1].goal_index === steps[i].goal_index;
+      const before = isSameGoal ? this.lastActive[i - 1] : -1;
+      this.lastActive.push(steps[i].verification.is_active ? i : before);
+    }
   }
 
   show(index) {
@@ -206,7 +224,7 @@ export class VerificationPanel {
   }
 }
 
-/// Whether the named check is the one that this figure belongs to.
+/// Whether the named check belongs to this figure.
 function failsOf(failed, key) {
   const stem = key.replace(/_(deg|m)$/, "");
   return Boolean(failed) && (failed.includes(stem) || stem.includes(failed) ||
@@ -216,21 +234,35 @@ function failsOf(failed, key) {
 
 export class LogPanel {
   constructor(replay, onSeek) {
-    this.lines = logLines(replay);
+    this.replay = replay;
+    this.onSeek = onSeek;
+    this.rows = [];
+    this.index = 0;
     this.list = byId("log");
-    this.rows = this.lines.map((line) => {
-      const content = line.kind === "mode" ? [badge(words(line.mode), modeColour(line.mode)),
-        make("span", "", line.text)] : [make("span", line.kind, line.text)];
-      const row = make("li", "", [make("span", "when", String(replay.steps[line.index].step)),
-        make("span", "what", content)]);
-      row.addEventListener("click", () => onSeek(line.index));
-      return row;
-    });
-    this.list.replaceChildren(...this.rows);
+    this.list.replaceChildren();
+    this.grow();
+  }
+
+  /// Called after steps were added: appends their lines.
+  grow() {
+    this.lines = logLines(this.replay);
+    const fresh = this.lines.slice(this.rows.length).map((line) => this.row(line));
+    this.rows.push(...fresh);
+    this.list.append(...fresh);
     byId("log-count").textContent = String(this.lines.length);
   }
 
+  row(line) {
+    const content = line.kind === "mode" ? [badge(words(line.mode), modeColour(line.mode)),
+      make("span", "", line.text)] : [make("span", line.kind, line.text)];
+    const row = make("li", line.index > this.index ? "future" : "", [make("span", "when", String(this.replay.steps[line.index].step)),
+      make("span", "what", content)]);
+    row.addEventListener("click", () => this.onSeek(line.index));
+    return row;
+  }
+
   show(index) {
+    this.index = index;
     let last = -1;
     this.lines.forEach((line, i) => {
       if (line.index <= index) last = i;
@@ -242,7 +274,7 @@ export class LogPanel {
   }
 }
 
-/// The goals in the head line, with their results once they are known.
+/// Goals in the head line, with their known results.
 export class GoalsHead {
   constructor(replay, onSeek) {
     this.replay = replay;

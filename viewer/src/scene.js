@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the 3D view shows at a step, as lines and triangles in world metres. Floors moved apart are
-// moved here too, by the same rule as in the renderer's shader.
+// The 3D view's content at a step: lines in world metres, and the robot's pose. Applies the spread
+// of floors by the same rule as the renderer's shader.
 import { flightsAt, floorOf } from "./data.js";
 
 export const GOAL_COLOURS = ["#1c7ed6", "#e8590c", "#9c36b5", "#2b8a3e", "#c2255c", "#0b7285"];
@@ -26,7 +26,6 @@ export const OTHER_RUN_COLOUR = "#868e96";
 export const FLIGHT_COLOUR = "#5f3a12";
 export const GOAL_COLOUR = "#2f9e44";
 export const OTHER_GOAL_COLOUR = "#5c6773";
-const AGENT_HEIGHT_M = 0.88;
 
 export function kindOf(name) {
   return KINDS[name] || { ...OTHER_KIND, label: name.replace(/_/g, " ") };
@@ -37,8 +36,8 @@ export function rgbOf(hex) {
 }
 
 export class SceneBuilder {
-  /// view: {levels, spread, lowFloor, highFloor, layers}; read anew at each build.
-  /// `other`: a second replay of the episode, or undefined.
+  /// view: {levels, spread, lowFloor, highFloor, layers}; read at each build. `other`: a second
+  /// replay of the episode, or undefined.
   constructor(replay, view, other) {
     this.replay = replay;
     this.view = view;
@@ -54,9 +53,9 @@ export class SceneBuilder {
     return floor >= this.view.lowFloor && floor <= this.view.highFloor;
   }
 
-  /// {lines: number[], triangles: number[]}
+  /// {lines: number[], robot: {p_world, yaw_rad} | null}
   build(index) {
-    const out = { lines: [], triangles: [] };
+    const out = { lines: [], robot: null };
     const step = this.replay.steps[index];
     const layers = this.view.layers;
     if (layers.goals) this.addGoals(out, step);
@@ -81,7 +80,7 @@ export class SceneBuilder {
       (step) => GOAL_COLOURS[step.goal_index % GOAL_COLOURS.length]);
   }
 
-  /// Below this run's own, so that they are one line as long as the runs are the same.
+  /// Below this run's own path, so that equal parts appear as one line.
   addOther(out, index) {
     this.addWalk(out, this.other.steps, index, 0.1, 5, () => OTHER_RUN_COLOUR);
   }
@@ -102,7 +101,7 @@ export class SceneBuilder {
     }
   }
 
-  /// Walked ones strong; those that were only seen thin.
+  /// Walked flights thick; flights that were only seen thin.
   addFlights(out, index) {
     for (const flight of flightsAt(this.replay.steps, index)) {
       const isWalked = flight.walked_up + flight.walked_down > 0, p = flight.steps_world;
@@ -128,7 +127,7 @@ export class SceneBuilder {
     const { p_world: foot, yaw_rad: yaw } = step.agent;
     if (!this.isShown(foot)) return;
     const base = this.lift(foot);
-    addBody(out.triangles, base, yaw, rgbOf("#1f2933"), rgbOf("#ffd43b"));
+    out.robot = { p_world: base, yaw_rad: yaw };
     const rgb = rgbOf("#ffb700");
     for (const [p, q] of frustumEdges(step.T_world_camera)) {
       const rise = base[2] - foot[2];
@@ -160,24 +159,4 @@ function frustumEdges(T) {
   const edges = [];
   for (let i = 0; i < 4; ++i) edges.push([tip, rim[i]], [rim[i], rim[(i + 1) % 4]]);
   return edges;
-}
-
-/// A post with an arrow on top that shows the heading.
-function addBody(triangles, base, yaw, dark, bright) {
-  const around = (angle, r, z) => [
-    base[0] + r * Math.cos(yaw + angle), base[1] + r * Math.sin(yaw + angle), base[2] + z];
-  const put = (a, b, c, normal, rgb) => {
-    for (const p of [a, b, c]) triangles.push(...p, ...normal, ...rgb);
-  };
-  const sides = 12;
-  for (let i = 0; i < sides; ++i) {
-    const a = (2 * Math.PI * i) / sides, b = (2 * Math.PI * (i + 1)) / sides;
-    const n = [Math.cos(yaw + (a + b) / 2), Math.sin(yaw + (a + b) / 2), 0.2];
-    const r = 0.12, top = AGENT_HEIGHT_M;
-    put(around(a, r, 0.05), around(b, r, 0.05), around(b, r, top), n, dark);
-    put(around(a, r, 0.05), around(b, r, top), around(a, r, top), n, dark);
-  }
-  const z = AGENT_HEIGHT_M + 0.02, up = [0, 0, 1];
-  put(around(0, 0.5, z), around(2.3, 0.34, z), around(0, -0.08, z), up, bright);
-  put(around(0, 0.5, z), around(0, -0.08, z), around(-2.3, 0.34, z), up, bright);
 }

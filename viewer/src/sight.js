@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What perception said of the frame, over the camera image.
+// Perception of the frame, over the camera image.
 import { figure } from "./data.js";
 import { byId, make } from "./panels.js";
 
@@ -11,15 +11,15 @@ const SIGHTS = [
   ["similarity", "similarity", "#ae3ec9"],
 ];
 
-/// Boxes, masks, stairs and similarity, drawn over the camera image as far as they are ticked.
+/// Boxes, masks, stairs and similarity, drawn over the camera image if selected.
 export class SightLayer {
   constructor(replay) {
+    byId("sights").hidden = !replay.maps?.some((png) => png);
     this.replay = replay;
     this.canvas = byId("camera-sight");
     this.isOn = { boxes: true, masks: true, stairs: true, similarity: false };
     this.token = 0;
     this.index = 0;
-    byId("sights").hidden = !replay.maps?.some((png) => png);
     byId("sights").replaceChildren(...SIGHTS.map(([key, name, colour]) => {
       const box = make("input");
       box.type = "checkbox";
@@ -38,6 +38,7 @@ export class SightLayer {
   show(index) {
     this.index = index;
     const png = this.replay.maps?.[index], sight = this.replay.sights?.[index];
+    if (png) byId("sights").hidden = false;
     this.canvas.hidden = !png || !sight;
     const hasRange = sight && sight.similarity_max > sight.similarity_min;
     this.readout.textContent = hasRange

@@ -9,11 +9,8 @@ export class Timeline {
     this.canvas = canvas;
     this.replay = replay;
     this.onSeek = onSeek;
-    this.goals = segments(replay.steps, (s) => s.goal_index);
-    this.modes = segments(replay.steps, (s) => s.mode);
-    this.marks = logLines(replay).filter((line) => line.kind !== "mode");
+    this.grow();
     canvas.setAttribute("aria-valuemin", "0");
-    canvas.setAttribute("aria-valuemax", String(this.count - 1));
     canvas.onpointerdown = (e) => {
       canvas.setPointerCapture(e.pointerId);
       this.seekTo(e);
@@ -22,6 +19,15 @@ export class Timeline {
       if (e.buttons) this.seekTo(e);
       canvas.title = this.describe(this.indexAt(e));
     };
+  }
+
+  /// Called after steps were added.
+  grow() {
+    const { steps } = this.replay;
+    this.goals = segments(steps, (s) => s.goal_index);
+    this.modes = segments(steps, (s) => s.mode);
+    this.marks = logLines(this.replay).filter((line) => line.kind !== "mode");
+    this.canvas.setAttribute("aria-valuemax", String(this.count - 1));
   }
 
   get count() {

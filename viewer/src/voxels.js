@@ -16,35 +16,74 @@ function blockName(bx, by, bz) {
 }
 
 export class VoxelHistory {
-  /// `ends[i]`: where the runs of step i end in `bytes`.
-  constructor(bytes, ends) {
+  /// `ends[i]`: end of step i's runs in `bytes`.
+  constructor(bytes = new Uint8Array(0), ends = []) {
     this.blocks = new Map();
     this.dirty = new Set();
-    this.ends = [];
+    this.ends = [];  // of each decoded step: number of changes after it
+    this.pending = [];  // runs of the steps that are not decoded yet
     this.step = -1;
     this.lastBlock = null;
-    let count = 0, begin = 0;
+    this.changes = 0;
+    this.lo = [32767, 32767, 32767];
+    this.hi = [-32768, -32768, -32768];
+    this.reserve(1024);
+    let begin = 0;
     for (const end of ends) {
-      forEachRunVoxel(bytes, begin, end, () => { ++count; });
+      this.append([bytes.subarray(begin, end)]);
       begin = end;
     }
-    this.keys = new Int16Array(3 * count);
-    this.after = new Uint8Array(count);
-    this.before = new Uint8Array(count);
-    let n = 0;
-    begin = 0;
-    for (const end of ends) {
-      forEachRunVoxel(bytes, begin, end, (x, y, z, value) => {
-        this.keys.set([x, y, z], 3 * n);
-        this.after[n] = value;
-        this.before[n] = this.get(x, y, z);
-        this.set(x, y, z, value);
-        ++n;
-      });
-      begin = end;
-      this.ends.push(n);
+    this.decodeTo(ends.length - 1);
+  }
+
+  get count() {
+    return this.ends.length + this.pending.length;
+  }
+
+  /// The next step's changes, in runs. They are decoded when that step is shown.
+  append(pieces) {
+    this.pending.push(pieces);
+  }
+
+  decodeTo(step) {
+    if (step < this.ends.length) return;
+    this.moveTo(this.ends.length - 1);
+    for (const pieces of this.pending.splice(0, step + 1 - this.ends.length)) {
+      for (const bytes of pieces) {
+        forEachRunVoxel(bytes, 0, bytes.length, (x, y, z, value) => this.note(x, y, z, value));
+      }
+      this.ends.push(this.changes);
     }
-    this.step = ends.length - 1;
+    this.step = this.ends.length - 1;
+  }
+
+  note(x, y, z, value) {
+    if (this.changes === this.after.length) this.reserve(2 * this.changes);
+    const n = this.changes++;
+    this.keys[3 * n] = x;
+    this.keys[3 * n + 1] = y;
+    this.keys[3 * n + 2] = z;
+    this.after[n] = value;
+    this.before[n] = this.get(x, y, z);
+    this.set(x, y, z, value);
+    this.reach(0, x);
+    this.reach(1, y);
+    this.reach(2, z);
+  }
+
+  reach(axis, v) {
+    if (v < this.lo[axis]) this.lo[axis] = v;
+    if (v >= this.hi[axis]) this.hi[axis] = v + 1;
+  }
+
+  reserve(count) {
+    const grown = (array, larger) => {
+      if (array) larger.set(array);
+      return larger;
+    };
+    this.keys = grown(this.keys, new Int16Array(3 * count));
+    this.after = grown(this.after, new Uint8Array(count));
+    this.before = grown(this.before, new Uint8Array(count));
   }
 
   blockAt(x, y, z, make) {
@@ -70,7 +109,7 @@ export class VoxelHistory {
     const block = this.blockAt(x, y, z, true);
     block.values[((x & 15) << 8) | ((y & 15) << 4) | (z & 15)] = value;
     this.dirty.add(block);
-    // A voxel at a block's border decides about its neighbour's faces too.
+    // A voxel at a block's border also determines its neighbour's faces.
     for (const [dx, dy, dz] of [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1]]) {
       const stays = (x >> 4) === ((x + dx) >> 4) && (y >> 4) === ((y + dy) >> 4) &&
         (z >> 4) === ((z + dz) >> 4);
@@ -80,8 +119,13 @@ export class VoxelHistory {
     }
   }
 
-  /// The map as it was after step `step` (-1: empty).
+  /// The map after step `step` (-1: empty).
   seek(step) {
+    this.decodeTo(step);
+    this.moveTo(step);
+  }
+
+  moveTo(step) {
     const k = this.keys;
     const endOf = (s) => (s < 0 ? 0 : this.ends[s]);
     for (let i = endOf(this.step); i < endOf(step); ++i) {
@@ -93,15 +137,9 @@ export class VoxelHistory {
     this.step = step;
   }
 
-  /// Lowest and highest corner of what was ever seen [voxels], or null.
+  /// Lowest and highest corner of all observed voxels, or null.
   bounds() {
-    if (this.after.length === 0) return null;
-    const lo = [32767, 32767, 32767], hi = [-32768, -32768, -32768];
-    for (let i = 0; i < this.keys.length; ++i) {
-      lo[i % 3] = Math.min(lo[i % 3], this.keys[i]);
-      hi[i % 3] = Math.max(hi[i % 3], this.keys[i] + 1);
-    }
-    return { lo, hi };
+    return this.changes ? { lo: this.lo, hi: this.hi } : null;
   }
 
   markAllDirty() {
@@ -109,8 +147,8 @@ export class VoxelHistory {
   }
 }
 
-/// Faces of `block` between a shown voxel and one that is not. Eight bytes each: three int16 (the
-/// voxel), direction, value: the voxel's state, and for upper faces 16 x the value of the air above.
+/// Faces of `block` between a shown and a hidden voxel. Eight bytes each: three int16 (the voxel),
+/// direction, value: the voxel's state, and for upper faces 16 x the value of the air above.
 export function blockFaces(history, block, isShown) {
   const out = [];
   const x0 = block.bx * BLOCK, y0 = block.by * BLOCK, z0 = block.bz * BLOCK;

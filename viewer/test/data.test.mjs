@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The page's data handling, without a browser.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import { OrbitCamera, projectPoint } from "../src/camera.js";
 import { partingOf, runNames } from "../src/compare.js";
 import { flightsAt, floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
+import { addStep, replayOf } from "../src/live.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
 
 // The same bytes as in tests/trace/voxel_codec_test.cpp.
@@ -52,7 +51,8 @@ function makeHistory(steps) {
     ends.push(bytes.length);
     maps.push(new Map(map));
   }
-  return { history: new VoxelHistory(new Uint8Array(bytes), ends), maps };
+  const packed = new Uint8Array(bytes);
+  return { history: new VoxelHistory(packed, ends), maps, bytes: packed, byteEnds: ends };
 }
 
 test("any seek gives the map as it was after that step", () => {
@@ -78,6 +78,34 @@ test("seeking marks exactly enough blocks: faces equal those of a map built anew
       assert.deepEqual(cache.get(block), blockFaces(history, block, isShown));
     }
   }
+});
+
+test("steps that come one by one give the map that they give at once", () => {
+  const { history, maps, bytes, byteEnds } = makeHistory(25);
+  const later = new VoxelHistory();
+  byteEnds.forEach((end, i) => {
+    later.append([bytes.subarray(i ? byteEnds[i - 1] : 0, end)]);
+    later.seek([i, 0, -1, Math.floor(i / 2)][i % 4]);  // the user looks elsewhere meanwhile
+  });
+  assert.equal(later.count, 25);
+  for (const step of [24, 3, 12, 24]) {
+    later.seek(step);
+    for (const key of maps[24].keys()) {
+      assert.equal(later.get(...key.split(",").map(Number)), maps[step].get(key) || 0);
+    }
+  }
+  assert.deepEqual(later.bounds(), history.bounds());
+});
+
+test("a run that is watched makes the replay that its file would hold", () => {
+  const base64 = (bytes) => Buffer.from(bytes).toString("base64");
+  const replay = replayOf({ info: { goals: [] }, depth_max_m: 10, states: [], runs: base64(RUNS) });
+  const event = (step) => ({ step, image: "i", depth: "", sight: null, maps: "", runs: base64([1]) });
+  const first = addStep(replay, event({ step: 0, goal_index: 0, goal: "bed" }));
+  assert.deepEqual(first.map((bytes) => [...bytes]), [RUNS, [1]]);  // the map before, then the step's
+  assert.equal(addStep(replay, event({ step: 1, goal_index: 1, goal: "sofa" })).length, 1);
+  assert.deepEqual(replay.info.goals, ["bed", "sofa"]);
+  assert.deepEqual([replay.steps.length, replay.images, replay.sights], [2, ["i", "i"], [null, null]]);
 });
 
 test("a lone voxel has five faces, two neighbours share none", () => {
@@ -139,41 +167,6 @@ test("the page opens where a goal failed, at the start where none did", () => {
     { index: 3, text: "Goal 2, bed: out of time. Opened at step 3, go to: no progress." });
   assert.match(open([step(1), step(1)], bed).text, /Opened at step 1, its last step/);
   assert.equal(open([...steps, step(1, [], "stop")], bed).index, 6);
-});
-
-test("the camera holds the box that it frames and puts its middle in the middle", () => {
-  const camera = new OrbitCamera();
-  for (const [aspect, shift, pitch] of [[1.6, 0, 0.9], [0.6, 0, 0.4], [1.6, 0.25, 1.5707]]) {
-    Object.assign(camera, { aspect, shift, pitch });
-    camera.frame([-4, 2, 0], [6, 9, 5]);
-    const matrix = camera.matrix();
-    const middle = projectPoint(matrix, [1, 5.5, 2.5], 200, 100);
-    assert.ok(Math.abs(middle[0] - 100 * (1 + shift)) < 0.01 && Math.abs(middle[1] - 50) < 0.01);
-    let widest = 0;
-    for (let i = 0; i < 8; ++i) {
-      const corner = [i & 1 ? 6 : -4, i & 2 ? 9 : 2, i & 4 ? 5 : 0];
-      const [x, y] = projectPoint(matrix, corner, 2, 2);
-      assert.ok(x > 2 * shift && x < 2 && y > 0 && y < 2, `${corner} at ${x}, ${y}`);
-      widest = Math.max(widest, Math.abs(y - 1), Math.abs(x - 1 - shift) / (1 - shift));
-    }
-    assert.ok(widest > 0.8);
-  }
-  assert.equal(projectPoint(camera.matrix(), camera.eye().map((v, i) => v + (i === 2 ? 9 : 0)), 2, 2),
-    null);
-});
-
-test("the scripts can be joined: no top-level name stands in two files", () => {
-  const list = readFileSync(new URL("../files.cmake", import.meta.url), "utf8");
-  const owner = new Map();
-  for (const [path] of list.matchAll(/src\/\w+\.js/g)) {
-    const text = readFileSync(new URL("../" + path, import.meta.url), "utf8");
-    const declared = text.matchAll(/^(?:export )?(?:async )?(?:function|class|const|let) (\w+)/gm);
-    for (const [, name] of declared) {
-      assert.equal(owner.get(name), undefined, `${name} in ${path} and ${owner.get(name)}`);
-      owner.set(name, path);
-    }
-  }
-  assert.ok(owner.size > 30);
 });
 
 /// A run of steps that go forward, changed from some index on.

@@ -90,7 +90,7 @@ bool HoldsStrings(dom::object object, std::string_view key) {
   return list.at(0).is_string();
 }
 
-/// Floors, certificate and what follows from them, of an episode of ours.
+/// Floors, certificate and derived fields of an episode in our format.
 Result<void> ReadCertificate(dom::object object, Episode& episode) {
   dom::array floors, stages;
   std::int64_t start_floor = 0, first = 0;
@@ -152,7 +152,7 @@ EpisodeFormat FormatOf(dom::object object) {
   return HoldsStrings(object, "goals") ? EpisodeFormat::kCrossnav : EpisodeFormat::kObjectNav;
 }
 
-/// Ids are strings, or numbers in some files.
+/// Ids are strings, in some files numbers.
 std::string IdText(dom::object object) {
   std::string_view text;
   std::int64_t number = 0;
@@ -161,7 +161,7 @@ std::string IdText(dom::object object) {
   return "";
 }
 
-/// Of an ObjectNav episode; the oldest files name it at its goals only.
+/// Category of an ObjectNav episode; the oldest files give it at the goals only.
 Result<std::string> CategoryOf(dom::object object, const std::string& where) {
   dom::array goals;
   dom::object first;
@@ -177,7 +177,7 @@ Result<void> ReadGoals(dom::object object, EpisodeFormat format, Episode& episod
     auto category = CategoryOf(object, episode.where);
     if (!category) return tl::unexpected(category.error());
     episode.goals = {std::move(*category)};
-    // Episode numbers repeat from scene to scene.
+    // Episode numbers repeat between scenes.
     const std::string id = IdText(object);
     if (id.empty()) return Malformed("key \"episode_id\" is missing", episode.where);
     episode.episode_id = SceneName(episode.scene_id) + "-" + id;
@@ -246,7 +246,7 @@ Result<std::vector<GoalObject>> ReadGoalObjects(dom::array objects, const std::s
   return goals;
 }
 
-/// Goals that stand in the episode itself; those of the first episode of a kind count for all.
+/// Goals inside the episode itself; the goals of the first episode of a kind count for all.
 Result<void> ReadOwnGoals(dom::object object, const Episode& episode, EpisodeFile& file) {
   dom::array objects;
   if (object["goals"].get(objects) != simdjson::SUCCESS || objects.size() == 0) return {};
@@ -273,7 +273,7 @@ Result<void> ReadGoalsByCategory(dom::object root, const std::string& where, Epi
   return {};
 }
 
-/// Which certificates the file holds; all files of one read hold the same.
+/// Edition of the file's certificates; all files of one read must have the same.
 Result<void> ReadEdition(dom::object root, const std::string& where, EpisodeFile& file) {
   std::int64_t edition = 1;
   if (const auto error = root["certificate_edition"].get(edition);

@@ -52,7 +52,7 @@ Json EpisodeJson(const Episode& episode) {
   return json;
 }
 
-/// The same episode with what only we read under "info".
+/// The episode with our own keys under "info".
 Json HabitatEpisodeJson(const Episode& episode) {
   Json json = EpisodeJson(episode);
   Json info;
@@ -111,7 +111,7 @@ Json FileJson(const EpisodeFile& file, Json (*episode_json)(const Episode&)) {
 }  // namespace
 
 std::string ContentId(const Episode& episode) {
-  // Whole tenths of millimetres and hundredths of degrees: the same after any round trip.
+  // Whole tenths of millimetres and hundredths of degrees: unchanged by any round trip.
   const auto whole = [](double value, double unit) { return std::llround(value / unit); };
   const Vector3d& p = episode.start.p_world;
   const auto yaw = (whole(RadToDeg(episode.start.yaw_rad), 0.01) % 36000 + 36000) % 36000;

@@ -27,24 +27,24 @@ struct Episode {
   AgentPose start;
   std::vector<std::string> goals;
 
-  // What the generator proved; empty in files of others until Certify fills it in.
+  // Proven by the generator; in other files empty until Certify fills it in.
   bool has_certificate = false;
   int start_floor = 0;
   std::vector<EpisodeFloor> floors;           ///< of the scene
-  std::vector<std::vector<int>> certificate;  ///< per stage: the floors that hold an instance
+  std::vector<std::vector<int>> certificate;  ///< per stage: floors that hold an instance
   bool cross_floor_required = false;
   int first_transition_stage = 0;  ///< from 1; 0 = none required
 
-  std::string where;  ///< file and index, for messages
+  std::string where;  ///< file and index, for error messages
 };
 
-/// One object that is a goal, as in `goals_by_category`.
+/// A goal object, as in `goals_by_category`.
 struct GoalObject {
   int object_id = 0;
   std::string name, category;
   Vector3d p_world = Vector3d::Zero();
   std::vector<Vector3d> viewpoints_world;
-  bool is_confirmable = true;  ///< by the detection rule; files of edition 1 do not say
+  bool is_confirmable = true;  ///< by the detection rule; absent in files of edition 1
 };
 
 enum class EpisodeFormat { kCrossnav, kObjectNav, kOneMap };
@@ -54,22 +54,22 @@ struct EpisodeFile {
   std::vector<Episode> episodes;
   std::map<std::string, std::vector<GoalObject>> goals_by_category;  ///< "<scene file>_<category>"
   std::uint64_t content_hash = 0;  ///< of the uncompressed text(s)
-  /// What the certificates ask of an instance: 1 = a viewpoint, 2 = and that the agent's detection
-  /// rule confirms it (confirmation.h).
+  /// Requirement of a certifying instance: 1 = a viewpoint, 2 = also confirmed by the agent's
+  /// detection rule (confirmation.h).
   int certificate_edition = 1;
 };
 
-/// Reads one file. An ObjectNav index without episodes takes those of its `content/` folder; a
+/// Reads a file. An ObjectNav index without episodes reads the files of its `content/` folder; a
 /// folder gives all .json and .json.gz files in it, by name.
 Result<EpisodeFile> ReadEpisodes(const std::filesystem::path& path);
 
 /// Writes our format, gzip if the name ends in .gz, through a temporary file.
 Result<void> WriteEpisodes(const std::filesystem::path& path, const EpisodeFile& file);
 
-/// The id that an episode of ours must carry: its scene's name and a hash of start and goals.
+/// Id of an episode in our format: its scene's name and a hash of start and goals.
 std::string ContentId(const Episode& episode);
 
-/// "<folder>" of "hm3d/val/00800-TEEsavR23oF/TEEsavR23oF.basis.glb"; the text itself otherwise.
+/// "<folder>" of "hm3d/val/00800-TEEsavR23oF/TEEsavR23oF.basis.glb"; other texts unchanged.
 std::string SceneName(const std::string& scene_id);
 
 }  // namespace crossnav::evaluation

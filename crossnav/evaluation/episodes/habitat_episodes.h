@@ -11,9 +11,9 @@ namespace crossnav::evaluation {
 /// Name of the scene dataset config beside the scenes (world::WriteDatasetConfig).
 inline constexpr const char* kSceneDatasetConfig = "crossnav.scene_dataset_config.json";
 
-/// An episode's goal is its first; the whole list, the certificate and the floors stand under
-/// `info`, as Habitat-Lab refuses keys of an episode that it does not know. View points carry
-/// `iou`, which Habitat-Lab asks for, as 1: ours are places that see the object, without a measure.
+/// The goal is the episode's first goal; the full list, the certificate and the floors are under
+/// `info`, because Habitat-Lab refuses unknown keys of an episode. View points carry `iou` = 1,
+/// which Habitat-Lab requires; ours have no such measure.
 Result<void> WriteHabitatEpisodes(const std::filesystem::path& path, const EpisodeFile& file);
 
 }  // namespace crossnav::evaluation

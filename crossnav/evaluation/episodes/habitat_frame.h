@@ -17,7 +17,7 @@ inline Vector3d HabitatFromWorld(const Vector3d& p) {
   return {-p.y(), p.z(), -p.x()};
 }
 
-/// Yaw of a rotation quaternion [x, y, z, w]: of the camera's forward (0, 0, -1), turned.
+/// Yaw of a rotation quaternion [x, y, z, w]: of the rotated camera forward axis (0, 0, -1).
 inline double YawFromHabitat(const std::array<double, 4>& q) {
   const auto [x, y, z, w] = q;
   const double forward_x = -2 * (x * z + w * y);

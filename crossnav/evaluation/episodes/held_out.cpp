@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/evaluation/episodes/held_out.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "crossnav/geometry/map_queries.h"
 #include "crossnav/geometry/ray_walk.h"
+#include "crossnav/geometry/surface_plane.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -14,9 +16,9 @@ using geometry::VoxelKey;
 using geometry::VoxelMap;
 using geometry::VoxelState;
 
-constexpr int kStep_px = 4;  // chosen: neighbouring rays tell the same
+constexpr int kStep_px = 4;  // chosen: neighbouring rays carry the same information
 
-/// Shares of the segment at which it enters and leaves the voxel.
+/// Fractions of the segment at entry into and exit from the voxel.
 std::pair<double, double> ThroughVoxel(const Vector3d& from, const Vector3d& to,
                                        const VoxelKey& key) {
   double enter = 0, leave = 1;
@@ -31,6 +33,23 @@ std::pair<double, double> ThroughVoxel(const Vector3d& from, const Vector3d& to,
   return {enter, leave};
 }
 
+constexpr double kGrazing = 0.1;  // chosen: sine; a flatter ray meets a plane anywhere
+constexpr double kBehind_vox =
+    3;  // chosen: of the plane behind the first voxel, as it is made of two
+
+/// Share of the segment at which it meets the surface whose first voxel is `key`.
+double MeetingShare(const VoxelMap& map, const Vector3d& from, const Vector3d& to,
+                    const VoxelKey& key) {
+  const auto [enter, leave] = ThroughVoxel(from, to, key);
+  const auto plane = geometry::PlaneAround(map, key);
+  const Vector3d way = to - from;
+  const double towards = plane ? plane->normal_world.dot(way) : 0;
+  if (std::abs(towards) <= kGrazing * way.norm()) return 0.5 * (enter + leave);
+  const Vector3d p = plane->p_world / map.config().voxel_m;
+  const double share = plane->normal_world.dot(p - from) / towards;
+  return std::clamp(share, enter, leave + kBehind_vox / way.norm());
+}
+
 /// Depth at which the map has a surface on the pixel's ray.
 std::optional<double> PredictedDepth(const VoxelMap& map, const Observation& obs, int u, int v) {
   const double voxel_m = map.config().voxel_m, far_m = map.config().depth_max_m;
@@ -38,14 +57,14 @@ std::optional<double> PredictedDepth(const VoxelMap& map, const Observation& obs
   const Vector3d to = obs.T_world_camera * BackProjectPixel(obs.camera, u, v, far_m) / voxel_m;
   VoxelMap::Cursor cursor(map);
   std::optional<double> depth_m;
-  bool has_begun = false;  // the sensor is blind near the camera: what lies there need not be known
+  bool has_begun = false;  // the sensor is blind near the camera: unknown voxels before the first
+                           // known voxel are allowed
   geometry::WalkRay(from, to, [&](const VoxelKey& key) {
     const VoxelState state = cursor.At(key).state;
     if (state == VoxelState::kUnknown) return !has_begun;
     has_begun = true;
     if (!IsSurface(state)) return true;
-    const auto [enter, leave] = ThroughVoxel(from, to, key);
-    depth_m = 0.5 * (enter + leave) * far_m;
+    depth_m = MeetingShare(map, from, to, key) * far_m;
     return false;
   });
   return depth_m;

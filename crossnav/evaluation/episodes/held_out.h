@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A map against frames that it was not made of: the depth that it predicts, and what it says is
-// free. For recordings of real sensors, whose true surfaces nobody knows.
+// Compares a map with held-out frames: predicted depth, and free space. For recordings of real
+// sensors without known true surfaces.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,13 @@ namespace crossnav::evaluation {
 struct HeldOutResult {
   std::vector<double> errors_m;  ///< |predicted - measured| along the optical axis, unsorted
   std::int64_t rays = 0;         ///< with a measured depth
-  std::int64_t known = 0;        ///< of those: the map knows where they end
-  std::int64_t violations = 0;   ///< of those: they end where the map and all around it is free
+  std::int64_t known = 0;        ///< of `rays`: the map knows their end
+  std::int64_t violations = 0;   ///< of `known`: they end where the map and all around is free
 };
 
-/// Every fourth pixel of a row and column. A ray predicts the middle of its way through the first
-/// surface voxel; it predicts nothing where it meets what is unknown before one.
+/// Every fourth pixel of a row and column. A ray predicts where it meets the plane through the
+/// surface around its first surface voxel (geometry/surface_plane.h), or the middle of its way
+/// through that voxel where there is none; nothing where it meets what is unknown before one.
 void AddHeldOut(const geometry::VoxelMap& map, const Observation& obs, HeldOutResult* result);
 
 }  // namespace crossnav::evaluation

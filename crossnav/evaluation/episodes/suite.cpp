@@ -37,7 +37,7 @@ Json ToJson(const SuiteManifest& manifest) {
   return json;
 }
 
-/// Has `params` built by an edition of the generator; false where this program has none.
+/// Sets the generator edition of `params`; false if this program lacks the edition.
 template <class Params>
 bool UseEdition(Params& params, int edition) {
   if constexpr (requires { params.edition; }) {
@@ -101,7 +101,7 @@ bool CanGenerate(const SuiteDefinition& suite) {
 }
 
 std::vector<SuiteDefinition> AllSuites() {
-  // The counts of the first are the paper's; the others keep its shares.
+  // Counts of the first suite are the paper's; the others keep its shares.
   const std::vector<SuiteDefinition> plain = {
       {"crossnav-mfmon-1", 61001, 36, 927, {102, 101, 85}, 1, false},
       {"crossnav-mfmon-1-mini", 62001, 6, 24, {3, 3, 2}, 2, false},

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Named benchmarks that anybody can make: houses and episodes that follow from the name and the
-// generator's version alone, and a manifest whose hash says whether two copies are the same.
-// Version 2 has tracks by the origin of the buildings, each a suite by itself: generated, drawn
-// (the example homes of Sweet Home 3D) and bim (imported models of architects, which the user
-// brings). Format: docs/formats/suite.md. Pure but for reading and writing the manifest.
+// Named benchmarks that anybody can reproduce: houses and episodes are determined by the name and
+// the generator's version alone; the hash of the manifest identifies a copy. Version 2 has tracks
+// by the origin of the buildings, each a suite by itself: generated, drawn (the example homes of
+// Sweet Home 3D) and bim (architects' models, imported by the user). Format: docs/formats/suite.md.
+// Pure except for reading and writing the manifest.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace crossnav::evaluation {
 
 struct SuiteDefinition {
   std::string name;              ///< of version 2: suite/track
-  std::uint64_t first_seed = 0;  ///< of the houses; a seed that gives no house is passed over
+  std::uint64_t first_seed = 0;  ///< of the houses; seeds without a valid house are skipped
   int houses = 0, episodes = 0;
   std::vector<int> first_transitions;  ///< episodes per stage of the first required floor change
   std::uint64_t episode_seed = 0;
@@ -29,8 +29,8 @@ struct SuiteDefinition {
   // Version 2; certificates are of edition 2.
   std::string track = {};                            ///< generated, drawn or bim; empty = version 1
   int generator_version = world::kGeneratorVersion;  ///< 0 = not generated
-  double cross_floor_share = 0;  ///< of the episodes, where no counts per stage are given
-  int per_building = 0;          ///< bim: episodes of each; houses and episodes follow from it
+  double cross_floor_share = 0;                      ///< of the episodes, without counts per stage
+  int per_building = 0;  ///< bim: episodes of each building; determines houses and episodes
 
   /// House of a seed: two floors, or three for every third seed.
   world::HouseParams HouseOf(std::uint64_t seed) const;
@@ -39,20 +39,20 @@ struct SuiteDefinition {
 /// The nine homes of the track `drawn`, as `crossnav scene import --home` names them.
 std::span<const char* const> DrawnHomes();
 
-/// Whether this program's generator builds the edition that the suite asks for.
+/// Whether this program's generator has the edition that the suite requires.
 bool CanGenerate(const SuiteDefinition& suite);
 
-/// crossnav-mfmon-1 and its smaller relatives; "-pack" behind a name furnishes them from a pack.
-/// Then the tracks of crossnav-mfmon-2 and of its smaller relative.
+/// crossnav-mfmon-1 and its smaller relatives; the suffix "-pack" furnishes them from a pack. Then
+/// the tracks of crossnav-mfmon-2 and of its smaller relative.
 std::vector<SuiteDefinition> AllSuites();
 
-/// Error: no such suite; names those there are.
+/// Error: no such suite; the message lists all names.
 Result<SuiteDefinition> FindSuite(const std::string& name);
 
-/// All tracks of the suite, or the one suite or track of exactly this name. Error: as FindSuite.
+/// All tracks of the suite, or the suite or track of exactly this name. Error: as FindSuite.
 Result<std::vector<SuiteDefinition>> FindTracks(const std::string& name);
 
-/// What a suite on disk consists of.
+/// Content of a suite on disk.
 struct SuiteManifest {
   std::string suite;
   std::string track;  ///< of version 2, format 2 of the manifest; else empty
@@ -64,18 +64,18 @@ struct SuiteManifest {
   std::map<std::string, std::string> meshes;  ///< name of the scene: hash of its mesh
 };
 
-/// Over all of it; the same on every machine.
+/// Over the whole manifest; the same on every machine.
 std::string SuiteHash(const SuiteManifest& manifest);
 
 Result<void> WriteManifest(const std::filesystem::path& path, const SuiteManifest& manifest);
-/// Error where the hash inside does not follow from the content, too.
+/// Also an error: a hash inside that does not match the content.
 Result<SuiteManifest> ReadManifest(const std::filesystem::path& path);
 
-/// Fails unless the manifest is one of this suite, made by this version of the generator.
+/// Fails unless the manifest is of this suite, made by this version of the generator.
 Result<void> CheckManifest(const SuiteDefinition& suite, const SuiteManifest& manifest,
                            const std::filesystem::path& path);
 
-/// How many episodes have their first required floor change at stage 1, 2, ...
+/// Number of episodes with their first required floor change at stage 1, 2, ...
 std::vector<int> FirstTransitions(const EpisodeFile& file);
 
 }  // namespace crossnav::evaluation

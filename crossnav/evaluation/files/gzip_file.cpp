@@ -21,7 +21,7 @@ struct GzClose {
 };
 using GzPtr = std::unique_ptr<std::remove_pointer_t<gzFile>, GzClose>;
 
-/// `text` as a gzip file without a name or a time in it, so that equal texts give equal bytes.
+/// `text` as a gzip file without name and time, so that equal texts give equal bytes.
 std::string Gzip(std::string_view text) {
   z_stream z{};
   CROSSNAV_CHECK(deflateInit2(&z, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK,

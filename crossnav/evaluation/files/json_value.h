@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Values out of JSON of strangers, where 1e82 may stand for an int: the library's own conversion
-// is undefined for doubles that do not fit, and takes the last bits of whole numbers. Internal.
+// Conversion of JSON values from foreign files, where an int field may hold 1e82: the library's own
+// conversion is undefined for doubles out of range, and truncates integers to their low bits.
+// Internal.
 #pragma once
 
 #include <cmath>
@@ -16,7 +17,7 @@ namespace crossnav::evaluation {
 
 inline constexpr int kNumberOutOfRange = 406;  ///< the library's id for numbers beyond a double
 
-/// As T; throws Json::out_of_range where a whole number does not fit, and what the library throws.
+/// As T; throws Json::out_of_range for numbers out of range, and the library's exceptions.
 template <class T, class Json>
 T ValueOf(const Json& value) {
   if constexpr (std::is_same_v<T, std::vector<int>>) {

@@ -5,7 +5,7 @@
 
 namespace crossnav::evaluation {
 
-/// JSON has no NaN, but Python writes it: names the key it stands at. Empty if there is none.
+/// JSON has no NaN, but Python writes it: names the key with a NaN. Empty if there is none.
 std::string DescribeNotANumber(const std::string& text);
 
 }  // namespace crossnav::evaluation

@@ -20,7 +20,7 @@ tl::unexpected<Error> Refuse(const fs::path& path, const std::string& option,
               path.string());
 }
 
-/// Creates what is missing of `folder`; `created` gets the new folders, the deepest first.
+/// Creates the missing part of `folder`; `created` receives the new folders, deepest first.
 std::error_code MakeFolder(const fs::path& folder, std::vector<fs::path>& created) {
   std::error_code error;
   fs::path at = fs::absolute(folder, error).lexically_normal();
@@ -34,7 +34,7 @@ std::error_code MakeFolder(const fs::path& folder, std::vector<fs::path>& create
   return error;
 }
 
-/// Creates and removes an empty file; the errno where it cannot be done, or 0.
+/// Creates and removes an empty file; returns the errno of a failure, or 0.
 int TryFile(const fs::path& file) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor < 0) return errno;
@@ -43,8 +43,8 @@ int TryFile(const fs::path& file) {
   return 0;
 }
 
-/// Empty where `name` can be created in `folder`. Removes only folders that it made and that are
-/// still empty: another process may use them by now, or have removed ours (then once more).
+/// Empty if `name` can be created in `folder`. Removes only folders that it made and that are still
+/// empty: another process may use them by now. Retries once if another process removed them.
 std::string TryIn(const fs::path& folder, const std::string& name) {
   const std::string file = name + ".try" + std::to_string(::getpid());
   int failure = 0;

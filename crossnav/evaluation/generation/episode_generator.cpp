@@ -19,7 +19,7 @@ double Rounded(double value) {
   return std::round(value / kRounding_m) * kRounding_m;
 }
 
-/// A start on a floor (not on a flight); empty if the drawn point is none.
+/// A start on a floor (not on a flight); empty if the drawn point is not on a floor.
 std::optional<AgentPose> DrawStart(const SceneContext& context, const DatasetConfig& config,
                                    Rng& rng) {
   const auto p = context.navmesh().RandomPoint(rng);
@@ -34,7 +34,7 @@ std::optional<AgentPose> DrawStart(const SceneContext& context, const DatasetCon
   return std::nullopt;
 }
 
-/// Categories of the scene that can be observed from somewhere.
+/// Categories of the scene with at least one viewpoint.
 std::vector<std::string> CategoriesOf(const SceneContext& context) {
   std::vector<std::string> categories;
   for (const std::string_view name : kCategories) {
@@ -58,7 +58,7 @@ std::vector<std::string> DrawGoals(std::vector<std::string> categories, const Da
   return goals;
 }
 
-/// Certified episode from a start and goals, or nothing where a rule is broken.
+/// Certified episode from a start and goals; empty if a rule is broken.
 std::optional<Episode> TryEpisode(const GeneratorScene& scene, const RunConfig& config,
                                   const AgentPose& start, const std::vector<std::string>& goals) {
   const SceneContext& context = *scene.context;
@@ -75,15 +75,15 @@ std::optional<Episode> TryEpisode(const GeneratorScene& scene, const RunConfig& 
   return episode;
 }
 
-/// An episode for one place in the file.
+/// Requirements of one episode of the file.
 struct Wish {
   int index = 0;
   int stage = 0;            ///< of the first transition, 0 = none
-  bool is_exact = false;    ///< the counts per stage were asked for
+  bool is_exact = false;    ///< the caller gave the counts per stage
   bool alternates = false;  ///< every stage requires a floor change; `stage` is 1
 };
 
-/// What the wish asks for, from one scene.
+/// Draws an episode that satisfies the wish from one scene.
 std::optional<Episode> DrawEpisode(const GeneratorScene& scene, const RunConfig& config,
                                    const Wish& wish, Rng& rng) {
   const auto categories = CategoriesOf(*scene.context);
@@ -100,8 +100,8 @@ std::optional<Episode> DrawEpisode(const GeneratorScene& scene, const RunConfig&
   return std::nullopt;
 }
 
-/// Stage of the first transition for each episode: as many of each stage as were asked for, or the
-/// share that requires one, evenly spread.
+/// Stage of the first transition of each episode: the given counts per stage, or the share that
+/// requires one, evenly spread.
 std::vector<int> PlanTransitions(const RunConfig& config, const GeneratorOptions& options,
                                  Rng& rng) {
   std::vector<int> stages;
@@ -120,7 +120,7 @@ std::vector<int> PlanTransitions(const RunConfig& config, const GeneratorOptions
   return stages;
 }
 
-/// Tries the scenes in turn, then the other stages of the same kind where that is allowed.
+/// Tries the scenes in turn, then the other stages of the same kind where allowed.
 std::optional<Episode> DrawFromAnyScene(std::span<const GeneratorScene> scenes,
                                         const RunConfig& config, const Wish& wish, Rng& rng) {
   const int index = wish.index, stage = wish.stage;
@@ -147,18 +147,18 @@ tl::unexpected<Error> CannotCertify(int stage, std::size_t number, int count) {
               "episode " + std::to_string(number) + " of " + std::to_string(count));
 }
 
-/// Episodes drawn scene by scene: those that are there, and the stages of those that are not.
+/// Episodes drawn scene by scene: the finished episodes, and the stages of the open ones.
 struct DrawnByScene {
   EpisodeFile file;
   std::set<std::string> ids;
   std::vector<int> open;  // stages of first transitions
 };
 
-/// Draws up to `most` of the open episodes in one scene; a stage that it cannot give once is not
-/// asked of it again.
+/// Draws up to `most` of the open episodes in one scene; a stage that fails once is not tried again
+/// in that scene.
 void DrawHere(const GeneratorScene& scene, const RunConfig& config, std::size_t most, Rng& rng,
               DrawnByScene& drawn) {
-  constexpr int kRepeats = 10;  // chosen: draws of an episode that is there already
+  constexpr int kRepeats = 10;  // chosen: draws that repeat an existing episode
   std::set<int> impossible;
   if (scene.context->navmesh().Floors().size() < 2) {
     for (const int stage : drawn.open) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Makes certified episodes (benchmark.md, "Episodes"): three different categories by default, a
+// Generates certified episodes (benchmark.md, "Episodes"): three different categories by default, a
 // start on a floor away from the first goal, every stage solvable, a given share that requires a
-// floor change. Seeded; refuses what it cannot certify.
+// floor change. Seeded; rejects episodes that it cannot certify.
 #pragma once
 
 #include <functional>
@@ -20,12 +20,12 @@ struct GeneratorOptions {
   int count = 0;
   double cross_floor_share = 0.3;  // chosen: the paper's 288 of 927
   std::uint64_t seed = 1;
-  /// How many episodes have their first transition at stage 1, 2, ...; empty = by the share.
+  /// Number of episodes with their first transition at stage 1, 2, ...; empty = by the share.
   std::vector<int> first_transitions = {};
-  /// Called after each episode with how many there are.
+  /// Called after each episode with the number so far.
   std::function<void(int done)> drawn = [](int) {};
-  /// Of those that require a floor change: the share in which every stage requires one, as
-  /// down-up-down does; a scene without such goals gives an episode with a single required change.
+  /// Share, among episodes that require a floor change, in which every stage requires one
+  /// (down-up-down); a scene without matching goals gives an episode with a single required change.
   double alternating_share = 0;
 };
 
@@ -34,17 +34,17 @@ struct GeneratorScene {
   const SceneContext* context = nullptr;
 };
 
-/// `count` episodes over all scenes, turn by turn; the first transitions of those that require one
-/// are spread over the stages. Error: what could not be certified.
+/// `count` episodes over all scenes in turn; the first transitions are spread over the stages.
+/// Error: names the episodes that could not be certified.
 Result<EpisodeFile> GenerateEpisodes(std::span<const GeneratorScene> scenes,
                                      const RunConfig& config, const GeneratorOptions& options);
 
-/// Makes the context of a scene; it is let go before the next one is made.
+/// Loads the context of a scene; the previous context is released first.
 using SceneLoader =
     std::function<Result<std::unique_ptr<SceneContext>>(const std::string& scene_id)>;
 
-/// The same scene by scene, with one of them in memory at a time; what one scene cannot give is
-/// asked of those after it, and of all once more. Draws other episodes than GenerateEpisodes.
+/// Scene by scene, with one scene in memory at a time; episodes that a scene cannot give are drawn
+/// from the scenes after it, then once more from all. Draws other episodes than GenerateEpisodes.
 /// `alternating_share` must be 0.
 Result<EpisodeFile> GenerateByScene(std::span<const std::string> scene_ids, const SceneLoader& load,
                                     const RunConfig& config, const GeneratorOptions& options);
@@ -55,10 +55,10 @@ Result<Episode> MakeEpisode(const GeneratorScene& scene, const RunConfig& config
                             const std::vector<std::string>& goals, int start_floor,
                             std::uint64_t seed);
 
-/// Whether each stage requires another floor than the one before it, from the start on.
+/// Whether each stage requires another floor than the stage before it, beginning with the start.
 bool Alternates(const Episode& episode);
 
-/// The `goals_by_category` entries of a scene, for all categories it holds.
+/// Entries of a scene in `goals_by_category`, for all its categories.
 void AddGoalObjects(const GeneratorScene& scene, EpisodeFile& file);
 
 }  // namespace crossnav::evaluation

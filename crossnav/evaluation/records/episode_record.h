@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the evaluator keeps of one episode: one row per executed stage. The metrics read only this;
+// The evaluator's record of an episode: one row per executed stage. The metrics read only this;
 // result_records.h writes it to disk. World frame, metres.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace crossnav::evaluation {
 
-/// How an executed stage ended, in the benchmark's order of precedence.
+/// Outcome of an executed stage, in the benchmark's order of precedence.
 enum class Outcome { kSuccess, kNotReached, kMisdetection, kAllExplored, kStuck, kOutOfTime };
 
 inline constexpr std::array<std::string_view, 6> kOutcomeNames = {
@@ -31,29 +31,29 @@ inline std::optional<Outcome> OutcomeFromName(std::string_view name) {
   return std::nullopt;
 }
 
-/// The flight that the agent had still to take, or had taken, for a goal on another floor.
+/// The flight towards a goal on another floor, not yet or already taken.
 struct FlightCause {
-  int floor = 0;       ///< it leads to from where the stage ended: the next one on the way
+  int floor = 0;       ///< next floor on the path from the end of the stage
   int goal_floor = 0;  ///< nearest floor that holds an instance
   bool seen = false;   ///< its ground is in the agent's map
-  bool begun = false;  ///< the agent set out on it: a climb, or a stair session
+  bool begun = false;  ///< a pursuit of it began: a climb, or a stair session
   bool climbed = false;
   friend bool operator==(const FlightCause&, const FlightCause&) = default;
 };
 
-/// What a failed stage was doing, for whoever looks into it (cause.h makes it and words it).
+/// Activity of a failed stage, for diagnosis (cause.h makes and words it).
 struct StageCause {
   std::map<std::string, int> steps;  ///< by activity; by mode where the policy names no activity
-  std::string last_activity;         ///< the last that was none but "none"
-  bool is_under_way = false;         ///< it had not ended when the stage did
+  std::string last_activity;         ///< the last activity other than "none"
+  bool is_under_way = false;         ///< it had not ended at the end of the stage
   std::string last_ending;  ///< event of the last activity that ended, e.g. "go_to: no progress"
-  std::optional<FlightCause> flight;  ///< where the goal's floors are not all that was walked on
-  double seen_share = 0;              ///< of the scene's walkable area that the agent's map holds
+  std::optional<FlightCause> flight;  ///< set if a floor of the goal was not walked on
+  double seen_share = 0;              ///< share of the scene's walkable area in the agent's map
   friend bool operator==(const StageCause&, const StageCause&) = default;
 };
 
-/// How far a successful stage walked, in parts (gaps.h). Place of reach: since then the agent was
-/// within the success radius of the instance that it stopped at.
+/// Parts of the path of a successful stage (gaps.h). Place of reach: the first place after which
+/// the agent stayed within the success radius of its final instance.
 struct StageReach {
   double walked_m = 0;          ///< until the place of reach
   double reach_shortest_m = 0;  ///< shortest path from the stage's start to the place of reach
@@ -61,19 +61,19 @@ struct StageReach {
   friend bool operator==(const StageReach&, const StageReach&) = default;
 };
 
-/// What the actions of a stage were.
+/// Actions of a stage.
 struct StageWalk {
   int forward = 0, turn = 0, look = 0;
   std::optional<StageReach> reach;  ///< of a successful stage
   friend bool operator==(const StageWalk&, const StageWalk&) = default;
 };
 
-/// Beside the outcome, never instead of it.
+/// Diagnosis in addition to the outcome.
 struct StageExtra {
   bool passed_target = false;  ///< a true instance was in view within the success radius, unclaimed
   bool wrong_floor = false;    ///< ended within the radius of an instance, but on another floor
-  /// For a stage whose goal is on other floors only and that failed: never_found,
-  /// entrance_rejected, lost_on_flight or landing_not_confirmed. Empty otherwise.
+  /// For a failed stage with goals on other floors only: never_found, entrance_rejected,
+  /// lost_on_flight or landing_not_confirmed. Empty otherwise.
   std::string stairs;
   std::optional<double> distance_to_goal_m;  ///< geodesic, from the end to the nearest viewpoint
   std::optional<StageCause> cause;           ///< of failed stages; old records lack it
@@ -90,17 +90,18 @@ struct StageRecord {
   double length_m = 0;    ///< sum of 3D displacements
   int actions = 0;
   int floor_start = 0, floor_end = 0;
-  int transitions = 0;  ///< times the agent arrived on another floor
+  int transitions = 0;  ///< arrivals on another floor
   StageExtra extra;
 };
 
 /// EpisodeFailure::reason of an episode that does not fit its scene (start off the navmesh).
 inline constexpr std::string_view kInvalidEpisode = "invalid";
 
-/// Why an episode has no result. Metrics count it as not successful; an invalid one, not at all.
+/// Reason for an episode without a result. Metrics count it as not successful; an invalid episode
+/// is not counted.
 struct EpisodeFailure {
   std::string reason;   ///< error, crash, time or invalid
-  std::string message;  ///< for people
+  std::string message;  ///< free text
 };
 
 struct StageTiming {
@@ -116,8 +117,8 @@ struct EpisodeRecord {
   std::vector<std::string> goals;
   int actions = 0;
   std::vector<StageRecord> stages;       ///< executed stages only, in order
-  std::optional<EpisodeFailure> failed;  ///< set: the episode ended without a result, no stages
-  // The two fields below are the only ones that may differ between two runs of the same seed.
+  std::optional<EpisodeFailure> failed;  ///< set: no result, no stages
+  // Only these two fields may differ between runs of the same seed.
   double wall_s = 0;
   std::map<std::string, StageTiming> timing_ms;
 
@@ -132,12 +133,12 @@ struct EpisodeRecord {
   }
   bool IsComplete() const { return Completed() == static_cast<int>(goals.size()); }
 
-  /// How the episode ended, in a word: the outcome of its last stage, or "failed".
+  /// Outcome of the episode in a word: the outcome of its last stage, or "failed".
   std::string_view OutcomeName() const {
     if (failed) return "failed";
     if (IsComplete()) return NameOf(Outcome::kSuccess);
     const bool has_ended = !stages.empty() && !stages.back().success;
-    return NameOf(has_ended ? stages.back().outcome : Outcome::kOutOfTime);  // no action was left
+    return NameOf(has_ended ? stages.back().outcome : Outcome::kOutOfTime);  // no action left
   }
 };
 

@@ -43,7 +43,7 @@ FlightCause ReadFlight(const ResultLine& line, std::optional<Error>& error) {
   return flight;
 }
 
-/// `extra.cause`; absent in files from before there were causes.
+/// `extra.cause`; absent in older files.
 std::optional<StageCause> ReadCause(const ResultLine& extra, std::optional<Error>& error) {
   const auto found = extra.json().find("cause");
   if (found == extra.json().end() || found->is_null()) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<StageCause> ReadCause(const ResultLine& extra, std::optional<Error
   return cause;
 }
 
-/// A length that is finite and not negative.
+/// A finite length that is not negative.
 void TakeLength(const ResultLine& line, const char* key, double& target_m,
                 std::optional<Error>& error) {
   Take(line.Get<double>(key), target_m, error);
@@ -69,7 +69,7 @@ void TakeLength(const ResultLine& line, const char* key, double& target_m,
                 line.where()};
 }
 
-/// `extra.walk`; absent in files from before it was recorded.
+/// `extra.walk`; absent in older files.
 std::optional<StageWalk> ReadWalk(const ResultLine& extra, std::optional<Error>& error) {
   const auto found = extra.json().find("walk");
   if (found == extra.json().end() || found->is_null()) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Result records <-> JSON; the only file here that knows the JSON library for them.
+// Result records <-> JSON; the only file of this room that uses the JSON library for them.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -63,7 +63,7 @@ Result<StageRecord> ReadStage(const ResultLine& line) {
   return stage;
 }
 
-/// What ComputeMetrics relies on.
+/// Preconditions of ComputeMetrics.
 Result<void> CheckStages(const EpisodeRecord& episode, const std::string& where) {
   if (episode.goals.empty()) return Fail(ErrorCode::kInvalid, "key \"goals\" is empty", where);
   if (episode.actions < 0) return Fail(ErrorCode::kInvalid, "key \"actions\" is below 0", where);
@@ -177,7 +177,7 @@ Result<RunHeader> ReadHeader(const ResultLine& line) {
   return header;
 }
 
-/// Adds one whole line to `file`.
+/// Adds a whole line to `file`.
 Result<void> ReadLine(const std::string& text, int number, const std::string& where,
                       ResultFile& file) {
   if (auto ok = CheckJsonShape(text, where); !ok) return ok;
@@ -200,7 +200,7 @@ Result<void> ReadLine(const std::string& text, int number, const std::string& wh
   return {};
 }
 
-/// ReadLine, with the JSON library's type errors turned into ours.
+/// ReadLine, with the JSON library's type errors turned into Error.
 Result<void> ReadLineSafely(const std::string& text, int number, const std::string& where,
                             ResultFile& file) {
   try {

@@ -13,7 +13,7 @@ namespace crossnav::evaluation {
 
 using Json = nlohmann::ordered_json;
 
-/// A line of the file while it is being read: typed access that names the key that is wrong.
+/// A line of the file during reading: typed access with errors that name the key.
 class ResultLine {
  public:
   ResultLine(const Json& json, std::string where) : json_(json), where_(std::move(where)) {}

@@ -37,8 +37,9 @@ Result<int> OpenForAppend(const std::filesystem::path& path) {
   return descriptor;
 }
 
-/// Keeps other processes out until this one closes the file or ends. Of the process alone: workers
-/// that outlive it by a moment do not hold it. File systems without locks are used without.
+/// Keeps other processes out until this process closes the file or ends. The lock belongs to this
+/// process alone: workers that outlive it briefly do not hold it. File systems without locks work
+/// unlocked.
 Result<void> Lock(int descriptor, const std::filesystem::path& path) {
   struct flock lock = {};
   lock.l_type = F_WRLCK;
@@ -232,7 +233,8 @@ Result<ResultWriter> ResultWriter::Open(const std::filesystem::path& path, const
   if (auto ok = Lock(*descriptor, path); !ok) return tl::unexpected(ok.error());
   auto file = ReadResults(path);
   if (!file) return tl::unexpected(file.error());
-  if (auto ok = Lock(*descriptor, path); !ok) return tl::unexpected(ok.error());  // reading ends it
+  // Locks again, because reading releases the lock.
+  if (auto ok = Lock(*descriptor, path); !ok) return tl::unexpected(ok.error());
   const bool is_new = file->valid_bytes == 0;
   if (!is_new) {
     if (auto ok = CheckResumable(*file, header, path); !ok) return tl::unexpected(ok.error());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Result records on disk: JSON Lines, a header and then one line per finished episode. Append-only;
-// each line is written whole and synced, so that a killed run loses at most the episode in flight.
+// each line is written whole and synced, so that a killed run loses at most the running episodes.
 // Format: docs/formats/results.md. Not thread-safe.
 #pragma once
 
@@ -21,7 +21,7 @@ struct SceneHashes {
   friend bool operator==(const SceneHashes&, const SceneHashes&) = default;
 };
 
-/// What makes two result files comparable; all fields must match for a resume or a merge.
+/// Identity of a run; all fields must match for a resume or a merge.
 struct RunHeader {
   std::string variant;
   std::string config_json;  ///< effective config, one JSON object
@@ -32,8 +32,8 @@ struct RunHeader {
   std::uint64_t seed = 0;
   std::string version;
   std::string perception;
-  std::map<std::string, std::string> networks;  ///< SHA-256 of each file that was used, by name
-  std::string shard = "0/1";  ///< index/count; the one field that may differ between merged files
+  std::map<std::string, std::string> networks;  ///< SHA-256 of each network file used, by name
+  std::string shard = "0/1";                    ///< index/count; may differ between merged files
 };
 
 /// Part `index` of `count`.
@@ -47,50 +47,50 @@ Result<Shard> ParseShard(const std::string& text, const std::string& where);
 /// 16 lower-case hex digits.
 std::string HexHash(std::uint64_t hash);
 
-/// One line without the line feed. `with_timings` off leaves out wall_s and timing_ms.
+/// A line without the line feed. `with_timings` off leaves out wall_s and timing_ms.
 std::string ToJsonLine(const RunHeader& header);
 std::string ToJsonLine(const EpisodeRecord& record, bool with_timings = true);
-/// Reads such a line; errors carry `where`.
+/// Reads a record line; errors carry `where`.
 Result<EpisodeRecord> EpisodeFromJsonLine(const std::string& text, const std::string& where);
 
-/// By episode id: files hold records in the order in which the episodes were finished.
+/// Sorts by episode id: files hold records in the order of completion.
 void SortRecords(std::vector<EpisodeRecord>& records);
 
 struct ResultFile {
   std::optional<RunHeader> header;  ///< absent in files of other programs
   std::vector<EpisodeRecord> episodes;
   std::uint64_t valid_bytes = 0;  ///< end of the last whole line
-  bool has_torn_line = false;     ///< bytes after it
+  bool has_torn_line = false;     ///< bytes after the last whole line
 };
 
 /// Reads a result file, episodes sorted by id. Errors name file, line and key. A last line without
-/// line feed is torn: it is left out, not an error.
+/// line feed is torn: it is ignored, not an error.
 Result<ResultFile> ReadResults(const std::filesystem::path& path);
 
 /// First field in which the headers differ ("config_hash: a, b"), or empty. `shard` is not
 /// compared.
 std::string HeaderDifference(const RunHeader& a, const RunHeader& b);
 
-/// The files' episodes together, sorted by id. Refuses mixed headers and duplicate episodes and,
-/// where `require_all`, missing ones.
+/// Joins the episodes of the files, sorted by id. Refuses mixed headers, duplicate episodes and,
+/// with `require_all`, missing episodes.
 Result<ResultFile> MergeResults(std::span<const std::filesystem::path> paths, bool require_all);
 
-/// The episodes of runs over different tracks, sorted by id: files that belong together are merged
-/// as above, and no track may be in two groups. `header` is empty where there are several groups.
+/// Joins runs over different tracks, sorted by id: files of one track are merged as above, and no
+/// track may be in two groups. `header` is empty for several groups.
 Result<ResultFile> MergeTracks(std::span<const std::filesystem::path> paths);
 
 /// The result files of a run, sorted: the file itself, or all results*.jsonl of its folder.
 Result<std::vector<std::filesystem::path>> ResultFilesOf(const std::filesystem::path& run);
 
-/// Writes merged results as the one file of an unsharded run, whole or not at all. What is there is
-/// replaced.
+/// Writes merged results as the file of an unsharded run, whole or not at all. Replaces an existing
+/// file.
 Result<void> WriteResults(const std::filesystem::path& path, const ResultFile& results);
 
 class ResultWriter {
  public:
-  /// Starts `path`, or continues it when it exists and its header matches (a torn last line is cut
-  /// off). A mismatch, and another process that has it open, are errors. `finished` gets the
-  /// episodes already there.
+  /// Starts `path`, or continues it if it exists and its header matches (cuts off a torn last
+  /// line). Errors: a mismatch, another process with the file open. `finished` receives the
+  /// existing episodes.
   static Result<ResultWriter> Open(const std::filesystem::path& path, const RunHeader& header,
                                    std::vector<EpisodeRecord>& finished);
   ResultWriter(ResultWriter&& other) noexcept;
@@ -107,7 +107,7 @@ class ResultWriter {
   std::filesystem::path path_;
 };
 
-/// Name of the file below RUN/replays in which a run keeps the replay of an episode.
+/// File name of an episode's replay below RUN/replays.
 std::string ReplayName(const std::string& episode_id);
 
 }  // namespace crossnav::evaluation

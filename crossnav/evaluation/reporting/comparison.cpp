@@ -47,7 +47,7 @@ std::map<std::string, std::string> SettingsOf(const RunHeader& header) {
   Flatten(Json::parse(DumpJson(RunConfig())), "", defaults);
   for (const auto& [key, value] : defaults) {
     const bool is_newer = key.starts_with("noise.") || key == "dataset.certificate";
-    if (is_newer) flat.emplace(key, value);  // records from before there was any
+    if (is_newer) flat.emplace(key, value);  // older records lack the key
   }
   flat.erase("eval.seed");        // header.seed
   flat.erase("eval.perception");  // header.perception
@@ -155,7 +155,7 @@ Result<Comparison> CompareRuns(const ReportRun& a, const ReportRun& b,
     return Fail(ErrorCode::kMismatch,
                 "cannot be compared with " + a.name + ", they differ in " +
                     result.headers.unfair.front() +
-                    "; compare runs of the same task, or go on with --force",
+                    "; compare runs of the same task, or use --force",
                 b.name);
   }
   std::vector<EpisodeRecord> in_a, in_b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A comparison in words and tables.
+// A comparison as text and tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Line {
   std::string name, difference, interval;
 };
 
-/// Shares in points of per cent, lengths in metres.
+/// Shares in percentage points, lengths in metres.
 std::vector<Line> Lines(const Comparison& c) {
   std::vector<Line> lines;
   for (const std::string& name : c.order) {
@@ -63,7 +63,7 @@ const Ending& FailedSide(const Flip& flip) {
 /// Relative to the folder of the report; a cell of a table.
 std::string Link(const Ending& ending, const std::filesystem::path& folder) {
   if (ending.replay.empty()) return "-";
-  // The folder may not be there yet, so that nothing is resolved.
+  // No resolution of links: the folder may not exist yet.
   const auto replay = std::filesystem::absolute(ending.replay).lexically_normal();
   const auto place = std::filesystem::absolute(folder).lexically_normal();
   return fmt::format("[replay](<{}>)", replay.lexically_proximate(place).generic_string());
@@ -74,8 +74,8 @@ std::string Link(const Ending& ending, const std::filesystem::path& folder) {
 std::string ComparisonMarkdown(const Comparison& c, const std::filesystem::path& folder) {
   std::string text = fmt::format("\n## {} against {}, paired\n\n", c.name_b, c.name_a);
   if (!c.headers.unfair.empty()) {
-    text += "**Forced: the runs differ in what they should share.** " + Joined(c.headers.unfair) +
-            ".\n\n";
+    text += "**Forced: the runs differ in settings that they should share.** " +
+            Joined(c.headers.unfair) + ".\n\n";
   }
   if (!c.headers.compared.empty()) text += "Compared: " + Joined(c.headers.compared) + ".\n\n";
   text += fmt::format("{} episodes in both; points of per cent; 95 % bootstrap, {}.\n\n",

@@ -20,7 +20,7 @@ std::vector<EpisodeRecord> Only(const ReportRun& run, const std::set<std::string
   return episodes;
 }
 
-/// Ids that all runs have, by track.
+/// Ids common to all runs, by track.
 std::map<std::string, std::set<std::string>> CommonIds(const std::vector<ReportRun>& runs) {
   std::map<std::string, std::size_t> count;
   for (const ReportRun& run : runs) {
@@ -107,7 +107,7 @@ GapParts PartsOf(const EpisodeRecord& episode) {
     length_m += stage.length_m;
     is_known = is_known && stage.extra.walk && stage.extra.walk->reach;
   }
-  if (length_m <= shortest_m) return parts;  // SPL counts no more than 1
+  if (length_m <= shortest_m) return parts;  // SPL is at most 1
   if (!is_known) {
     parts.unknown = (length_m - shortest_m) / length_m;
     return parts;

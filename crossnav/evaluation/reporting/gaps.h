@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What keeps SPL below 1, from the records of runs of the variants full, known-map and
+// Attribution of 1 - SPL, from the records of runs of the variants full, known-map and
 // known-objects on the same episodes (docs/navigation.md, "What a shorter path would need"). Pure
 // functions.
 #pragma once
@@ -18,14 +18,14 @@ namespace crossnav::evaluation {
 /// shortest path D loses (L - D) / L, a failed one 1.
 struct GapParts {
   double failed = 0;
-  double detour = 0;    ///< until the goal was within the success radius: search and detours
+  double detour = 0;    ///< before the goal was within the success radius: search and detours
   double approach = 0;  ///< from there to STOP
   double place = 0;     ///< STOP at another instance or place than the nearest viewpoint
-  double unknown = 0;   ///< of records that do not hold the parts (older versions, slivers)
+  double unknown = 0;   ///< of records without the parts (older versions, slivers)
   double Sum() const { return failed + detour + approach + place + unknown; }
 };
 
-/// Mean of a stage that was executed.
+/// Mean over executed stages.
 struct StageMeans {
   int stages = 0;
   double forward = 0, turn = 0, look = 0;  ///< actions
@@ -39,19 +39,19 @@ struct RunGaps {
   StageMeans means;
 };
 
-/// One origin of buildings, on the episodes that all runs have.
+/// One origin of buildings, on the episodes common to all runs.
 struct Gaps {
-  std::string track;  ///< empty where records name none
+  std::string track;  ///< empty if records name none
   int episodes = 0;
   std::vector<RunGaps> runs;                 ///< in the order given
-  std::optional<PairedDifference> geometry;  ///< SPL of known-map less full: not knowing the rooms
-  std::optional<PairedDifference> search;    ///< known-objects less known-map: where to look first
+  std::optional<PairedDifference> geometry;  ///< SPL of known-map less full: price of unknown rooms
+  std::optional<PairedDifference> search;  ///< known-objects less known-map: price of search order
 };
 
 /// The parts of 1 - SPL of one episode.
 GapParts PartsOf(const EpisodeRecord& episode);
 
-/// One entry per track. Errors: no episode that all runs have, two runs of one variant.
+/// One entry per track. Errors: no common episode, two runs of one variant.
 Result<std::vector<Gaps>> AttributeGaps(const std::vector<ReportRun>& runs,
                                         const BootstrapConfig& bootstrap);
 

@@ -21,7 +21,7 @@ std::string PartLine(const char* name, double share) {
   return fmt::format("  {:<32} {:7.2f}\n", name, 100 * share);
 }
 
-/// Of the run that knows most: what is left when search is taken away.
+/// Parts of the best-informed run: the loss without search.
 std::string PartsText(const RunGaps& run) {
   std::string text = PartLine("detours", run.parts.detour) +
                      PartLine("approach", run.parts.approach) +

@@ -85,7 +85,7 @@ std::string OutcomeText(const OutcomeTable& table) {
   return text;
 }
 
-/// "failed: 1 crash, 2 time; they count as not successful", or nothing.
+/// "failed: 1 crash, 2 time; they count as not successful", or empty.
 std::string FailuresText(std::span<const EpisodeRecord> episodes) {
   std::string reasons;
   for (const auto& [reason, count] : CountFailures(episodes)) {
@@ -95,7 +95,7 @@ std::string FailuresText(std::span<const EpisodeRecord> episodes) {
   return "failed: " + reasons + "; they count as not successful\n";
 }
 
-/// Of records of one origin.
+/// Text for records of one origin.
 std::string TrackText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
   std::string text =
       fmt::format("{} episodes; per cent, with bootstrap 95 % intervals\n", episodes.size());

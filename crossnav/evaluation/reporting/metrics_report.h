@@ -11,16 +11,15 @@
 namespace crossnav::evaluation {
 
 /// Figures with their intervals, per category, per scene, per CFR group, and the outcome table.
-/// Where records are of several tracks, all of it for each of them, and nothing pooled.
+/// Records of several tracks: all of it per track, and nothing pooled.
 std::string MetricsText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap);
 
-/// The same as one JSON object:
-/// {episodes, goals, metrics: {name: {value, low, high}}, reached, groups: {name: {...}},
-///  scenes, categories: {name: {executed, sr, spl}}, outcomes: {category: {outcome: count}}}.
-/// Where records are of several tracks, {episodes, tracks: {name: that object}}.
+/// JSON object {episodes, goals, metrics: {name: {value, low, high}}, reached, groups: {name:
+/// {...}}, scenes, categories: {name: {executed, sr, spl}}, outcomes: {category: {outcome:
+/// count}}}. Records of several tracks: {episodes, tracks: {name: that object}}.
 std::string MetricsJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap);
 
-/// One line per stage of one episode, and one of cause for a stage that failed.
+/// A line per stage of one episode, and a line with the cause for a failed stage.
 std::string EpisodeText(const EpisodeRecord& record);
 
 }  // namespace crossnav::evaluation

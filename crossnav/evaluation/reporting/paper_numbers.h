@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The paper's results, to print beside ours and never to tune to. Per cent; stages k = 1, 2, 3.
+// The paper's results, to print beside ours; never a tuning target. Per cent; stages k = 1, 2, 3.
 // tab:all_overall, tab:cfr_overall, the conditional figures, tab:supp_all_global,
 // tab:supp_cfr_global, tab:full_object_distribution, tab:wo_hpoi_object_distribution,
 // tab:single_object_results.
@@ -13,7 +13,7 @@ namespace crossnav::evaluation {
 
 struct PaperRow {
   std::string_view method;   ///< as in the paper
-  std::string_view variant;  ///< ours that implements it
+  std::string_view variant;  ///< our variant that implements it
   double sr, spl, pr, ppl;
   std::array<double, 3> sr_cond, spl_cond, sr_global, spl_global;
 };
@@ -112,7 +112,7 @@ inline constexpr std::array<PaperOutcomes, 6> kPaperOutcomesWithoutHistory = {{
     {"bed", 358, 201, 133, 8, 9, 6, 1},
 }};
 
-/// The paper's outcomes of the method that `variant` implements; empty where it has none.
+/// The paper's outcomes of the method that `variant` implements; empty without a counterpart.
 constexpr std::span<const PaperOutcomes> PaperOutcomesOf(std::string_view variant) {
   if (variant == "paper") return kPaperOutcomes;
   if (variant == "paper-no-history-poi") return kPaperOutcomesWithoutHistory;
@@ -121,7 +121,7 @@ constexpr std::span<const PaperOutcomes> PaperOutcomesOf(std::string_view varian
 
 /// tab:single_object_results: HM3D ObjectNav, validation split, one goal.
 struct PaperSingleRow {
-  std::string_view method, variant;  ///< variant: ours that implements it, or empty
+  std::string_view method, variant;  ///< variant: our implementation, or empty
   bool zero_shot, multi_floor, llm;
   double sr, spl;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A report over one or more runs: tables per run, per stage, per floor requirement, per scene and
-// category, outcomes, with the paper's numbers beside; Markdown, CSV, JSON, SVG. Comparisons of two
-// runs: comparison.h.
+// Report over runs: tables per run, per stage, per floor requirement, per scene and category,
+// outcomes, with the paper's numbers beside; Markdown, CSV, JSON, SVG. Comparisons of two runs:
+// comparison.h.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace crossnav::evaluation {
 
-/// One run as a report shows it.
+/// A run in a report.
 struct ReportRun {
   std::string name;              ///< of its folder
   std::filesystem::path folder;  ///< where its files lie
@@ -25,18 +25,18 @@ struct ReportRun {
   std::optional<RunHeader> header;  ///< absent in files of other programs
 };
 
-/// Reads runs: folders with results*.jsonl, or single files. Errors: a file that does not fit, and
-/// unless `require_all` is false a run that is not finished.
+/// Reads runs: folders with results*.jsonl, or single files. Errors: a file that does not fit, and,
+/// unless `require_all` is false, an unfinished run.
 Result<std::vector<ReportRun>> ReadRuns(const std::vector<std::filesystem::path>& paths,
                                         bool require_all);
 
-/// One figure, as a row of the CSV and the JSON file.
+/// A figure, as a row of the CSV and the JSON file.
 struct ReportFigure {
   std::string run, group, metric;
   int episodes = 0;
   double value = 0;
   std::optional<Interval> interval;
-  std::optional<double> paper;  ///< of the paper's method that stands beside this variant
+  std::optional<double> paper;  ///< of the paper's counterpart of this variant
 };
 
 /// All figures of all runs, for "all", each floor group, each scene.
@@ -48,15 +48,15 @@ std::string ReportMarkdown(const std::vector<ReportRun>& runs,
 /// A text as one cell of a Markdown table.
 std::string OneCell(std::string text);
 std::string ReportCsv(const std::vector<ReportFigure>& figures);
-/// How many stages failed of which cause and with which outcome (cause.h), as rows.
+/// Number of failed stages by cause (cause.h) and outcome, as rows.
 std::string CausesCsv(const std::vector<ReportRun>& runs);
 std::string ReportJson(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures);
 
-/// Bars per stage of "SR_cond" or "SPL_cond", the paper's values as lines.
+/// Bars per stage of "SR_cond" or "SPL_cond", with the paper's values as lines.
 std::string StagePlotSvg(const std::vector<ReportRun>& runs,
                          const std::vector<ReportFigure>& figures, const std::string& metric);
-/// Stacked bars of outcomes per category of one run, the paper's beside.
+/// Stacked bars of outcomes per category of one run, with the paper's beside.
 std::string OutcomePlotSvg(const ReportRun& run);
 
 }  // namespace crossnav::evaluation

@@ -37,7 +37,7 @@ std::optional<double> SingleValue(const std::string& variant, const std::string&
   return std::nullopt;
 }
 
-/// The paper's value of a figure for this variant. Its episodes have three goals, or one.
+/// The paper's value of a figure for this variant, for episodes with three goals or one.
 std::optional<double> PaperValue(const std::string& variant, const std::string& group, int goals,
                                  const std::string& metric) {
   if (goals == 1) return SingleValue(variant, group, metric);

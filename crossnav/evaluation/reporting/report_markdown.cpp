@@ -6,6 +6,7 @@
 #include "crossnav/evaluation/reporting/paper_numbers.h"
 #include "crossnav/evaluation/reporting/report.h"
 #include "crossnav/evaluation/scoring/cause.h"
+#include "crossnav/evaluation/scoring/pixel_cause.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -104,7 +105,7 @@ std::string StageTable(const std::vector<ReportRun>& runs, const std::vector<Rep
   return text;
 }
 
-/// Each track of each run; a run that has several is pooled in no row. Empty where none is known.
+/// Each track of each run; no row pools tracks. Empty without tracks.
 std::string TrackTable(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures) {
   std::string rows;
@@ -153,7 +154,7 @@ std::string OutcomeTableText(const ReportRun& run) {
   return text;
 }
 
-/// Why stages failed; one line per cause, the most frequent first.
+/// Causes of failed stages; a line per cause, the most frequent first.
 std::string CauseTableText(const ReportRun& run) {
   std::vector<std::string> head = {"cause", "stages"};
   for (std::size_t i = 1; i < kOutcomeNames.size(); ++i) head.emplace_back(kOutcomeNames[i]);
@@ -175,6 +176,21 @@ std::string CauseTableText(const ReportRun& run) {
   return text;
 }
 
+/// For runs from pixels: what would have to be better.
+std::string PixelCauseText(const ReportRun& run) {
+  const auto counts = CountPixelCauses(run.episodes);
+  if (run.perception.find("networks") == std::string::npos || counts.empty()) return {};
+  std::vector<std::string> head = {"goal"};
+  head.insert(head.end(), kPixelCauses.begin(), kPixelCauses.end());
+  std::string text = "\n### Failures from pixels\n\n" + Head(head);
+  for (const PixelCauseCount& count : counts) {
+    std::vector<std::string> cells = {std::string(count.goal)};
+    for (const int stages : count.stages) cells.push_back(std::to_string(stages));
+    text += Row(cells);
+  }
+  return text;
+}
+
 std::string CategoryTableText(const ReportRun& run) {
   std::string text = Head({"goal", "executed", "SR", "SPL"});
   for (const auto& [name, category] : PerCategory(run.episodes)) {
@@ -184,7 +200,7 @@ std::string CategoryTableText(const ReportRun& run) {
   return text;
 }
 
-/// The episodes of a run that have no result; nothing where all have one.
+/// Episodes of a run without a result; empty if there are none.
 std::string FailedEpisodes(const ReportRun& run) {
   if (CountFailures(run.episodes).empty()) return {};
   std::string text = "\n### Failed episodes\n\nThey count as not successful.\n\n" +
@@ -242,7 +258,8 @@ std::string RunSection(const ReportRun& run) {
          "\n### Floor requirement\n\n" + GroupTable(GroupByCrossFloor(run.episodes)) +
          "\n### Scenes\n\n" + GroupTable(GroupByScene(run.episodes)) + "\n### Categories\n\n" +
          CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run) +
-         FailedEpisodes(run) + "\n### Causes of failure\n\n" + CauseTableText(run);
+         FailedEpisodes(run) + "\n### Causes of failure\n\n" + CauseTableText(run) +
+         PixelCauseText(run);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ std::array<int, kOutcomeNames.size()> CountsOf(const PaperOutcomes& p) {
   return {p.success, p.not_reached, p.misdetection, p.all_explored, p.stuck, p.out_of_time};
 }
 
-/// One bar of shares, from left to right.
+/// A bar of shares, from left to right.
 std::string Stack(const std::array<int, kOutcomeNames.size()>& counts, double y,
                   const std::string& label) {
   constexpr double kStart = 170, kWidth = 400, kBar = 14;

@@ -31,7 +31,7 @@ Result<ReportRun> ReadRun(const std::filesystem::path& path, bool require_all) {
   return run;
 }
 
-/// Runs of one name would share their rows.
+/// Runs of the same name would share their rows.
 void MakeNamesUnique(std::vector<ReportRun>& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     int same = 0;

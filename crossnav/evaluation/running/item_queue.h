@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which item a worker gets next. Items of a group (episodes of a scene) go to one worker as long as
-// it has any, so that few workers load the same scene; idle workers help where most is left.
+// Assigns items to workers. Items of a group (episodes of a scene) go to one worker while any are
+// left, so that few workers load the same scene; idle workers join the group with the most items
+// left.
 #pragma once
 
 #include <deque>
@@ -10,10 +11,10 @@ namespace crossnav::evaluation {
 
 class ItemQueue {
  public:
-  /// `groups` names the group of each item; empty = each item is its own.
+  /// `groups`: group of each item; empty = each item is its own group.
   ItemQueue(int count, const std::vector<int>& groups);
 
-  /// Next item of a worker whose last item was `last_item` (-1 = it had none); -1 = none is left.
+  /// Next item of a worker with last item `last_item` (-1 = none yet); -1 = no item is left.
   int Take(int last_item);
 
  private:

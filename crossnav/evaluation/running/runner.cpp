@@ -12,13 +12,15 @@
 #include "crossnav/evaluation/running/walk_log.h"
 #include "crossnav/evaluation/scoring/cause.h"
 #include "crossnav/evaluation/scoring/outcome.h"
+#include "crossnav/language/parse_description.h"
+#include "crossnav/localization/awakening.h"
 #include "crossnav/sim/sensing/ground_truth.h"
 #include "crossnav/sim/sensing/simulator.h"
 
 namespace crossnav::evaluation {
 namespace {
 
-/// The floor the agent stands on; on a flight, the last one it stood on.
+/// The floor under the agent; on a flight, the last floor.
 class FloorWatch {
  public:
   FloorWatch(const sim::NavMesh& navmesh, const Vector3d& p_world)
@@ -45,7 +47,7 @@ class FloorWatch {
   int transitions_ = 0;
 };
 
-/// Everything that lives as long as one episode.
+/// State of one episode.
 class EpisodeRun {
  public:
   EpisodeRun(const SceneContext& context, const Episode& episode, const RunConfig& config,
@@ -69,6 +71,9 @@ class EpisodeRun {
     int actions_before = 0;
   };
 
+  Result<void> WakeUp();
+  Result<void> Localise(store::LoadedMemory memory);
+  Observation Observe();
   Result<StageRecord> RunStage(const std::string& goal);
   Result<bool> StepOnce(StageState& stage, StageEnd& end);  // true = the stage is over
   void AddCost(const StepCost& cost);
@@ -76,6 +81,7 @@ class EpisodeRun {
   void NotePassing(StageState& stage) const;
   void FinishStage(const StageEnd& end, StageState& stage) const;
   bool IsClaimNear(const std::string& goal, const Vector3d& p_claimed_world) const;
+  bool IsClaimOf(const std::string& goal, const Vector3d& p_claimed_world) const;
   bool HasBudget(int actions_before) const {
     const bool is_per_goal = config_.eval.budget_scope == "goal";
     return actions_ - (is_per_goal ? actions_before : 0) < config_.eval.action_budget;
@@ -91,14 +97,22 @@ class EpisodeRun {
   std::deque<double> recent_m_;  // displacement of the last eval.stuck_steps steps
   int actions_ = 0;
   TimingLog timing_;
+  // The frame that the agent's poses are in. Another than the world's after waking up lost: the
+  // map's, as far as the localisation is right, or that of the start.
+  Pose T_agent_world_ = Pose::Identity();
+  Pose T_world_claims_ = Pose::Identity();  // of what the agent says; a map's frame is the world's
 };
 
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   observers_ = observers;
   // Ground-truth perception reads the instance image, never the colours; networks the reverse.
-  simulator_.ShowColour(config_.eval.perception != "oracle" ||
-                        std::any_of(observers.begin(), observers.end(),
-                                    [](const RunObserver* o) { return o->NeedsColour(); }));
+  // Descriptions may name colours.
+  simulator_.ShowColour(
+      config_.eval.perception != "oracle" ||
+      std::any_of(episode_.goals.begin(), episode_.goals.end(),
+                  [](const auto& goal) { return language::IsDescription(goal); }) ||
+      std::any_of(observers.begin(), observers.end(),
+                  [](const RunObserver* o) { return o->NeedsColour(); }));
   const double start_ms = WallMs();
   if (auto ok = CheckPlayable(context_, episode_); !ok) return tl::unexpected(ok.error());
   if (auto ok = simulator_.Reset(episode_.start); !ok) {
@@ -115,8 +129,9 @@ Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   for (RunObserver* observer : observers_) {
     if (auto ok = observer->OnStart(agent_); !ok) return tl::unexpected(ok.error());
   }
+  if (auto ok = WakeUp(); !ok) return tl::unexpected(ok.error());
   for (const std::string& goal : episode_.goals) {
-    if (!HasBudget(actions_)) break;  // a stage that was not executed leaves no row
+    if (!HasBudget(actions_)) break;  // a stage without an action leaves no row
     auto stage = RunStage(goal);
     if (!stage) return tl::unexpected(stage.error());
     record.stages.push_back(std::move(*stage));
@@ -134,6 +149,55 @@ Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
     if (auto ok = observer->OnEpisodeEnd(agent_, record); !ok) return tl::unexpected(ok.error());
   }
   return record;
+}
+
+Result<void> EpisodeRun::WakeUp() {
+  for (RunObserver* observer : observers_) {
+    auto memory = observer->LostIn();
+    if (!memory) return tl::unexpected(memory.error());
+    if (*memory) return Localise(std::move(**memory));
+  }
+  return {};
+}
+
+/// The odometry starts at the robot's own foot and knows nothing of the map.
+Result<void> EpisodeRun::Localise(store::LoadedMemory memory) {
+  const agent::Config& config = config_.agent;
+  auto awakening = localization::Awakening::In(
+      memory.map, {config.sensor.camera_height_m, config.action, config.map});
+  if (!awakening) return tl::unexpected(awakening.error());
+  const Pose T_odom_world = localization::FootFrameOf(simulator_.agent()).inverse();
+  T_agent_world_ = T_odom_world;
+  Observation observation = Observe();
+  while (awakening->Step(observation).status == localization::Status::kLocalising) {
+    simulator_.Step(awakening->last().action);
+    floors_->Move(simulator_.agent().p_world);
+    ++actions_;
+    observation = Observe();
+  }
+  Awoken awoken{awakening->last(), awakening->actions()};
+  T_agent_world_ = awakening->T_agent_odom() * T_odom_world;
+  if (awoken.answer.status == localization::Status::kKnown) {
+    observation.T_world_camera = awakening->T_agent_odom() * observation.T_world_camera;
+    const AgentPose said = FootPoseOf(observation, config.sensor.camera_height_m);
+    const AgentPose& truth = simulator_.agent();
+    awoken.off_m = (said.p_world - truth.p_world).norm();
+    awoken.off_deg = std::abs(RadToDeg(WrapAngle(said.yaw_rad - truth.yaw_rad)));
+    auto ok = agent_.Restore(std::move(memory.map), std::move(memory.memory),
+                             std::move(memory.flights), memory.seen_stairs);
+    if (!ok) return ok;
+    agent_.RestoreObjects(std::move(memory.objects), static_cast<int>(memory.header.revision));
+  } else {
+    T_world_claims_ = T_odom_world.inverse();
+  }
+  for (RunObserver* observer : observers_) observer->OnAwoken(awoken);
+  return {};
+}
+
+Observation EpisodeRun::Observe() {
+  Observation observation = simulator_.Observe();
+  observation.T_world_camera = T_agent_world_ * observation.T_world_camera;
+  return observation;
 }
 
 Result<StageRecord> EpisodeRun::RunStage(const std::string& goal) {
@@ -164,7 +228,7 @@ Result<StageRecord> EpisodeRun::RunStage(const std::string& goal) {
 
 Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
   Stopwatch watch;
-  const Observation observation = simulator_.Observe();
+  const Observation observation = Observe();
   const Stopwatch::Lap observed = watch.Next();
   auto step = agent_.Step(observation);
   if (!step) return tl::unexpected(step.error());
@@ -187,8 +251,14 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
     end.stopped = true;
     end.is_reached = IsGoalReached(context_, context_.TargetsOf(stage.record.goal),
                                    simulator_.agent().p_world, config_.eval);
-    end.is_claim_near =
-        step->p_claimed_world && IsClaimNear(stage.record.goal, *step->p_claimed_world);
+    const std::optional<Vector3d> p_claimed =
+        step->p_claimed_world
+            ? std::optional<Vector3d>(T_world_claims_ * *step->p_claimed_world)
+            : std::nullopt;
+    if (language::IsDescription(stage.record.goal))
+      end.is_reached =
+          end.is_reached && p_claimed && IsClaimOf(stage.record.goal, *p_claimed);
+    end.is_claim_near = p_claimed && IsClaimNear(stage.record.goal, *p_claimed);
   } else {
     Move(step->action, stage);
   }
@@ -219,7 +289,7 @@ void EpisodeRun::Move(Action action, StageState& stage) {
   if (floors_->floor() != floor_before) stage.cause.Arrive(floor_before, floors_->floor());
 }
 
-/// Was a true instance in view and within the success radius?
+/// Notes whether a true instance was in view and within the success radius.
 void EpisodeRun::NotePassing(StageState& stage) const {
   if (stage.was_in_view) return;
   const Vector3d& p_world = simulator_.agent().p_world;
@@ -238,6 +308,17 @@ bool EpisodeRun::IsClaimNear(const std::string& goal, const Vector3d& p_claimed_
     if (IsWithinBoxRadius(target, p_claimed_world, floor, config_.eval)) return true;
   }
   return false;
+}
+
+/// Another object beside the one that was described is a wrong one.
+bool EpisodeRun::IsClaimOf(const std::string& goal, const Vector3d& p_claimed_world) const {
+  constexpr double kAtBox_m = 0.3;  // chosen: three voxels
+  const auto& targets = context_.TargetsOf(goal);
+  return std::any_of(targets.begin(), targets.end(), [&](const Target& target) {
+    return target.box.HorizontalDistance(p_claimed_world) <= kAtBox_m &&
+           p_claimed_world.z() >= target.box.min.z() - kAtBox_m &&
+           p_claimed_world.z() <= target.box.max.z() + kAtBox_m;
+  });
 }
 
 void EpisodeRun::FinishStage(const StageEnd& end, StageState& stage) const {

@@ -18,15 +18,15 @@ namespace {
 
 using geometry::VoxelKey;
 
-constexpr double kApart_m = 1.0;  // chosen: places; a piece of furniture hides less from four sides
+constexpr double kApart_m = 1.0;  // chosen: distance of places; four sides reveal most furniture
 constexpr std::array<double, 2> kPitches_deg = {0,
                                                 -30};  // chosen: ahead, and the ground at the feet
 constexpr int kYaws = 4;                               // chosen: a field of view of 90 degrees
 constexpr int kPixelStep = 2;         // chosen: an object's voxel shows in many pixels
-constexpr int kBackgroundShare = 8;   // chosen: of voxels that are no goal's, one in as many
+constexpr int kBackgroundShare = 8;   // chosen: one in eight background voxels is kept
 constexpr float kCertainWeight = 10;  // chosen: ten frames at the best distance
 
-/// Points of the walkable surface, each `kApart_m` from those before it, by x, y, z.
+/// Points of the walkable surface, each `kApart_m` from the points before it, by x, y, z.
 std::vector<Vector3d> PlacesOf(const SceneContext& context) {
   std::vector<Vector3d> places;
   for (const Vector3d& p : context.WalkablePoints()) {
@@ -38,7 +38,7 @@ std::vector<Vector3d> PlacesOf(const SceneContext& context) {
   return places;
 }
 
-/// What the views show at a voxel.
+/// Instances that the views show at a voxel.
 struct Shown {
   std::map<int, int> pixels;  // by instance
   double nearest_m = 1e9;
@@ -48,8 +48,9 @@ struct Shown {
 class Surveyor {
  public:
   Surveyor(const SceneContext& context, const RunConfig& config, perception::PerceptionSuite& suite,
-           sim::Simulator& simulator)
-      : context_(context),
+           sim::Simulator& simulator, const OnView& on_view)
+      : on_view_(on_view),
+        context_(context),
         config_(config),
         suite_(suite),
         simulator_(simulator),
@@ -71,6 +72,7 @@ class Surveyor {
   Result<void> Look(bool with_objects);
   void NoteObjects(const Observation& obs);
 
+  const OnView& on_view_;
   const SceneContext& context_;
   const RunConfig& config_;
   perception::PerceptionSuite& suite_;
@@ -94,7 +96,7 @@ Result<void> Surveyor::LookAround(const Vector3d& p_world, bool with_objects) {
   return {};
 }
 
-/// One view into the map, as Agent::Step integrates it.
+/// Integrates one view into the map, as Agent::Step does.
 Result<void> Surveyor::Look(bool with_objects) {
   const Observation obs = simulator_.Observe();
   const auto& ends = survey_.map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
@@ -106,6 +108,7 @@ Result<void> Surveyor::Look(bool with_objects) {
   flight_survey_.Update(stairs_, levels_m_, simulator_.agent().p_world, config_.agent.map.voxel_m,
                         &survey_.flights);
   if (with_objects) NoteObjects(obs);
+  if (on_view_) on_view_(obs, simulator_);
   return {};
 }
 
@@ -133,8 +136,8 @@ void Surveyor::NoteObjects(const Observation& obs) {
   }
 }
 
-/// The instance's name, as the agent's encoder would say it, as the feature of each voxel that
-/// mostly showed the instance.
+/// Writes the text vector of the instance's name, by the agent's encoder, as the feature of each
+/// voxel that mostly showed the instance.
 Result<void> Surveyor::NameObjects() {
   std::map<std::string, std::vector<std::uint16_t>> half;  // by name
   for (const auto& [key, shown] : shown_) {
@@ -169,7 +172,8 @@ Known KnownOf(const std::string& variant) {
   return variant == "known-objects" ? Known::kObjects : Known::kNothing;
 }
 
-Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known) {
+Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
+                                const OnView& on_view) {
   const bool with_objects = known == Known::kObjects;
   if (with_objects && config.eval.perception != "oracle") {
     return Fail(ErrorCode::kUnsupported,
@@ -178,10 +182,10 @@ Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& co
   }
   sim::Simulator simulator(context.scene(), context.navmesh(), context.caster(),
                            config.agent.sensor, config.agent.action);
-  simulator.ShowColour(false);
+  simulator.ShowColour(static_cast<bool>(on_view));
   auto suite = sim::GroundTruthPerception(simulator, config.ground_truth);
   if (!suite) return tl::unexpected(suite.error());
-  Surveyor surveyor(context, config, *suite, simulator);
+  Surveyor surveyor(context, config, *suite, simulator, on_view);
   for (const Vector3d& p : PlacesOf(context)) {
     if (auto ok = surveyor.LookAround(p, with_objects); !ok) return tl::unexpected(ok.error());
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A saved memory that the benchmark makes from the scene itself: ground truth, for the variants
-// known-map and known-objects (docs/navigation.md, "What a shorter path would need") and for
-// nothing else. Geometry and stairs: what the agent's own mapping makes of views from all over the
-// navmesh. Objects: the name of each instance as the feature of its surface voxels. World frame,
-// metres. Deterministic.
+// Saved memory from ground truth, for the variants known-map and known-objects (docs/navigation.md,
+// "What a shorter path would need") only. Geometry and stairs: the agent's own mapping of views
+// from all over the navmesh. Objects: the text vector of each instance's name as the feature of its
+// surface voxels. World frame, metres. Deterministic.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "crossnav/core/result.h"
@@ -14,13 +14,14 @@
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
+#include "crossnav/sim/sensing/simulator.h"
 
 namespace crossnav::evaluation {
 
-/// What a variant is told before its first step.
+/// Knowledge of a variant before its first step.
 enum class Known { kNothing, kMap, kObjects };
 
-/// known-map, known-objects; kNothing for every other variant.
+/// known-map, known-objects; kNothing for all other variants.
 Known KnownOf(const std::string& variant);
 
 struct SceneSurvey {
@@ -31,8 +32,11 @@ struct SceneSurvey {
   int places = 0, views = 0;
 };
 
-/// Costs some 6 ms a view of 640 x 640, eight views a square metre or so. Errors: objects that are
-/// to be known to an encoder of another kind than ground truth's (eval.perception = networks).
-Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known);
+/// Costs some 6 ms a view of 640 x 640, about eight views a square metre. Error: known objects with
+/// an encoder other than ground truth's (eval.perception = networks).
+/// `on_view` sees every view besides, in colour.
+using OnView = std::function<void(const Observation&, const sim::Simulator&)>;
+Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
+                                const OnView& on_view = {});
 
 }  // namespace crossnav::evaluation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CPU time per stage over many steps, and its percentiles. Timings never reach a decision.
+// CPU time per stage over many steps, and its percentiles. Timings never influence a decision.
 #pragma once
 
 #include <ctime>
@@ -43,7 +43,7 @@ class Stopwatch {
   Lap last_{WallMs(), CpuMs()};
 };
 
-/// Value at `share` in [0, 1] of the sample, nearest rank; 0 for an empty one.
+/// Value at `share` in [0, 1] of the sample, nearest rank; 0 for an empty sample.
 double PercentileOf(std::vector<double> sample, double share);
 
 /// Samples by stage name.

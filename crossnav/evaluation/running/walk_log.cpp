@@ -6,7 +6,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-/// The instance that a STOP at `p_world` was about: the nearest of those that make it a success.
+/// The instance of a STOP at `p_world`: the nearest instance for which it is a success.
 const Target* StoppedAt(const SceneContext& context, const std::string& goal,
                         const Vector3d& p_world, const EvalConfig& eval) {
   const int floor = context.navmesh().FloorOf(p_world);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Follows the robot through a stage, for StageWalk. World frame, metres.
+// Records the robot's path through a stage, for StageWalk. World frame, metres.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ namespace crossnav::evaluation {
 
 class WalkLog {
  public:
-  /// After an action: where the robot is, and how far the action moved it.
+  /// Adds the place after an action, and the distance that it moved.
   void Add(Action action, const Vector3d& p_world, double moved_m);
 
-  /// `stage` has ended, with its outcome, start and end known.
+  /// `stage` has ended; its outcome, start and end are set.
   StageWalk Finish(const SceneContext& context, const StageRecord& stage,
                    const EvalConfig& eval) const;
 

@@ -51,11 +51,11 @@ class Pool {
       worker = *fresh;
     }
     ++open_;
-    GiveItem(worker, item);  // a worker that is gone shows in the next poll
+    GiveItem(worker, item);  // the next poll reports a dead worker
     return {};
   }
 
-  /// Waits for answers, or for the first moment at which a worker's time may be over.
+  /// Waits for answers, or for the earliest deadline of a worker.
   Result<void> ServeOnce() {
     std::vector<pollfd> polled;
     polled.reserve(workers_.size());
@@ -79,7 +79,7 @@ class Pool {
     return {};
   }
 
-  /// Takes the answer of a worker, puts another in its place where it is gone, and goes on.
+  /// Takes the answer of a worker, replaces a dead worker, and continues.
   Result<void> Answer(Worker& worker, ItemAnswer answer) {
     const int item = worker.item;
     worker.item = -1;
@@ -90,13 +90,13 @@ class Pool {
       const std::string how = EndWorker(worker, is_late);
       answer.error = is_late ? Error{ErrorCode::kInvalid, "its time was over", ""}
                              : Error{ErrorCode::kIo, "the worker process ended: " + how, ""};
-      worker.last_item = item;  // the next worker stays with the group
+      worker.last_item = item;  // the new worker keeps the group
     }
     if (auto ok = task_.deliver(item, std::move(answer)); !ok) return ok;
     return Employ(worker);
   }
 
-  /// -1 = until something happens.
+  /// Timeout of the poll; -1 = none.
   int PollMs() const {
     if (task_.item_seconds <= 0) return -1;
     double least_s = 1;  // chosen: a worker with several threads uses up CPU time faster
@@ -109,7 +109,7 @@ class Pool {
   const PoolTask& task_;
   ItemQueue queue_;
   std::vector<Worker> workers_;
-  int open_ = 0;  // items that are being worked on
+  int open_ = 0;  // items in progress
 };
 
 }  // namespace

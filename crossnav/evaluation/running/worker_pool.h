@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Long work in processes: a worker that crashes or hangs takes nothing with it but its own item, no
-// room has to be thread-safe for it, and no worker outlives this process. Answers are delivered as
-// they are finished, so their order depends on timing. Call it from the main thread: the kernel
-// ends the workers with the thread that started them.
+// Worker processes for long work: a worker that crashes or hangs loses only its own item, no room
+// has to be thread-safe for it, and no worker outlives this process. Answers arrive in the order of
+// completion, which depends on timing. Call from the main thread: the kernel ends the workers with
+// the thread that started them.
 #pragma once
 
 #include <functional>
@@ -17,28 +17,28 @@ enum class ItemEnd {
   kDone,
   kError,  ///< `work` returned an error or threw
   kCrash,  ///< the worker process ended
-  kTime,   ///< the worker was killed because its time was over
+  kTime,   ///< killed at the end of its time
 };
 
 struct ItemAnswer {
   ItemEnd end = ItemEnd::kDone;
-  std::string text;  ///< what `work` returned; empty unless done
+  std::string text;  ///< result of `work`; empty unless done
   Error error;       ///< set unless done
 };
 
 struct PoolTask {
   int count = 0;            ///< items 0 .. count-1
-  int jobs = 1;             ///< processes; the work is never done in this one
-  double item_seconds = 0;  ///< CPU time of an item [s], 0 = no limit; four times that by the clock
+  int jobs = 1;             ///< processes; this process does no work
+  double item_seconds = 0;  ///< CPU time of an item [s], 0 = no limit; four times that in wall time
   std::vector<int> groups;  ///< of each item, see item_queue.h; empty = no grouping
-  /// The work for one item, in a worker; its text goes to `deliver`.
+  /// Work of one item, in a worker; its text goes to `deliver`.
   std::function<Result<std::string>(int item)> work;
-  /// Called in this process once for each item, when it is finished. An error stops everything.
+  /// Called in this process once for each finished item. An error stops everything.
   std::function<Result<void>(int item, ItemAnswer answer)> deliver;
 };
 
-/// Runs everything. Fails where `deliver` does or where no process can be started; an item's
-/// failure is an answer and stops nothing.
+/// Runs all items. Fails if `deliver` fails or no process can be started; an item's failure is an
+/// answer and stops nothing.
 Result<void> RunPool(const PoolTask& task);
 
 }  // namespace crossnav::evaluation

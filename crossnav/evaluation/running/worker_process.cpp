@@ -57,8 +57,8 @@ bool ReadText(int descriptor, std::string& text) {
   return ReadAll(descriptor, text.data(), size);
 }
 
-/// The work, with what it throws (no memory, say) turned into an error: an exception must not leave
-/// the worker through the frames that it shares with its parent.
+/// Runs the work and turns exceptions (out of memory) into errors: an exception must not unwind
+/// into the frames that the worker shares with its parent.
 Result<std::string> WorkSafely(const PoolTask& task, int item) {
   try {
     return task.work(item);
@@ -67,7 +67,7 @@ Result<std::string> WorkSafely(const PoolTask& task, int item) {
   }
 }
 
-/// Life of a worker: an item number in, a flag and the texts of the answer out.
+/// Loop of a worker: receives an item number, sends a flag and the texts of the answer.
 void ServeItems(int descriptor, const PoolTask& task) {
   std::int32_t item = 0;
   while (ReadAll(descriptor, &item, sizeof item)) {
@@ -86,7 +86,7 @@ void ServeItems(int descriptor, const PoolTask& task) {
   }
 }
 
-/// A worker must not outlive its parent. The check is for a parent that ended before the request.
+/// Ends the worker with its parent. The check covers a parent that ended before the request.
 void EndWithParent(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);

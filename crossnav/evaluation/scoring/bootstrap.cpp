@@ -50,7 +50,7 @@ std::vector<std::vector<int>> SceneMembers(std::span<const EpisodeRecord> episod
   return members;
 }
 
-/// As many scenes as there are, drawn with all their episodes.
+/// Draws as many scenes as there are, each with all its episodes.
 std::vector<int> ResampleScenes(Rng& rng, const std::vector<std::vector<int>>& scenes) {
   std::vector<int> indices;
   for (std::size_t i = 0; i < scenes.size(); ++i) {

@@ -10,7 +10,7 @@ namespace crossnav::evaluation {
 namespace {
 
 constexpr double kOffFloor_m = 0.6;  // chosen: more than a sunken room, less than half a storey
-constexpr int kFlightPoints = 3;     // chosen: 0.12 m2 of treads, so that one stray voxel is none
+constexpr int kFlightPoints = 3;     // chosen: 0.12 m2 of treads; a stray voxel does not count
 constexpr int kGroundSlack_vox = 2;  // chosen: the navmesh lies up to a cell off the surface
 
 /// "go_to" of "go_to: no progress"; empty for an event that ends no activity.
@@ -22,7 +22,7 @@ std::string_view EndedActivity(std::string_view event) {
   return {};
 }
 
-/// What policy.profile = paper says instead.
+/// Ending events of policy.profile = paper.
 bool IsPaperEnding(std::string_view event) {
   return event == "stairs given up" || event == "entrance rejected" ||
          event == "history POI without success" || event.starts_with("verification failed: ");
@@ -80,7 +80,7 @@ void CauseWatch::NoteEvents(const trace::StepTrace& step, int floor) {
   }
 }
 
-/// A climb is on the flight where its way ends well above or below the floor.
+/// A climb is on a flight if its path ends well above or below the floor.
 void CauseWatch::NoteTarget(const trace::StepTrace& step, int floor) {
   for (const trace::CandidateTrace& candidate : step.candidates) {
     if (!candidate.is_target) continue;
@@ -96,7 +96,7 @@ StageCause CauseWatch::Activities() const {
 std::optional<std::pair<int, int>> NextFloor(std::span<const sim::FloorConnection> connections,
                                              int from, const std::vector<int>& goals) {
   if (Holds(goals, from)) return std::nullopt;
-  std::map<int, int> first = {{from, from}};  // floor: the first one on the way to it
+  std::map<int, int> first = {{from, from}};  // for each floor: first floor on the path to it
   for (std::deque<int> open = {from}; !open.empty(); open.pop_front()) {
     const int at = open.front();
     if (Holds(goals, at)) return std::pair(first[at], at);

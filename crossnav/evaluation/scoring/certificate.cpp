@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an episode claims about floors, made and proven again from the scene.
+// Floor requirements of an episode: computed, and proven again from the scene.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-/// Floors on which the goal can be certified by a place that the start can reach.
+/// Floors on which a place reachable from the start certifies the goal.
 std::vector<int> ReachableFloorsOf(const SceneContext& context, const std::string& goal,
                                    const Vector3d& p_start_world) {
   std::vector<int> floors;
@@ -51,8 +51,7 @@ void CompareCertificates(const Episode& claimed, const Episode& proven,
   }
 }
 
-/// The first stage, from 1, that no STOP at a place to which no floor change leads solves; 0 = all
-/// are solved.
+/// The first stage, from 1, that no STOP without a floor change solves; 0 = none.
 int FirstStageElsewhere(const SceneContext& context, const Episode& episode,
                         const Vector3d& p_start, const EvalConfig& eval) {
   const int floor = context.navmesh().FloorOf(p_start), part = context.Parts().PartAt(p_start);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kApart_m = 0.2;  // chosen: less than a forward action
 
-/// The middle of that part of the box which the agent's approach would point the camera at
-/// (policy::AimPoint: up to 1 m beyond the nearest).
+/// Middle of the part of the box at which the agent's approach would point the camera
+/// (policy::AimPoint: up to 1 m beyond the nearest point).
 Vector3d AimAt(const Box3& box, const Vector3d& p_foot) {
   constexpr double kDepth_m = 1.0;
   const double reach_m = box.HorizontalDistance(p_foot) + kDepth_m;
@@ -40,7 +40,7 @@ sim::SeenInstance SeenIn(const sim::Frame& frame, int id, MaskImage& mask) {
   return seen;
 }
 
-/// Pitches that the camera can have and that have `elevation_rad` in the picture, nearest first.
+/// Possible pitches of the camera with `elevation_rad` in the picture, nearest first.
 std::vector<double> PitchesTowards(double elevation_rad, const RunConfig& config) {
   const ActionConfig& action = config.agent.action;
   const double half_view_rad = DegToRad(config.agent.sensor.hfov_deg) / 2;
@@ -75,7 +75,7 @@ bool ConfirmationRule::IsConfirmedAt(const AgentPose& pose) const {
   obs.depth_m = std::move(frame.depth_m);
   const auto sightings = policy::LiftDetections({*detection}, obs, config_.agent.map, policy.object,
                                                 policy.object.detector_confidence);
-  policy::LivePois pois;  // as after as many such pictures as a stable POI takes
+  policy::LivePois pois;  // state after the pictures that a stable POI requires
   for (int step = 0; step < policy.object.stable_frames; ++step)
     pois.Update(sightings, policy.object, voxel_m, step);
   const auto stable = pois.Stable(policy.object);

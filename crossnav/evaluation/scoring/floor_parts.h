@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where one can walk without a floor change: the whole walkable surface in points as dense as the
-// navmesh's cells, flooded, and cut where the floor changes. Exhaustive, and independent of
+// Parts of the walkable surface that are connected without a floor change: points as dense as the
+// navmesh's cells, flood-filled, cut where the floor changes. Exhaustive, and independent of
 // Detour's searches. World frame, metres.
 #pragma once
 
@@ -15,10 +15,10 @@ class FloorParts {
  public:
   explicit FloorParts(const sim::NavMesh& navmesh);
 
-  /// The part on which `p_world` lies; -1 = on none.
+  /// Part of `p_world`; -1 = none.
   int PartAt(const Vector3d& p_world) const;
 
-  /// True where `holds(point)` is true of some point of the part.
+  /// True if `holds(point)` is true for some point of the part.
   template <class Holds>
   bool AnyPoint(int part, Holds&& holds) const {
     for (const Point& point : points_) {

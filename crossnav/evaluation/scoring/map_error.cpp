@@ -7,9 +7,9 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr double kReach_m = 0.5;      // chosen: what is farther off is simply wrong
+constexpr double kReach_m = 0.5;      // chosen: larger errors count as this
 constexpr std::size_t kMost = 4000;   // chosen: voxels; more do not change the mean
-constexpr double kStrayVoxels = 1.5;  // chosen: half a voxel, and one for the discretization
+constexpr double kStrayVoxels = 1.5;  // chosen: half a voxel, plus one for the discretization
 
 double DistanceToSurface(const Vector3d& p_world, const sim::RayCaster& caster) {
   double nearest_m = kReach_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a map's surfaces are from the scene's: what imperfect sensors do to a map.
+// Distance of a map's surfaces from the scene's: the effect of imperfect sensors on a map.
 #pragma once
 
 #include "crossnav/geometry/voxel_map.h"
@@ -8,12 +8,12 @@
 namespace crossnav::evaluation {
 
 struct MapError {
-  double mean_m = 0;  ///< from a surface voxel's centre to the next real surface, 0.5 m at most
-  double stray_share = 0;  ///< of the surface voxels farther than 1.5 voxels from any
-  int voxels = 0;          ///< that were measured: all, or every n-th of many
+  double mean_m = 0;  ///< from a surface voxel's centre to the next real surface, at most 0.5 m
+  double stray_share = 0;  ///< share of surface voxels farther than 1.5 voxels from any surface
+  int voxels = 0;          ///< measured voxels: all, or every n-th of many
 };
 
-/// Surface voxels against the meshes, along 26 directions each. All zero for a map without
+/// Distance of surface voxels to the meshes, along 26 directions each. All zero for a map without
 /// surfaces.
 MapError MeasureMapError(const geometry::VoxelMap& map, const sim::RayCaster& caster);
 

@@ -23,7 +23,7 @@ std::optional<double> StageSoftSpl(const StageRecord& stage) {
   return progress * PathRatio(stage.shortest_m, stage.length_m);
 }
 
-/// Sums over episodes, turned into shares by Finish.
+/// Sums over episodes; Finish turns them into shares.
 struct Sums {
   Metrics m;
   double soft_spl = 0, distance_m = 0;

@@ -24,26 +24,26 @@ struct Metrics {
   std::vector<int> reached;  ///< episodes that reached stage k
   std::vector<double> sr_global, spl_global;
   std::vector<std::optional<double>> sr_conditional, spl_conditional;  ///< empty where reached = 0
-  // Named apart, so that nobody mixes them up with the above.
+  // Names keep these apart from the figures above.
   double onemap_stage_spl = 0;     ///< OneMap: mean over stages of SPL_k, unexecuted stages 0
   double onemap_episode_spl = 0;   ///< OneMap: the same, of completed episodes only
   std::optional<double> soft_spl;  ///< mean over stages of (1 - D/d*) d*/max(d*, l)
   std::optional<double> distance_to_goal_m;  ///< mean over executed stages, at their end
 };
 
-/// SPL_k = s_k d*_k / max(d*_k, l_k) (eq:per_goal_spl); 1 for a success that needed no path.
+/// SPL_k = s_k d*_k / max(d*_k, l_k) (eq:per_goal_spl); 1 for a success without a path.
 double StageSpl(const StageRecord& stage);
 
 /// Aborts if the identities of eq:conditional_global_relation do not hold. Empty input: all zero.
 Metrics ComputeMetrics(std::span<const EpisodeRecord> episodes);
-/// The same over a selection, repeats allowed (bootstrap).
+/// Metrics of a selection, repeats allowed (bootstrap).
 Metrics ComputeMetricsOf(std::span<const EpisodeRecord> episodes, std::span<const int> indices);
 
 /// Row = goal category, column = outcome; a row per category that occurs, sorted by name.
 using OutcomeTable = std::map<std::string, std::array<int, kOutcomeNames.size()>>;
 OutcomeTable CountOutcomes(std::span<const EpisodeRecord> episodes);
 
-/// Without those that do not fit their scene: nobody can play them, so no figure counts them.
+/// Without episodes that do not fit their scene: they cannot be played and count in no figure.
 std::vector<EpisodeRecord> JudgedEpisodes(std::span<const EpisodeRecord> episodes);
 
 /// Episodes without a result, by reason (error, crash, time). They count as not successful.
@@ -73,7 +73,7 @@ struct Interval {
 /// Wilson's 95 % interval of a share, `hits` of `trials`; [0, 1] without trials.
 Interval WilsonInterval(int hits, int trials);
 
-/// A figure of a set of episodes; empty where it is undefined (e.g. nobody reached the stage).
+/// A figure of a set of episodes; empty where it is undefined (e.g. no episode reached the stage).
 using Statistic = std::function<std::optional<double>(const Metrics&)>;
 
 /// All figures of a report under their names: SR, SPL, PR, PPL, SR_cond_1, ...
@@ -89,7 +89,7 @@ std::map<std::string, Interval> BootstrapIntervals(std::span<const EpisodeRecord
                                                    const BootstrapConfig& config);
 
 /// Difference b - a of two runs on the same episodes, resampled in pairs: whole scenes are drawn,
-/// because episodes of a scene are alike; episodes where there is one scene only.
+/// because episodes of a scene are alike; single episodes if there is only one scene.
 struct PairedDifference {
   double difference = 0;
   Interval interval;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How an executed stage ended (benchmark.md, "Running" and "Outcome of an executed stage"). Judges
-// only: nothing here is visible to the agent. World frame, metres.
+// Outcome of an executed stage (benchmark.md, "Running" and "Outcome of an executed stage"). Judges
+// only: the agent cannot see it. World frame, metres.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace crossnav::evaluation {
 bool IsWithinBoxRadius(const Target& target, const Vector3d& p_world, int floor,
                        const EvalConfig& eval);
 
-/// True where a STOP at `p_world` is a success for one of `targets`.
+/// True if a STOP at `p_world` is a success for one of `targets`.
 bool IsGoalReached(const SceneContext& context, const std::vector<Target>& targets,
                    const Vector3d& p_world, const EvalConfig& eval);
 
@@ -26,23 +26,23 @@ bool IsGoalReached(const SceneContext& context, const std::vector<Target>& targe
 bool IsOnWrongFloor(const std::vector<Target>& targets, const Vector3d& p_world, int floor,
                     const EvalConfig& eval);
 
-/// What is known when a stage ends.
+/// Facts at the end of a stage.
 struct StageEnd {
   bool stopped = false;        ///< the agent issued STOP
-  bool is_reached = false;     ///< and the goal was there
+  bool is_reached = false;     ///< and the goal was within reach
   bool is_claim_near = false;  ///< the claimed point lies within the radius of a true instance
   bool all_explored = false;   ///< no candidate was left
-  double recent_path_m = 0;    ///< moved in the last eval.stuck_steps steps
+  double recent_path_m = 0;    ///< distance moved in the last eval.stuck_steps steps
 };
 Outcome JudgeStage(const StageEnd& end, const EvalConfig& eval);
 
-/// Follows the events of one stage for what happened at the stairs. never_found includes entrances
-/// that were seen and never visited.
+/// Follows the events of one stage at the stairs. never_found includes entrances that were seen and
+/// never visited.
 class StairWatch {
  public:
   void Add(const trace::StepTrace& step);
-  /// never_found, entrance_rejected, lost_on_flight, landing_not_confirmed, or empty when the
-  /// stairs were no problem. `transitions` are true arrivals on another floor.
+  /// never_found, entrance_rejected, lost_on_flight, landing_not_confirmed, or empty if the stairs
+  /// were no problem. `transitions` are true arrivals on another floor.
   std::string Verdict(int transitions) const;
 
  private:

@@ -9,6 +9,7 @@
 #include "crossnav/evaluation/scoring/confirmation.h"
 #include "crossnav/evaluation/scoring/outcome.h"
 #include "crossnav/evaluation/scoring/viewpoint_cache.h"
+#include "crossnav/language/parse_description.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -21,7 +22,7 @@ bool EndsWith(const std::string& text, std::string_view end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// The scene's instance that a file's goal means: of its id, or else one at its place.
+/// The scene's instance for a goal of a file: by its id, else by its place.
 const sim::SceneInstance* InstanceOf(const sim::Scene& scene, const GoalObject& goal) {
   constexpr double kAt_m = 0.3;  // chosen: files give centres, with a few decimals
   const auto holds = [&](const sim::SceneInstance& instance) {
@@ -53,7 +54,7 @@ Result<std::unique_ptr<SceneContext>> SceneContext::Load(const std::filesystem::
   auto scene = sim::LoadScene(*folder);
   if (!scene) return tl::unexpected(scene.error());
   auto owned = std::make_unique<sim::Scene>(std::move(*scene));
-  auto navmesh = sim::NavMesh::BuildCached(*owned, config.navmesh);
+  auto navmesh = sim::NavMesh::Open(*owned, config.navmesh);
   if (!navmesh) return tl::unexpected(navmesh.error());
   return Assemble(std::move(owned), std::move(*navmesh), config);
 }
@@ -77,29 +78,53 @@ std::unique_ptr<SceneContext> SceneContext::Assemble(std::unique_ptr<sim::Scene>
   return context;
 }
 
+std::vector<Target> SceneContext::TargetsIn(const std::vector<GoalObject>& goals) const {
+  std::vector<Target> targets;
+  for (const GoalObject& goal : goals) {
+    if (goal.viewpoints_world.empty()) continue;
+    const sim::SceneInstance* instance = InstanceOf(*scene_, goal);
+    Target target{goal.object_id, goal.name, {}, goal.viewpoints_world, {}, true, {}};
+    target.box.Add(goal.p_world);
+    if (instance != nullptr) {
+      target.instance = instance->id;
+      target.box = instance->box;
+    }
+    target.floors = FloorsUnder(*navmesh_, target.viewpoints_world);
+    targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
 void SceneContext::UseGoals(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
                             const std::string& scene_id) {
   const std::string prefix = std::filesystem::path(scene_id).filename().string() + "_";
   for (const auto& [key, goals] : goals_by_category) {
     if (key.rfind(prefix, 0) != 0) continue;
-    std::vector<Target> targets;
-    for (const GoalObject& goal : goals) {
-      if (goal.viewpoints_world.empty()) continue;
-      const sim::SceneInstance* instance = InstanceOf(*scene_, goal);
-      Target target{goal.object_id, goal.name, {}, goal.viewpoints_world, {}, true, {}};
-      target.box.Add(goal.p_world);
-      if (instance != nullptr) {
-        target.instance = instance->id;
-        target.box = instance->box;
-      }
-      target.floors = FloorsUnder(*navmesh_, target.viewpoints_world);
-      targets.push_back(std::move(target));
-    }
+    auto targets = TargetsIn(goals);
     if (!targets.empty()) targets_[key.substr(prefix.size())] = std::move(targets);
   }
   places_.clear();
   seen_.clear();
   solved_.clear();
+}
+
+void SceneContext::UseDescriptions(
+    const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+    const std::string& scene_id) {
+  const std::string prefix = std::filesystem::path(scene_id).filename().string() + "_";
+  for (const auto& [key, goals] : goals_by_category) {
+    if (key.rfind(prefix, 0) != 0) continue;
+    const std::string goal = key.substr(prefix.size());
+    if (!language::IsDescription(goal)) continue;
+    auto targets = TargetsIn(goals);
+    for (Target& target : targets) {
+      const sim::SceneInstance* instance = scene_->FindInstance(target.instance);
+      if (!IsByDetection() || instance == nullptr) continue;
+      target.confirmed_world = ConfirmingPlaces(*instance, target.viewpoints_world);
+      target.is_confirmable = !target.confirmed_world.empty();
+    }
+    if (!targets.empty()) targets_[goal] = std::move(targets);
+  }
 }
 
 void SceneContext::UseMarks(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
@@ -309,7 +334,7 @@ Result<void> CheckPlayable(const SceneContext& context, const Episode& episode) 
   }
   const auto start = context.navmesh().Snap(p);
   if (!start) {
-    return Fail(ErrorCode::kMismatch, "the start lies off the navmesh of " + context.scene().id,
+    return Fail(ErrorCode::kMismatch, "the start is off the navmesh of " + context.scene().id,
                 episode.where + ": start_position");
   }
   for (const std::string& goal : episode.goals) {

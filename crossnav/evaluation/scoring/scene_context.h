@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A scene with all that the evaluator needs of it: mesh, navmesh, ray caster and, per goal name,
-// the true instances with their viewpoints (benchmark.md, "Viewpoints and distances"). World frame.
-// Not thread-safe: one per worker.
+// A scene with the evaluator's data: mesh, navmesh, ray caster and, per goal name, the true
+// instances with their viewpoints (benchmark.md, "Viewpoints and distances"). World frame. Not
+// thread-safe: one per worker.
 #pragma once
 
 #include <filesystem>
@@ -28,17 +28,17 @@ struct Target {
   int instance = 0;
   std::string name;
   Box3 box;
-  std::vector<Vector3d> viewpoints_world;  ///< X(g); empty = cannot be observed from anywhere
+  std::vector<Vector3d> viewpoints_world;  ///< X(g); empty = cannot be observed
   std::vector<int> floors;                 ///< of the viewpoints, sorted
-  /// False where the agent's detection rule confirms it from nowhere (dataset.certificate =
-  /// detection, or a file that says so). A STOP at it is a success, but nothing is certified by it
-  /// and no distance leads to it.
+  /// False if the agent's detection rule confirms it from nowhere (dataset.certificate = detection,
+  /// or a file with marks). A STOP at it is a success, but it certifies nothing and no distance
+  /// leads to it.
   bool is_confirmable = true;
-  /// dataset.certificate = detection: a viewpoint that confirms it, one for each floor and part.
+  /// dataset.certificate = detection: a confirming viewpoint for each floor and part.
   std::vector<Vector3d> confirmed_world;
 };
 
-/// Where a goal can be observed from, over all its confirmable instances.
+/// Places from which a goal can be observed, over all its confirmable instances.
 struct GoalPlaces {
   sim::WalkGoals viewpoints;
   std::map<int, sim::WalkGoals> on_floor;  ///< where stages can be certified, by floor
@@ -50,49 +50,53 @@ class SceneContext {
   static Result<std::unique_ptr<SceneContext>> Load(const std::filesystem::path& scenes_dir,
                                                     const std::string& scene_id,
                                                     const RunConfig& config);
-  /// Of a scene made in code; its navmesh is built and not cached.
+  /// Context of a scene made in code; its navmesh is built and not cached.
   static Result<std::unique_ptr<SceneContext>> Of(sim::Scene scene, const RunConfig& config);
 
-  /// Takes instances and viewpoints from an episode file, keys "<scene file>_<category>", where it
-  /// lists viewpoints, instead of looking for them: X(g) of an ObjectNav file is the file's.
+  /// Takes instances and viewpoints from an episode file that lists viewpoints, keys "<scene
+  /// file>_<category>", instead of computing them: X(g) of an ObjectNav file is the file's.
   void UseGoals(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
                 const std::string& scene_id);
 
-  /// Takes from an episode file of edition 2 which instances are not confirmable.
+  /// Takes the marks of unconfirmable instances from an episode file of edition 2.
   void UseMarks(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
                 const std::string& scene_id);
+
+  /// Takes from an episode file which instances its described goals mean ("the red chair
+  /// upstairs"): keys "<scene file>_<description>". After UseGoals and UseMarks.
+  void UseDescriptions(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+                       const std::string& scene_id);
 
   const sim::Scene& scene() const { return *scene_; }
   const sim::NavMesh& navmesh() const { return *navmesh_; }
   const sim::RayCaster& caster() const { return *caster_; }
 
-  /// Instances of a category, or of a raw name where it is no category. Computed once per goal.
+  /// Instances of a category, or of a raw name that is no category. Computed once per goal.
   const std::vector<Target>& TargetsOf(const std::string& goal) const;
 
-  /// Places by which a stage is certified: viewpoints that confirm the target under
-  /// dataset.certificate = detection, else all its viewpoints.
+  /// Places that certify a stage: viewpoints that confirm the target under dataset.certificate =
+  /// detection, else all its viewpoints.
   const std::vector<Vector3d>& CertifyingPlacesOf(const Target& target) const {
     return IsByDetection() ? target.confirmed_world : target.viewpoints_world;
   }
 
-  /// The viewpoints of TargetsOf, found on the navmesh. Computed once per goal.
+  /// The viewpoints of TargetsOf, located on the navmesh. Computed once per goal.
   const GoalPlaces& PlacesOf(const std::string& goal) const;
 
-  /// True where the goal can be certified by some place of `part` (of Parts), on `floor`.
+  /// True if some place of `part` (of Parts), on `floor`, certifies the goal.
   bool IsSeenOnPart(const std::string& goal, int floor, int part) const;
 
-  /// True where a STOP at some place of `part`, which is on `floor`, is a success under
-  /// eval.success = box. All places are tried, once per goal, part and radius.
+  /// True if a STOP at some place of `part`, on `floor`, is a success under eval.success = box.
+  /// Tries all places, once per goal, part and radius.
   bool IsSolvedOnPart(const std::string& goal, int floor, int part, const EvalConfig& eval) const;
 
   /// Sorted ids of the floors on which a confirmable instance of `goal` can be observed.
   std::vector<int> FloorsOf(const std::string& goal) const;
 
-  /// d*: shortest path from `p_world` to a viewpoint of `goal`; empty where there is none.
+  /// d*: shortest path from `p_world` to a viewpoint of `goal`; empty without a path.
   std::optional<double> DistanceToGoal(const Vector3d& p_world, const std::string& goal) const;
-  /// The same for a foot that may have walked onto a sliver which nothing leads away from (a mesh
-  /// overlaps itself in some stacked stairs): from the nearest place about it that has a way, and
-  /// the straight line there.
+  /// DistanceToGoal that tolerates a start on a disconnected navmesh sliver (a mesh overlaps itself
+  /// in some stacked stairs): from the nearest connected place, plus the straight line to it.
   std::optional<double> DistanceToGoalFromAbout(const Vector3d& p_world,
                                                 const std::string& goal) const;
 
@@ -103,13 +107,15 @@ class SceneContext {
   /// The walkable surface, cut where the floor changes. Computed once.
   const FloorParts& Parts() const;
 
-  /// Floor under a point that may be up to a room's height above it.
+  /// Floor under a point at most a room's height above it.
   int FloorUnder(const Vector3d& p_world) const;
 
  private:
   SceneContext() = default;
+  /// Of an episode file's objects that have viewpoints.
+  std::vector<Target> TargetsIn(const std::vector<GoalObject>& goals) const;
   bool IsByDetection() const { return config_.dataset.certificate == "detection"; }
-  /// Where the detection rule confirms the instance: at most one of its viewpoints a floor and
+  /// Places where the detection rule confirms the instance: at most one viewpoint per floor and
   /// part.
   std::vector<Vector3d> ConfirmingPlaces(const sim::SceneInstance& instance,
                                          const std::vector<Vector3d>& viewpoints_world) const;
@@ -132,12 +138,12 @@ class SceneContext {
 /// Ids ("<folder>/<file>.glb") of all scenes below `scenes_dir`, sorted.
 Result<std::vector<std::string>> ListScenes(const std::filesystem::path& scenes_dir);
 
-/// What is wrong with the episode in this scene, or nothing. kMismatch: it does not fit the navmesh
-/// (start off it, goal unreachable from there), as episodes made on another navmesh may not.
+/// Checks that the episode fits this scene. kMismatch: it does not fit the navmesh (start off it,
+/// goal unreachable), as episodes made on another navmesh may not.
 Result<void> CheckPlayable(const SceneContext& context, const Episode& episode);
 
-/// Marks of a file of edition 2 that the detection rule contradicts, in words; the context must be
-/// of dataset.certificate = detection.
+/// Marks of a file of edition 2 that contradict the detection rule, in words; the context must have
+/// dataset.certificate = detection.
 std::vector<std::string> CheckMarks(
     const SceneContext& context, const std::string& scene_id,
     const std::map<std::string, std::vector<GoalObject>>& goals_by_category);
@@ -145,8 +151,8 @@ std::vector<std::string> CheckMarks(
 /// Fills in floors, certificate, cross_floor_required and first_transition_stage.
 void Certify(const SceneContext& context, Episode& episode);
 
-/// Everything in the episode's certificate that does not hold, in words; empty = proven. Tries all
-/// places that can be walked to without a floor change.
+/// Claims of the episode's certificate that do not hold, in words; empty = proven. Tries all places
+/// that are reachable without a floor change.
 std::vector<std::string> CheckCertificate(const SceneContext& context, const Episode& episode,
                                           const RunConfig& config);
 

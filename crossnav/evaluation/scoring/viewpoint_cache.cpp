@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::json;
 using Viewpoints = std::vector<std::vector<Vector3d>>;  // of each instance
 
-constexpr int kFormat = 1;  // goes up when sim::Viewpoints finds others
+constexpr int kFormat = 1;  // raise it when sim::Viewpoints gives other results
 
 std::string KeyOf(const ViewedScene& viewed,
                   const std::vector<const sim::SceneInstance*>& instances) {
@@ -31,7 +31,7 @@ std::string KeyOf(const ViewedScene& viewed,
   return HexHash(HashString(text));
 }
 
-/// Nothing where the text is not what Text writes for `key` and so many instances.
+/// Empty unless `text` is the output of Text for `key` and that number of instances.
 std::optional<Viewpoints> Read(const std::string& text, const std::string& key,
                                std::size_t instances) {
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Viewpoints of a goal's instances as a file beside the navmesh's: they cost most of the time that
-// a scene takes to load. World frame, metres.
+// Cache of viewpoints as a file beside the navmesh's: they take most of a scene's loading time.
+// World frame, metres.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace crossnav::evaluation {
 
-/// What viewpoints follow from.
+/// Inputs of the viewpoints.
 struct ViewedScene {
   const sim::Scene& scene;
   const sim::NavMesh& navmesh;
@@ -21,9 +21,8 @@ struct ViewedScene {
   const SensorConfig& sensor;
 };
 
-/// Viewpoints of each of the instances; read from `<hash>.crossnav.viewpoints`
-/// (sim/scene/scene_cache.h) where that is of the same mesh, navmesh, camera and instances, found
-/// and written otherwise.
+/// Viewpoints of each instance: read from `<hash>.crossnav.viewpoints` (sim/scene/scene_cache.h) if
+/// that is of the same mesh, navmesh, camera and instances, else computed and written.
 std::vector<std::vector<Vector3d>> ViewpointsOf(
     const ViewedScene& viewed, const std::vector<const sim::SceneInstance*>& instances);
 

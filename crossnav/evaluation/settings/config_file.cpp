@@ -52,7 +52,7 @@ std::string Quote(const std::string& text) {
   return quoted + "\"";
 }
 
-/// The same in JSON and in TOML, except that a whole double needs its ".0" in TOML.
+/// JSON and TOML text of a value; a whole double needs its ".0" in TOML only.
 std::string FormatValue(const ConfigField& field) {
   return std::visit(
       [](const auto* value) -> std::string {
@@ -78,7 +78,7 @@ std::string Join(const std::vector<std::string>& parts, const char* separator) {
   return text;
 }
 
-/// A scalar from a file or an override, before it meets a field.
+/// A scalar from a file or an override, before conversion to a field's type.
 using Scalar = std::variant<bool, std::int64_t, double, std::string>;
 
 std::string RangeText(const ConfigField& field) {
@@ -141,7 +141,7 @@ struct SettingsReader {
     if (!problem.empty()) problems.push_back("key \"" + key + "\" " + problem);
   }
 
-  /// All problems as one error. Without a problem the warnings are appended to `warnings`.
+  /// All problems as one error. Without problems, appends the warnings to `warnings`.
   Result<void> Finish(std::vector<std::string>* warnings) {
     problems.insert(problems.end(), renamed.problems().begin(), renamed.problems().end());
     if (!problems.empty()) return Fail(ErrorCode::kInvalid, Join(problems, "\n  "), source);
@@ -175,7 +175,7 @@ void ApplyTable(const toml::table& table, const std::string& prefix, SettingsRea
   }
 }
 
-/// A bare word after `--set key=` is a TOML value, or else a string.
+/// The text after `--set key=` is a TOML value, or else a string.
 Scalar ParseOverride(const std::string& text) {
   if (text == "true") return true;
   if (text == "false") return false;
@@ -196,7 +196,7 @@ Scalar ParseOverride(const std::string& text) {
   return text;
 }
 
-/// Fields never change through a const config: the callers only read.
+/// Cast for readers only: fields never change through a const config.
 std::vector<ConfigField> ReadOnlyFields(const RunConfig& config) {
   return FieldsOf(const_cast<RunConfig&>(config));
 }
@@ -231,7 +231,7 @@ constexpr Variant kVariants[] = {
      [](RunConfig& c) {
        c.agent.policy.profile = "onemap";
        c.agent.policy.planar = true;
-       c.agent.policy.poi.use_history = false;  // its points of interest stand for them
+       c.agent.policy.poi.use_history = false;  // OneMap has its own points of interest
      }},
     {"paper", [](RunConfig& c) { c.agent.policy.profile = "paper"; }},
     {"paper-no-history-poi",
@@ -239,7 +239,7 @@ constexpr Variant kVariants[] = {
        c.agent.policy.profile = "paper";
        c.agent.policy.poi.use_history = false;
      }},
-    {"known-map", [](RunConfig&) {}},  // what is known comes with the memory (survey.h)
+    {"known-map", [](RunConfig&) {}},  // the memory provides the knowledge (survey.h)
     // Every instance, not the paper's four.
     {"known-objects", [](RunConfig& c) { c.agent.query.top_k = 1000; }},
 };
@@ -303,7 +303,7 @@ Result<void> ApplyVariant(std::string_view name, RunConfig& config) {
 RunConfig DefaultsOfProfile(const std::string& profile) {
   RunConfig config;
   config.noise = sim::NoiseOfProfile(profile);
-  // A stray reading would stay in a map that never clears.
+  // A map that never clears would keep stray readings.
   if (profile != "none") config.agent.map.clearing = "evidence";
   return config;
 }

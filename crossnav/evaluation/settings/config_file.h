@@ -15,13 +15,13 @@
 
 namespace crossnav::evaluation {
 
-/// Applies a TOML file. On error `config` is unchanged; `where` names the file, `what` every
+/// Applies a TOML file. On error `config` is unchanged; `where` names the file, `what` lists every
 /// problem with its key, one a line. Old keys of renamed settings are read; each adds a line to
 /// `warnings`.
 Result<void> ApplyConfigFile(const std::filesystem::path& path, RunConfig& config,
                              std::vector<std::string>* warnings = nullptr);
 
-/// As ApplyConfigFile from text; `name` stands for the file in messages.
+/// ApplyConfigFile from text; `name` stands for the file in messages.
 Result<void> ApplyConfigText(std::string_view toml, const std::string& name, RunConfig& config,
                              std::vector<std::string>* warnings = nullptr);
 
@@ -32,20 +32,19 @@ Result<void> ApplyOverrides(const std::vector<std::string>& overrides, RunConfig
 /// A named set of settings; docs/cli.md lists them.
 Result<void> ApplyVariant(std::string_view variant, RunConfig& config);
 
-/// Everything a user may say of settings, in the order in which it is applied.
+/// All sources of settings, in their order of application.
 struct ConfigSources {
   std::filesystem::path file;  ///< empty = none
   std::string variant = "full";
   std::vector<std::string> overrides;
 };
 
-/// The defaults, those of the noise profile that the sources name, then the sources. Under a
-/// profile `map.clearing` is "evidence" unless a source says otherwise.
+/// The defaults, then the settings of the noise profile that the sources name, then the sources.
+/// With a profile, `map.clearing` is "evidence" unless a source sets it.
 Result<RunConfig> ReadConfig(const ConfigSources& sources,
                              std::vector<std::string>* warnings = nullptr);
 
-/// `config` with the settings that its noise profile stands for: what to apply the sources to again
-/// where they named a profile.
+/// Defaults with the settings of a noise profile: the base to which the sources are applied again.
 RunConfig DefaultsOfProfile(const std::string& profile);
 
 /// The effective configuration, every field, as one JSON object (nested) or as TOML.

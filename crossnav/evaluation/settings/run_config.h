@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything a run depends on, in one struct: the agent's settings, the simulator's and the
-// evaluator's. Defaults are the paper's (tab:supp_configuration) unless they say "chosen".
+// All settings of a run, in one struct: the agent's, the simulator's and the evaluator's. Defaults
+// are the paper's (tab:supp_configuration) unless they say "chosen".
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ struct EvalConfig {
   double success_radius_m = 1.50;        ///< horizontal, to the instance's box
   std::string success = "box";           ///< box | viewpoint
   double viewpoint_radius_m = 0.10;      // chosen: Habitat ObjectNav's, for success = viewpoint
-  int stuck_steps = 10;                  ///< benchmark.md, "Outcome": under ...
-  double stuck_m = 0.05;                 ///< ... this far in as many steps
-  int seen_px = 200;                     // chosen: pixels that make an instance "in view"
-  std::string perception = "oracle";     ///< where detections come from: oracle | networks
+  int stuck_steps = 10;                  ///< benchmark.md, "Outcome": less than ...
+  double stuck_m = 0.05;                 ///< ... this distance in as many steps
+  int seen_px = 200;                     // chosen: pixels of an instance that is "in view"
+  std::string perception = "oracle";     ///< source of detections: oracle | networks
   double episode_seconds = 1800;         // chosen: CPU time, many times that of an episode
   std::uint64_t seed = 1;
 };
@@ -36,9 +36,9 @@ struct DatasetConfig {
   bool allow_repeats = false;     ///< the same category twice in one episode
   double min_first_goal_m = 1.0;  // chosen: no episode starts with its goal reached
   double max_start_step_m = 0.1;  // chosen: starts lie on a floor, not on a flight
-  int tries_per_episode = 200;    // chosen: before the generator says what it cannot do
-  /// What makes an instance one that a stage can be certified by: a viewpoint (edition 1), or one
-  /// from where the agent's detection would confirm it, too (edition 2; confirmation.h).
+  int tries_per_episode = 200;    // chosen: then the generator reports the failure
+  /// Requirement of an instance that certifies a stage: a viewpoint (edition 1), or a viewpoint
+  /// from which the agent's detection confirms it (edition 2; confirmation.h).
   std::string certificate = "coverage";  ///< coverage | detection
 };
 
@@ -50,7 +50,7 @@ struct RunConfig {
   inference::NetworksConfig networks;
   EvalConfig eval;
   DatasetConfig dataset;
-  serve::ServeConfig serve;  ///< no run depends on it
+  serve::ServeConfig serve;  ///< results do not depend on it
 };
 
 template <class V>

@@ -22,7 +22,7 @@ using world::RoomType;
 namespace {
 
 constexpr Rect kRoom{0, 0, 6, 5};      // chosen: a living room
-constexpr Rect kNextRoom{6, 0, 9, 5};  // chosen: something else to explore
+constexpr Rect kNextRoom{6, 0, 9, 5};  // chosen: a second room to explore
 constexpr double kStorey_m = 2.8;      // chosen: floor to floor
 constexpr double kSlab_m = 0.3;
 
@@ -62,8 +62,8 @@ FalseWorld TwoRooms() {
   return made;
 }
 
-/// A hall above, open over a railing to a hall below; the start is on either, the other is out of
-/// reach.
+/// A hall above, open over a railing to a hall below; the start is in either, the other is
+/// unreachable.
 FalseWorld Gallery(Rng& rng) {
   FalseWorld made;
   HousePlan& plan = made.plan;
@@ -113,7 +113,7 @@ FalseWorld Balcony(Rng& rng) {
   return made;
 }
 
-/// Windows down to the knee or the floor, with the world outside in them.
+/// Windows down to the knee or the floor, with the outdoors visible in them.
 FalseWorld Windows(Rng& rng) {
   FalseWorld made = TwoRooms();
   Opening window;
@@ -123,7 +123,7 @@ FalseWorld Windows(Rng& rng) {
   window.head_m = rng.Uniform(1.9, 2.2);
   window.center_m = rng.Uniform(1.5, 3.5);
   Open(made.plan, 0, -1, window);
-  for (world::Wall& wall : made.plan.walls) {  // a second one, on another side
+  for (world::Wall& wall : made.plan.walls) {  // a second window, on another side
     if (wall.room == 0 && wall.other_room < 0 && wall.openings.empty()) {
       CROSSNAV_CHECK(world::AddOpening(wall, window), "a window finds no place");
       break;
@@ -201,7 +201,7 @@ FalseWorld Slope(Rng& rng) {
   return made;
 }
 
-/// Boxes from the front to the wall behind them, each higher than the one before.
+/// Boxes from the front to the back wall, in increasing height.
 world::ObjectModel Terrace(std::string name, const std::vector<world::Vector2d>& depth_and_top,
                            double half_m) {
   world::ModelBuilder made(std::move(name));
@@ -223,7 +223,7 @@ FalseWorld PlaceAtWall(world::ObjectModel model, Rng& rng) {
   return made;
 }
 
-/// One low seat with its back to a wall: a step that leads nowhere.
+/// A low seat with its back to a wall: a step that leads nowhere.
 FalseWorld Seat(Rng& rng) {
   const double seat_m = rng.Uniform(0.22, 0.45), back_m = rng.Uniform(0.55, 0.95);
   return PlaceAtWall(Terrace("couch", {{rng.Uniform(0.4, 0.6), seat_m}, {0.18, back_m}},
@@ -231,7 +231,7 @@ FalseWorld Seat(Rng& rng) {
                      rng);
 }
 
-/// Two or three pieces behind each other, each within reach of the one before.
+/// Two or three pieces in a row, each within a step of the piece before.
 FalseWorld Stack(Rng& rng) {
   std::vector<world::Vector2d> boxes;
   double top_m = 0;

@@ -45,7 +45,7 @@ void AddRect(const world::Rect& rect, double cell_m, Cells& cells) {
       if (rect.Contains({(x + 0.5) * cell_m, (y + 0.5) * cell_m})) cells.emplace(x, y);
 }
 
-/// True rooms of one level: those of one open group together.
+/// True rooms of one level; rooms of an open group count as one.
 std::vector<Cells> RoomsOf(const world::HousePlan& plan, int level, double cell_m) {
   std::map<int, Cells> by_group;
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
@@ -76,7 +76,7 @@ double IouOf(const Cells& a, const Cells& b) {
   return all > 0 ? static_cast<double>(shared) / all : 0;
 }
 
-/// The floor at the height of one of the storey's levels, or -1.
+/// The graph's floor at the height of one of the storey's levels, or -1.
 int FloorOf(const scenegraph::SceneGraph& graph, const world::HousePlan& plan,
             const TrueStorey& storey) {
   for (const auto& floor : graph.floors)
@@ -96,21 +96,6 @@ void ScoreRooms(const std::vector<Cells>& truth, std::map<int, Cells> found, Gra
     found.erase(hit);
   }
   score.rooms_wrong += static_cast<int>(found.size());
-}
-
-Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunConfig& config,
-                                    std::unique_ptr<SceneContext>& context) {
-  for (int attempt = 0; attempt < world::AttemptsFor(params); ++attempt) {
-    auto plan = world::DrawFurnishedPlan(params, attempt);
-    if (!plan) continue;
-    auto made = SceneContext::Of(world::BuildHouse(*plan), config);
-    if (!made) return tl::unexpected(made.error());
-    if (!world::CheckHouse(*plan, (*made)->scene(), (*made)->navmesh())) continue;
-    context = std::move(*made);
-    return plan;
-  }
-  return Fail(ErrorCode::kInvalid, "no plan passed the gate; try another seed",
-              world::SceneIdOf(params));
 }
 
 }  // namespace
@@ -139,6 +124,21 @@ GraphScore ScoreGraph(const scenegraph::SceneGraph& graph, const world::HousePla
   return score;
 }
 
+Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunConfig& config,
+                                    std::unique_ptr<SceneContext>& context) {
+  for (int attempt = 0; attempt < world::AttemptsFor(params); ++attempt) {
+    auto plan = world::DrawFurnishedPlan(params, attempt);
+    if (!plan) continue;
+    auto made = SceneContext::Of(world::BuildHouse(*plan), config);
+    if (!made) return tl::unexpected(made.error());
+    if (!world::CheckHouse(*plan, (*made)->scene(), (*made)->navmesh())) continue;
+    context = std::move(*made);
+    return plan;
+  }
+  return Fail(ErrorCode::kInvalid, "no plan passed the gate; try another seed",
+              world::SceneIdOf(params));
+}
+
 Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& config) {
   world::HouseParams params;
   params.seed = seed;
@@ -147,7 +147,10 @@ Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& co
   std::unique_ptr<SceneContext> context;
   const auto plan = PassedPlan(params, config, context);
   if (!plan) return tl::unexpected(plan.error());
-  const auto survey = SurveyScene(*context, config, Known::kMap);
+  ObjectSurvey objects(*context, config);
+  const auto survey = SurveyScene(
+      *context, config, Known::kMap,
+      [&](const Observation& obs, const sim::Simulator& sim) { objects.Look(obs, sim); });
   if (!survey) return tl::unexpected(survey.error());
   GraphTrial trial;
   trial.house = plan->id;
@@ -155,6 +158,13 @@ Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& co
   trial.graph = scenegraph::BuildGraph(survey->map, survey->memory, survey->flights);
   trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   trial.score = ScoreGraph(trial.graph, *plan);
+  trial.record_ms = 1e3 * objects.seconds() / std::max(1, objects.views());
+  const auto relate = std::chrono::steady_clock::now();
+  AddRecords(trial.graph, objects.book().Confirmed());
+  RelateObjects(trial.graph);
+  trial.relate_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - relate).count();
+  trial.objects = ScoreObjects(trial.graph, objects, context->scene(), *plan);
   return trial;
 }
 

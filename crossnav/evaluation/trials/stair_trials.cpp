@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kSameFloor_m = 0.25;  // chosen: below two risers
 
-/// Where a start is looked for, and what it must see.
+/// Region of possible starts, and the point that a start must see.
 struct View {
   double floor_m = 0;
   Vector3d p_seen_world = Vector3d::Zero();
 };
 
-/// Whether the camera of an agent at `start` sees the point: in the picture, nothing before it.
+/// Whether an agent's camera at `start` sees the point: in the picture, not occluded.
 bool Sees(const SceneContext& context, const AgentPose& start, const Vector3d& p_world,
           const SensorConfig& sensor) {
-  constexpr double kBefore_m = 0.15;  // chosen: the thing itself may surround the point
+  constexpr double kBefore_m = 0.15;  // chosen: the object itself may surround the point
   const Pose T_world_camera = CameraPose(start, sensor.camera_height_m);
   const CameraIntrinsics camera = sensor.Intrinsics();
   const Vector3d p_camera = T_world_camera.inverse() * p_world;
@@ -31,9 +31,9 @@ bool Sees(const SceneContext& context, const AgentPose& start, const Vector3d& p
   const double u = camera.fx * p_camera.x() / p_camera.z() + camera.cx;
   const double v = camera.fy * p_camera.y() / p_camera.z() + camera.cy;
   if (u < 0 || v < 0 || u > camera.width_px - 1 || v > camera.height_px - 1) return false;
-  const Vector3d way = p_world - T_world_camera.translation();
-  return !context.caster().Cast(T_world_camera.translation(), way.normalized(),
-                                way.norm() - kBefore_m);
+  const Vector3d ray = p_world - T_world_camera.translation();
+  return !context.caster().Cast(T_world_camera.translation(), ray.normalized(),
+                                ray.norm() - kBefore_m);
 }
 
 Result<AgentPose> DrawStart(const SceneContext& context, const View& view, std::uint64_t seed,
@@ -45,10 +45,10 @@ Result<AgentPose> DrawStart(const SceneContext& context, const View& view, std::
   for (int i = 0; i < kTries; ++i) {
     const auto p = context.navmesh().RandomPoint(rng);
     if (!p || std::abs(p->z() - view.floor_m) > 0.1) continue;
-    const Vector3d way = view.p_seen_world - *p;
-    const double distance_m = way.head<2>().norm();
+    const Vector3d to_seen = view.p_seen_world - *p;
+    const double distance_m = to_seen.head<2>().norm();
     if (distance_m < kNearest_m || distance_m > kFarthest_m) continue;
-    AgentPose start{*p, std::atan2(way.y(), way.x()), 0};
+    AgentPose start{*p, std::atan2(to_seen.y(), to_seen.x()), 0};
     start.yaw_rad = WrapAngle(start.yaw_rad + DegToRad(rng.Uniform(-kAside_deg, kAside_deg)));
     if (Sees(context, start, view.p_seen_world, config.agent.sensor)) return start;
   }
@@ -56,7 +56,7 @@ Result<AgentPose> DrawStart(const SceneContext& context, const View& view, std::
               context.scene().id + " seed " + std::to_string(seed));
 }
 
-/// Notes whether the agent was ever at a height.
+/// Notes whether the agent reached a height.
 class HeightWatch : public RunObserver {
  public:
   explicit HeightWatch(double height_m) : height_m_(height_m) {}
@@ -128,7 +128,7 @@ Result<FalseAttempt> TryFalseEntrance(FalseEntrance kind, std::uint64_t seed,
                                       const RunConfig& config) {
   const FalseWorld world = MakeFalseWorld(kind, seed);
   const auto context = SceneContext::Of(world::BuildHouse(world.plan), config);
-  // Furniture may leave no ground to walk on.
+  // Furniture may leave no walkable ground.
   if (!context) return Fail(ErrorCode::kNotFound, context.error().what, context.error().where);
   const auto start = DrawStart(**context, {world.start_m, world.p_seen_world}, seed, config);
   if (!start) return tl::unexpected(start.error());
@@ -139,7 +139,8 @@ Result<FalseAttempt> TryFalseEntrance(FalseEntrance kind, std::uint64_t seed,
   if (!perception) return tl::unexpected(perception.error());
   agent::Agent agent(config.agent, std::move(*perception));
   if (auto ok = simulator.Reset(*start); !ok) return tl::unexpected(ok.error());
-  if (auto ok = agent.SetGoal("toilet"); !ok) return tl::unexpected(ok.error());  // there is none
+  // The world has no toilet.
+  if (auto ok = agent.SetGoal("toilet"); !ok) return tl::unexpected(ok.error());
   FalseAttempt attempt;
   while (attempt.actions < config.eval.action_budget && !attempt.started) {
     const auto step = agent.Step(simulator.Observe());

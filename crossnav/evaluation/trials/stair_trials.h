@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Attempts at stairs, and at what is none: the agent stands somewhere from where it sees the
-// entrance, and the goal stands on the other floor, or nowhere (trial_worlds.h). Judges only;
-// perception is ground truth. The same seed gives the same attempt.
+// Trials of stairs and of false entrances: the agent starts with the entrance in view; the goal is
+// on the other floor, or absent (trial_worlds.h). Judges only; perception is ground truth. The same
+// seed gives the same attempt.
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,9 @@ inline Result<StairSite> BuildStairSite(world::StairKind kind, std::uint64_t see
 }
 
 struct StairAttempt {
-  Episode episode;       ///< start and goal, for whoever plays it again
+  Episode episode;       ///< start and goal, to be played again
   EpisodeRecord record;  ///< of its one stage
-  bool reached = false;  ///< the agent stood on the other floor
+  bool reached = false;  ///< the agent reached the other floor
   const StageRecord& stage() const { return record.stages.front(); }
   bool found() const { return stage().success; }
 };
@@ -40,7 +40,7 @@ struct StairAttempt {
 Result<StairAttempt> TryStair(const StairSite& site, bool goes_up, std::uint64_t seed,
                               const RunConfig& config);
 
-/// Where an agent set out on a stair that is none.
+/// Place where an agent started on a false stair.
 struct FalseStart {
   int step = 0;
   Vector3d p_agent_world = Vector3d::Zero();
@@ -51,12 +51,12 @@ struct FalseStart {
 struct FalseAttempt {
   int actions = 0;
   bool all_explored = false;
-  std::optional<FalseStart> started;  ///< the first, where there was one
+  std::optional<FalseStart> started;  ///< the first, if any
 };
 
-/// Looks for what is not there until everything is explored or the budget is used up. A stair is
+/// Searches for an absent goal until everything is explored or the budget is used up. A stair is
 /// started by an activity `climb`, or under `policy.profile = paper` by a stair session. Error
-/// kNotFound: no start sees it, or there is nothing to walk on.
+/// kNotFound: no start sees it, or there is no walkable ground.
 Result<FalseAttempt> TryFalseEntrance(FalseEntrance kind, std::uint64_t seed,
                                       const RunConfig& config);
 

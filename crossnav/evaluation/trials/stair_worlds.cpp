@@ -36,7 +36,7 @@ int AddRoom(HousePlan& plan, RoomType type, int level, std::vector<world::Rect> 
   return static_cast<int>(plan.rooms.size()) - 1;
 }
 
-/// As the generator draws them: a comfortable flight for the rise, by Blondel's rule.
+/// Dimensions as in the generator: a comfortable flight for the rise, by Blondel's rule.
 StairParams DrawParams(StairKind kind, Rng& rng) {
   StairParams params;
   params.kind = kind;
@@ -118,7 +118,7 @@ StairWorld MakeStoreys(const StairParams& params, Rng& rng) {
   return made;
 }
 
-/// A corridor, and across its end a room that lies three to seven risers lower.
+/// A corridor, and across its end a room three to seven risers lower.
 StairWorld MakeSplitLevel(Rng& rng) {
   StairWorld made;
   HousePlan& plan = made.plan;

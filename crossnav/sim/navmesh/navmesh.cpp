@@ -12,6 +12,7 @@
 #include <xxhash.h>
 
 #include "crossnav/core/check.h"
+#include "crossnav/core/read_file.h"
 #include "crossnav/sim/navmesh/navmesh_detail.h"
 #include "crossnav/sim/navmesh/surface_path.h"
 #include "crossnav/sim/navmesh/walk_graph.h"
@@ -22,8 +23,9 @@ namespace {
 
 constexpr int kMaxNodes = 65535;       // Detour's own limit
 constexpr double kStopShort_m = 0.01;  // chosen: stay off the border, where Detour's ray gets stuck
-constexpr double kMaxShort_m = 0.05;   // ... but not far short of it on a grazing way
+constexpr double kMaxShort_m = 0.05;   // ... but not far short of it along a grazing direction
 constexpr float kOffBorder_m = 0.01F;
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;  // chosen: of a navmesh file
 constexpr double kSnapXy_m = 0.5, kSnapZ_m = 0.5;
 
 struct OnMesh {
@@ -77,8 +79,8 @@ struct NavMesh::Impl {
     return found;
   }
 
-  /// Detour's ray is stuck where it starts on a border: such a walk begins a centimetre inside, on
-  /// the way to the middle of the (convex) polygon.
+  /// Detour's ray is stuck if it starts on a border: it then begins a centimetre inside, towards
+  /// the middle of the (convex) polygon.
   void StepOffBorder(OnMesh& start) const {
     float distance = 0;
     RecastPoint wall{}, normal{};
@@ -166,6 +168,35 @@ Result<NavMesh> NavMesh::BuildCached(const Scene& scene, const NavMeshSettings& 
   return built;
 }
 
+Result<NavMesh> NavMesh::ReadHabitat(const std::filesystem::path& file,
+                                     const NavMeshSettings& settings) {
+  const auto bytes = ReadFile(file, kMostBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto mesh = ReadHabitatTiles(*bytes, file.string());
+  if (!mesh) return tl::unexpected(mesh.error());
+  NavMesh navmesh;
+  navmesh.impl_->settings = settings;
+  navmesh.impl_->mesh = std::move(*mesh);
+  navmesh.impl_->hash = XXH3_64bits(bytes->data(), bytes->size());
+  if (!navmesh.impl_->Init() || navmesh.impl_->triangles.empty())
+    return Fail(ErrorCode::kInvalid, "holds no walkable ground", file.string());
+  return navmesh;
+}
+
+Result<NavMesh> NavMesh::Open(const Scene& scene, const NavMeshSettings& settings) {
+  if (settings.source != "habitat") return BuildCached(scene, settings);
+  for (const char* end : {".basis.navmesh", ".navmesh"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(scene.folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name.ends_with(end) && !name.ends_with(".crossnav.navmesh"))
+        return ReadHabitat(entry.path(), settings);
+    }
+  }
+  return Fail(ErrorCode::kNotFound,
+              "has no .navmesh of Habitat, which navmesh.source = habitat asks for",
+              scene.folder.string());
+}
+
 const NavMeshSettings& NavMesh::settings() const {
   return impl_->settings;
 }
@@ -239,7 +270,7 @@ Vector3d NavMesh::WalkStraight(const Vector3d& start_world, const Vector3d& end_
   if (dtStatusFailed(status) || hit.pathCount == 0) return WorldFromRecast(start->p.data());
   double share = 1;
   if (hit.t < 1) {
-    // Short by the clearance to the wall, which is longer along an oblique way.
+    // Short by the clearance to the wall, which is longer along an oblique direction.
     const double towards_wall = std::abs(hit.hitNormal[0] * (end[0] - start->p[0]) +
                                          hit.hitNormal[2] * (end[2] - start->p[2])) /
                                 wanted;

@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "crossnav/core/pose.h"
@@ -27,7 +29,8 @@ struct NavMeshSettings {
   double max_slope_deg = 60;
   double cell_m = 0.03;
   double cell_height_m = 0.05;
-  double min_island_m2 = 0.5;  // chosen: drops table tops nobody can reach
+  double min_island_m2 = 0.5;    // chosen: drops unreachable table tops
+  std::string source = "build";  ///< build, or habitat: the .navmesh beside the scene, as it is
 };
 
 template <class V>
@@ -39,6 +42,7 @@ void Visit(V& visit, NavMeshSettings& c) {
   visit("cell_m", c.cell_m, 0.005, 1.0);
   visit("cell_height_m", c.cell_height_m, 0.005, 1.0);
   visit("min_island_m2", c.min_island_m2, 0.0, 100.0);
+  visit("source", c.source, {"build", "habitat"});
 }
 
 /// A storey: navmesh area of about one height (clusters of connected flat area), together with the
@@ -68,7 +72,7 @@ struct WalkGoals {
   struct Place {
     std::uint64_t polygon = 0;
     Vector3d p_world;       ///< on the surface
-    std::size_t index = 0;  ///< of the goal; those off the navmesh have no place
+    std::size_t index = 0;  ///< of the goal; goals off the navmesh have no place
   };
   std::vector<Place> places;
 };
@@ -84,6 +88,13 @@ class NavMesh {
   static Result<NavMesh> Build(const Scene& scene, const NavMeshSettings& settings);
   /// As Build, cached as `<hash>.crossnav.navmesh` (scene_cache.h), a hash of mesh and settings.
   static Result<NavMesh> BuildCached(const Scene& scene, const NavMeshSettings& settings);
+
+  /// The navmesh of habitat-sim at `file`, as it was built there (agent, islands). `settings` are
+  /// those that it is said to have. Errors: not there, not a navmesh, damaged, without ground.
+  static Result<NavMesh> ReadHabitat(const std::filesystem::path& file,
+                                     const NavMeshSettings& settings);
+  /// As `settings.source` says: BuildCached, or ReadHabitat of the file beside the scene.
+  static Result<NavMesh> Open(const Scene& scene, const NavMeshSettings& settings);
 
   const NavMeshSettings& settings() const;
   std::uint64_t Hash() const;

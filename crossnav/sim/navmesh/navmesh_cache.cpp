@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Navmesh tiles as bytes: magic, key, checksum of the rest, dtNavMeshParams, then size and data of
-// each tile. Detour does not check what it loads, so only bytes with the right checksum reach it.
+// each tile. Detour does not validate loaded data; the checksum therefore guards it.
 #include <cstring>
 
 #include <recastnavigation/DetourAlloc.h>

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What navmesh*.cpp share: the Detour mesh and the frame change. Recast is y up: (x, z, -y) of the
-// world. Private to sim's .cpp files.
+// Shared code of navmesh*.cpp: the Detour mesh and the frame change. Recast is y up: (x, z, -y) of
+// the world. Private to sim's .cpp files.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <recastnavigation/DetourNavMesh.h>
@@ -69,15 +71,19 @@ void ForEachDetailTriangle(const dtNavMesh& mesh, Fn&& fn) {
 /// Recast pipeline in tiles, islands removed (navmesh_build.cpp).
 Result<DetourMesh> BuildDetour(const Scene& scene, const NavMeshSettings& settings);
 
-/// Takes the walk flag off islands nobody can use (navmesh_islands.cpp).
+/// Clears the walk flag of unusable islands (navmesh_islands.cpp).
 void DropIslands(dtNavMesh& mesh, const Scene& scene, const NavMeshSettings& settings);
 
 /// Tiles of a mesh as bytes and back, for the cache (navmesh_cache.cpp).
 std::vector<std::uint8_t> SaveTiles(const dtNavMesh& mesh, std::uint64_t key);
-/// Null where the bytes are not exactly what SaveTiles wrote for `key`.
+/// Null unless the bytes are exactly the output of SaveTiles for `key`.
 DetourMesh LoadTiles(const std::vector<std::uint8_t>& bytes, std::uint64_t key);
 
-/// What follows from the finished mesh (navmesh_floors.cpp).
+/// Tiles of a file of habitat-sim in our Recast frame (navmesh_habitat_read.cpp). Each is checked:
+/// the file may come from anywhere. Error kMalformed: `where` and what is wrong.
+Result<DetourMesh> ReadHabitatTiles(std::string_view file, const std::string& where);
+
+/// Floors derived from the finished mesh (navmesh_floors.cpp).
 struct FloorPlan {
   double area_m2 = 0;
   std::vector<Floor> floors;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Floors and the links between them, from the navmesh alone. The surface is sampled on a 0.1 m
 // grid; a level is connected flat area of at least 4 m2, heights within 0.5 m merged; levels less
-// than 1.5 m apart are one floor; what is neither (flights, landings, ramps) links the floors that
-// it touches.
+// than 1.5 m apart are one floor; other areas (flights, landings, ramps) link the floors that they
+// touch.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -17,7 +17,7 @@ namespace {
 constexpr double kGrid_m = 0.1;
 constexpr double kMinFloor_m2 = 4.0;    // chosen: larger than any landing
 constexpr double kMergeHeight_m = 0.5;  // chosen: sunken rooms are not storeys
-constexpr double kStorey_m = 1.5;       // chosen: nobody stands upright in less
+constexpr double kStorey_m = 1.5;       // chosen: too low to stand upright
 constexpr int kSlopeReach = 3;          // samples to each side
 constexpr double kMaxSlope = 0.21;      // tan 12 degrees; flights rise at 20 and more
 constexpr double kOnFloor_m = 0.25;     // chosen: above any threshold, below two risers

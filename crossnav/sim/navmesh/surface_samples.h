@@ -23,8 +23,8 @@ struct SurfaceSample {
 std::vector<SurfaceSample> SampleSurface(std::span<const std::array<Vector3d, 3>> triangles,
                                          double grid_m);
 
-/// Labels connected samples of those for which `in(sample index)`; -1 elsewhere. `joined(a, b)`
-/// may keep neighbours apart.
+/// Labels connected samples among those with `in(sample index)`; -1 elsewhere. `joined(a, b)` may
+/// separate neighbours.
 template <class In, class Joined>
 std::vector<int> Components(const std::vector<SurfaceSample>& samples, int& count, In&& in,
                             Joined&& joined) {

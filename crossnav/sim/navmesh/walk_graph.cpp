@@ -96,8 +96,8 @@ void WalkGraph::AddPortals(const dtMeshTile& tile, const dtPoly& poly,
     }
     Portal portal;
     portal.to = to->second;
-    // The interior lies left of the direction of travel around a counter-clockwise polygon, so for
-    // somebody leaving through the edge its first end is on the right.
+    // The interior is left of the direction of travel around a counter-clockwise polygon: on
+    // leaving through the edge, its first end is on the right.
     const RecastPoint &right = is_ccw ? p : q, &left = is_ccw ? q : p;
     portal.right = PlanOf(right.data());
     portal.left = PlanOf(left.data());

@@ -152,7 +152,7 @@ class WalkSearch {
 
   enum class Turn { kNone, kLeft, kRight };
 
-  /// Splits `portal` into what lies left of, inside and right of the cone root -> interval.
+  /// Splits `portal` into its parts left of, inside and right of the cone root -> interval.
   void ExpandThrough(const Node& node, int index, const WalkGraph::Portal& portal) {
     // t runs from the portal's right end (0) to its left end (1).
     const double right_of_l = -LeftOf(node.root, node.left, portal.right);
@@ -226,8 +226,8 @@ class WalkSearch {
     queue_.emplace(bound, static_cast<int>(nodes_.size()) - 1);
   }
 
-  /// Whether the way to node `index` goes through the polygon. Polygons are convex, so that no
-  /// shortest path enters one twice; ways through polygons without area would do so forever.
+  /// Whether the path to node `index` goes through the polygon. Polygons are convex, so that no
+  /// shortest path enters a polygon twice; paths through polygons without area would do so forever.
   bool WasIn(int polygon, int index) const {
     for (int i = index; i >= 0; i = nodes_[static_cast<std::size_t>(i)].parent) {
       if (nodes_[static_cast<std::size_t>(i)].polygon == polygon) return true;

@@ -18,7 +18,7 @@ inline constexpr float kHighest = 1e6F;  ///< [1/m]; of triangles that reach beh
 template <int kSide>
 struct Squares {
   int across = 0;
-  std::vector<float> least;  ///< [1/m]; row by row, and some more, so that vectors may begin at any
+  std::vector<float> least;  ///< [1/m]; row by row, padded so that a vector may start at any
 
   std::size_t Of(int u, int v) const {
     return static_cast<std::size_t>(v / kSide) * static_cast<std::size_t>(across) +
@@ -26,9 +26,9 @@ struct Squares {
   }
 };
 
-/// A triangle that some pixel was given to: 32 words, so that lanes can gather them.
+/// A drawn triangle: 32 words, so that lanes can gather them.
 struct alignas(128) Drawn {
-  /// By corner: what its weight is at pixel (u, v) as a u + b v + c, all three up to one factor.
+  /// By corner: weight a u + b v + c at pixel (u, v), all three up to one factor.
   std::array<float, 9> weights{};
   std::array<float, 3> normal{};  ///< world, any length
   std::uint32_t triangle = 0;     ///< of the mesh

@@ -46,8 +46,8 @@ HWY_INLINE void NoteBlock(Canvas& canvas, int u0, int v0) {
   canvas.blocks.least[canvas.blocks.Of(u0, v0)] = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-// Whether the pixels of the tile at (`u0`, `v0`) that are in the box are nearer than `nearest`,
-// where some pixel of the tile seems not to be.
+// Whether the pixels of the tile at (`u0`, `v0`) in the box are all nearer than `nearest`; used if
+// the tile's bound cannot tell.
 HWY_INLINE bool IsTileNearer(Canvas& canvas, int u0, int v0, const PixelBox& box, float nearest) {
   const std::size_t tile = canvas.tiles.Of(u0, v0);
   const int end = std::min(v0 + kTile, canvas.height);

@@ -54,9 +54,9 @@ HWY_INLINE Point ToPixels(const RasterView& view, const Point& p_world) {
   return {row(0), row(1), row(2)};
 }
 
-// The line through two corners as a linear function of the pixel: twice q x p, exacter than that
-// product where the corners are near each other; of the same corners in the other order exactly the
-// negative, so that no pixel falls between two neighbours.
+// The line through two corners as a linear function of the pixel: twice q x p, in a form that is
+// more exact for close corners. Exchanging the corners gives exactly the negative, so that there is
+// no gap between neighbours.
 HWY_INLINE Point Line(const Point& p, const Point& q) {
   return Cross(Minus(q, p), Plus(p, q));
 }

@@ -56,7 +56,7 @@ class LaneWords {
   }
 
  private:
-  static constexpr std::size_t kFew = 4;  // chosen: more cost what a gather does
+  static constexpr std::size_t kFew = 4;  // chosen: above this a gather is cheaper
 
   const std::int32_t* words_;
   I first_;

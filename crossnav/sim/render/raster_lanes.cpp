@@ -26,8 +26,8 @@ using M = hn::Mask<Wide>;
 constexpr float kNear_m = 0.05F;     // chosen: nearer triangles are searched in the whole picture
 constexpr float kMargin_px = 0.05F;  // chosen: above the rounding of a pixel coordinate
 constexpr float kFlat = 1e-25F;  // chosen: triangles seen edge-on to the last bit, or degenerate
-// chosen: of surfaces nearer to each other than this share of their depth the first is shown, not
-// now one and now the other.
+// chosen: of surfaces nearer to each other than this share of their depth the first drawn is kept,
+// so that the result does not alternate.
 constexpr float kNearer = 1.00001F;
 
 // Image-plane setup of eight triangles.
@@ -82,7 +82,7 @@ HWY_INLINE void Project(const Octet& octet, const RasterView& view, Footprints& 
     hn::StoreMaskBits(d, alive, bits.data());
     if (bits[0] == 0) continue;
     out.alive |= static_cast<unsigned>(bits[0]) << i;
-    // All three weights are to be positive inside.
+    // The sign makes all three weights positive inside.
     const V turn = hn::And(rise, hn::SignBit(d));
     const auto line = [&](const Point& p, const Point& q, std::size_t k) {
       const Point l = Line(p, q);

@@ -14,8 +14,8 @@
 
 namespace crossnav::sim {
 
-/// AVX2 on newer processors, too: which of two surfaces a ray meets at their common edge differs
-/// from one set of instructions to another, and the same episode is to go the same way everywhere.
+/// AVX2 on newer processors, too: the surface hit at a common edge depends on the instruction set,
+/// and an episode must be the same on every machine.
 inline constexpr const char* kInstructions = "avx2";
 
 struct RayHit {

@@ -34,9 +34,9 @@ struct Row {
   }
 };
 
-// Some pixels beside each other and the triangles that they show.
+// Adjacent pixels and their triangles.
 struct Group {
-  std::array<const Drawn*, 4> drawn;  // by lane; any where there is none
+  std::array<const Drawn*, 4> drawn;  // by lane; arbitrary for empty pixels
   bool is_one;                        // triangle for all
 
   HWY_INLINE Group(const Canvas& canvas, const Row& row, std::size_t u) {

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Colours of a packet's hits, several at a time (Highway, chosen at run time): scalar reference:
-// shading.h, byte for byte. Internal.
+// Colours of a packet's hits, several at a time (Highway, chosen at run time). Internal.
+//
+// Scalar reference: shading.h, equal byte for byte (tests/sim/shade_lanes_test.cpp). For one hit at
+// barycentric (s, t):
+//   colour = material colour, times the bilinear texture sample at the interpolated (u, v) / 255,
+//            times the interpolated corner colour / 255
+//   light  = 1 for unlit materials, else 0.52 + 0.32 |n . d| / (|n| |d|)
+//            + (0.10 n_z + 0.06 n_x + 0.03 n_y) / |n|, n turned towards the viewer
+//   byte   = floor(colour * light + 0.5) for each channel
 #pragma once
 
 #include <array>
@@ -28,7 +35,7 @@ class Skins {
     kTexture = 10,  ///< number, -1 without
     kWidth = 11,    ///< of the texture [px]
     kHeight = 12,
-    kUnlit = 13,  ///< 1 where the colour is shown as it is
+    kUnlit = 13,  ///< 1 for colours without lighting
     kWords = 16
   };
 
@@ -41,8 +48,8 @@ class Skins {
   bool has_textures = false, has_corners = false;
 };
 
-/// Where the rays of a packet met the scene, kShadeLanes of each; those without a hit may name any
-/// triangle and hold anything finite.
+/// Hits of a packet of kShadeLanes rays; lanes without a hit may name any triangle and hold any
+/// finite numbers.
 struct PacketHits {
   const std::int32_t* triangle = nullptr;
   const float *s = nullptr, *t = nullptr;  ///< weights of the second and third corner

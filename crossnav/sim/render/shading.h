@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Colour of a surface point: material, texture and vertex colour under a lamp on the camera plus a
-// little light from above and from one side, so that walls, floor and edges can be told apart. What
-// is unlit (KHR_materials_unlit: the colours of a scan hold the light already) is shown as it is.
+// little light from above and from one side, so that walls, floor and edges are distinguishable.
+// Unlit surfaces (KHR_materials_unlit: the colours of a scan include light) keep their colour.
 #pragma once
 
 #include <algorithm>

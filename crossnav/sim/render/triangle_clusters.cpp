@@ -98,8 +98,8 @@ class Frustum {
 
  private:
   Vector3f origin_;
-  std::array<Vector3f, 5> forms_,
-      sizes_;  // products with a corner; what a box adds to its centre's
+  // Linear forms of a point, and the half range of each over the box.
+  std::array<Vector3f, 5> forms_, sizes_;
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ struct alignas(32) Octet {
 struct Cluster {
   Vector3f centre, half;               ///< box around the triangles; world [m]
   std::uint32_t first = 0, count = 0;  ///< of its octets
-  bool has_holes = false;              ///< triangles whose texture says where they are solid
+  bool has_holes = false;              ///< triangles with transparent parts of their texture
 };
 
 struct TriangleClusters {
@@ -48,7 +48,7 @@ struct ClusterInView {
   std::uint32_t cluster = 0;
 };
 
-/// Those whose boxes reach into the picture, near ones first.
+/// Clusters with boxes in the picture, near clusters first.
 std::vector<ClusterInView> ClustersInView(const TriangleClusters& triangles,
                                           const RasterView& view);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Basis Universal images (.basis, and KTX2 that holds them) -> RGBA. Adapter over the transcoder
-// that `scripts/setup.sh hm3d` compiles; a build without it recognises such images and refuses
+// Basis Universal images (.basis, and KTX2 with Basis data) -> RGBA. Adapter over the transcoder
+// that `scripts/setup.sh hm3d` compiles; a build without it recognises these images and refuses
 // them.
 #pragma once
 

@@ -10,7 +10,7 @@ namespace crossnav::sim {
 enum class Channels { kAll, kWithoutColour };
 
 struct Frame {
-  RgbImage rgb;            ///< black where colour was not asked for
+  RgbImage rgb;            ///< black if colour was not requested
   DepthImage depth_m;      ///< planar z, 0 where no surface
   InstanceImage instance;  ///< 0 where none
 };

@@ -19,13 +19,12 @@ namespace crossnav::sim {
 namespace {
 
 constexpr int kMaxNodeDepth = 64;  // chosen: deeper is a cycle or an attack
-// A mesh may stand at many places: the file may be small and what it draws large, but not without
-// limit. Above kFreeElements a file draws at most as many vertices and as many triangles as it has
-// bytes.
+// A mesh may be instanced many times, so that a small file can draw many triangles: limited. Above
+// kFreeElements a file draws at most as many vertices and as many triangles as it has bytes.
 constexpr std::size_t kMaxElements = 400'000'000;
 constexpr std::size_t kFreeElements = 2'000'000;  // chosen: a furnished house
 
-/// One pass over a parsed file; holds what the steps share.
+/// A pass over a parsed file; holds the state of its steps.
 class Reader {
  public:
   Reader(const tinygltf::Model& gltf, std::string where, const GltfOptions& options)
@@ -85,8 +84,8 @@ class Reader {
     return std::span(bytes).subspan(view.byteOffset, view.byteLength);
   }
 
-  /// Image of a texture: the Basis one of an extension, if this build can read it or there is no
-  /// other. -1 = none that exists.
+  /// Image of a texture: an extension's Basis image, if this build can read it or there is no
+  /// other. -1 = no existing image.
   int ImageOf(const tinygltf::Texture& texture) const {
     int image = texture.source;
     for (const char* basis : {"GOOGLE_texture_basis", "KHR_texture_basisu"}) {
@@ -330,7 +329,7 @@ class Reader {
     return {};
   }
 
-  /// Primitives without uvs or colours after ones that have them.
+  /// Pads primitives without uvs or colours after primitives that have them.
   void PadVertexData() {
     TriangleMesh& mesh = model_.mesh;
     if (!mesh.uvs.empty()) mesh.uvs.resize(mesh.vertices.size(), {0.0F, 0.0F});

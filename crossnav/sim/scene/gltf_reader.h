@@ -27,14 +27,14 @@ struct GltfModel {
   TriangleMesh mesh;  ///< file frame; uvs and vertex_colours are empty or one per vertex
   std::vector<Material> materials;  ///< never empty
   std::vector<Texture> textures;
-  std::vector<std::string> notes;  ///< what was left out, for people
+  std::vector<std::string> notes;  ///< omissions, free text
   std::vector<GltfPart> parts;     ///< every node that was visited
   std::vector<int> triangle_part;  ///< per triangle
 };
 
 struct GltfOptions {
-  /// COLOR_0 is linear light and becomes sRGB; true keeps its numbers, but for those of 16 bits
-  /// (the colours of a semantic mesh are names; files that hold them as light have 16 bits).
+  /// COLOR_0 is linear light and becomes sRGB; true keeps its numbers, except for 16-bit numbers
+  /// (colours of a semantic mesh are names; files that store them as light use 16 bits).
   bool raw_vertex_colours = false;
 };
 

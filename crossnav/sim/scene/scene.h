@@ -53,13 +53,13 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<SceneInstance> instances;  ///< sorted by id
   std::uint64_t mesh_hash = 0;           ///< of geometry and semantics
-  std::vector<std::string> notes;        ///< what the reader left out, e.g. Basis textures
+  std::vector<std::string> notes;        ///< omissions of the reader, e.g. Basis textures
 
   const SceneInstance* FindInstance(int id) const;
 };
 
-/// Fills in what follows from the rest: instance order and boxes, mesh_hash, missing per-triangle
-/// data. LoadScene calls it; scenes built in code call it themselves.
+/// Fills in derived data: instance order and boxes, mesh_hash, missing per-triangle data. LoadScene
+/// calls it; scenes built in code call it themselves.
 void UpdateDerived(Scene& scene);
 
 /// Raw semantic name -> category; exact names, never substrings.
@@ -75,7 +75,7 @@ Result<CategoryTable> ReadCategoryTable(const std::filesystem::path& path);
 Result<Scene> LoadScene(const std::filesystem::path& folder,
                         const CategoryTable& categories = DefaultCategories());
 
-/// Folder of scene `scene_id` below `scenes_dir` (any split folder; also habitat-style ids such as
+/// Folder of scene `scene_id` below `scenes_dir` (any split folder; also Habitat's ids, e.g.
 /// "hm3d/val/00800-TEEsavR23oF/TEEsavR23oF.basis.glb").
 Result<std::filesystem::path> FindScene(const std::filesystem::path& scenes_dir,
                                         std::string_view scene_id);

@@ -28,7 +28,7 @@ Result<std::vector<SemanticLine>> ParseSemanticText(std::string_view text, const
 /// "raw name<TAB>category" lines. Errors name `where` and the line.
 Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::string& where);
 
-/// Instance of each triangle of a semantic mesh, by its colour; 0 for colours nobody named.
+/// Instance of each triangle of a semantic mesh, by its colour; 0 for unnamed colours.
 std::vector<std::int32_t> InstancesByColour(const GltfModel& semantic,
                                             std::span<const SemanticLine> lines);
 

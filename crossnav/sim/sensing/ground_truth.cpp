@@ -31,8 +31,8 @@ bool IsCategory(std::string_view goal) {
   return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
 }
 
-/// The simulator's last frame, or null where it cannot be the one that `obs` was made from. Only
-/// the sizes are compared: depth and pose of an observation may have had noise added.
+/// The simulator's last frame, or null if `obs` cannot be made from it. Only the sizes are
+/// compared: depth and pose of an observation may have noise.
 const Frame* FrameOf(const Simulator& simulator, const Observation& obs) {
   const Frame& frame = simulator.last_frame();
   const bool same = frame.instance.width == obs.depth_m.width &&
@@ -116,7 +116,7 @@ class GroundTruthSegmenter : public perception::Segmenter {
   }
 
  private:
-  /// The goal-like instance whose own visible box is `box`; else the one with most pixels in it.
+  /// The goal-like instance with the visible box `box`; else the instance with most pixels in it.
   int InstanceOf(const Frame& frame, const PixelBox& box) const {
     std::map<int, int> count;
     for (int v = box.v0; v < box.v1; ++v) {

@@ -22,7 +22,7 @@ using perception::NamedVectors;
 constexpr double kCommonShare = 0.5;  // chosen: cosine of unrelated names, below CLIP's 0.7
 constexpr double kBiasShare = 0.5;    // chosen: of feature_noise, fixed per instance
 constexpr double kPatchShare = 0.8;   // chosen: of the frame's noise, alike in a patch of cells
-constexpr int kPatchCells = 3;        // chosen: side of such a patch
+constexpr int kPatchCells = 3;        // chosen: side of a noise patch
 constexpr int kNoiseVectors = 64;     // chosen: enough that repeats do not add up
 constexpr int kPixelStride = 2;       // chosen: a quarter of the pixels tells a cell's content
 
@@ -116,7 +116,7 @@ class TextSpace {
     return category;
   }
 
-  /// What an object is called: its raw name where that has a vector, else its category.
+  /// Name of an object: its raw name if that has a vector, else its category.
   std::string NameOf(const SceneInstance& instance) const {
     std::string raw = SpacedName(instance.name);
     if (has_known_ && vectors_.count(raw) > 0) return raw;
@@ -129,7 +129,7 @@ class TextSpace {
     if (found != vectors_.end()) return found->second;
     Feature own = Own(name);
     const double c = confusion_;
-    // Two that mix in each other meet at the cosine c with this much; one that leans, with c.
+    // Weights for a cosine of c: `mutual` if both vectors mix in each other, `lean` if one does.
     const double mutual = c > 0 ? (1 - std::sqrt(1 - c * c)) / c : 0;
     const double lean = c / std::sqrt(1 - c * c);
     for (const std::string& other : LookAlikesOf(name))
@@ -221,7 +221,7 @@ void BlurCells(CellContents& contents, int rows, int cols) {
 
 class GroundTruthEncoder : public perception::DenseEncoder {
  public:
-  GroundTruthEncoder(const Simulator& simulator, const GroundTruthConfig& config, TextSpace texts)
+  GroundTruthEncoder(const Simulator* simulator, const GroundTruthConfig& config, TextSpace texts)
       : simulator_(simulator), config_(config), texts_(std::move(texts)) {
     config_.feature_dim = texts_.dim();
     for (int i = 0; i < kNoiseVectors; ++i)
@@ -236,7 +236,9 @@ class GroundTruthEncoder : public perception::DenseEncoder {
   }
 
   Result<FeatureGrid> EncodeImage(const Observation& obs) override {
-    const InstanceImage& image = simulator_.last_frame().instance;
+    if (simulator_ == nullptr)
+      return Fail(ErrorCode::kUnsupported, "this encoder has no simulator; it encodes texts");
+    const InstanceImage& image = simulator_->last_frame().instance;
     if (image.empty() || image.width != obs.rgb.width || image.height != obs.rgb.height)
       return Fail(ErrorCode::kMismatch, "the observation is not the simulator's last frame");
     const int rows = config_.feature_rows, cols = config_.feature_cols;
@@ -266,7 +268,7 @@ class GroundTruthEncoder : public perception::DenseEncoder {
   const Feature& LookOf(std::int32_t id) {
     const auto found = looks_.find(id);
     if (found != looks_.end()) return found->second;
-    const SceneInstance* instance = simulator_.scene().FindInstance(id);
+    const SceneInstance* instance = simulator_->scene().FindInstance(id);
     std::string name = "unknown";
     if (instance != nullptr) name = texts_.NameOf(*instance);
     Rng rng(MixSeed(config_.seed, static_cast<std::uint64_t>(id)), 17);
@@ -298,7 +300,7 @@ class GroundTruthEncoder : public perception::DenseEncoder {
     add(cell << 1 | 1, std::sqrt(1 - kPatchShare * kPatchShare));
   }
 
-  const Simulator& simulator_;
+  const Simulator* simulator_;  // null = texts alone
   GroundTruthConfig config_;
   TextSpace texts_;
   std::vector<Feature> noise_;
@@ -320,7 +322,14 @@ Result<std::unique_ptr<perception::DenseEncoder>> MakeGroundTruthEncoder(
     const Simulator& simulator, const GroundTruthConfig& config) {
   auto texts = MakeTextSpace(config);
   if (!texts) return tl::unexpected(texts.error());
-  return std::make_unique<GroundTruthEncoder>(simulator, config, std::move(*texts));
+  return std::make_unique<GroundTruthEncoder>(&simulator, config, std::move(*texts));
+}
+
+Result<std::unique_ptr<perception::DenseEncoder>> MakeGroundTruthTexts(
+    const GroundTruthConfig& config) {
+  auto texts = MakeTextSpace(config);
+  if (!texts) return tl::unexpected(texts.error());
+  return std::make_unique<GroundTruthEncoder>(nullptr, config, std::move(*texts));
 }
 
 Result<void> CheckGroundTruthEncoder(const GroundTruthConfig& config) {

@@ -17,6 +17,10 @@ namespace crossnav::sim {
 Result<std::unique_ptr<perception::DenseEncoder>> MakeGroundTruthEncoder(
     const Simulator& simulator, const GroundTruthConfig& config);
 
+/// The same for texts alone; pictures are kUnsupported.
+Result<std::unique_ptr<perception::DenseEncoder>> MakeGroundTruthTexts(
+    const GroundTruthConfig& config);
+
 /// The errors that MakeGroundTruthEncoder would report, before anything else is done.
 Result<void> CheckGroundTruthEncoder(const GroundTruthConfig& config);
 

@@ -4,7 +4,8 @@
 namespace crossnav::sim {
 namespace {
 
-/// Index in `to` of what is `from[old]`; copied there on first use. `places` remembers.
+/// Index in `to` of the element `from[old]`, copied there on first use. `places` is the map of
+/// copies.
 template <class T>
 int CopyOnce(const std::vector<T>& from, int old, std::map<int, int>& places, std::vector<T>& to) {
   const auto [it, is_new] = places.try_emplace(old, static_cast<int>(to.size()));

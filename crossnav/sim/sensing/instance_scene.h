@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One instance of a scene as a scene of its own, for rays that nothing else may stop.
+// One instance of a scene as a separate scene, for rays that nothing else may block.
 #pragma once
 
 #include "crossnav/sim/scene/scene.h"

@@ -14,11 +14,17 @@ struct NoiseConfig {
   // Depth. Standard deviation at planar depth z: depth_sigma_m + depth_sigma_per_m2 * z^2 [m].
   double depth_sigma_m = 0;
   double depth_sigma_per_m2 = 0;
-  double depth_step_per_m2 = 0;  ///< depths are multiples of this * z^2 [m]: steps of disparity
-  double depth_shift_px = 0;     ///< std. dev. of where a pixel really looks: ragged edges
-  double depth_edge_hole = 0;    ///< probability that a pixel beside a jump in depth is lost
-  double depth_hole_share = 0;   ///< share of the picture that is lost in patches
-  double depth_max_m = 0;        ///< beyond it there is no depth; 0 = no limit
+  double depth_step_per_m2 = 0;    ///< depths are multiples of this * z^2 [m]: steps of disparity
+  double depth_shift_px = 0;       ///< std. dev. of where a pixel really looks: ragged edges
+  double depth_edge_hole = 0;      ///< probability that a pixel beside a jump in depth is lost
+  double depth_hole_share = 0;     ///< share of the picture that is lost in patches
+  double depth_max_m = 0;          ///< beyond it there is no depth; 0 = no limit
+  double depth_angle_sigma_m = 0;  ///< sigma grows by this * (a / (90 deg - a))^2 / sqrt(z) [m], a
+                                   ///< = angle between ray and surface normal
+  double depth_flying = 0;         ///< probability that a pixel beside a jump mixes both depths
+  double depth_grazing_hole = 0;   ///< probability that a pixel is lost at 90 deg, from 60 deg on
+  double depth_dark_hole = 0;      ///< probability that a black pixel is lost; none above 1/8 white
+  double depth_glass_hole = 0;     ///< probability that a pixel of glass or a mirror is lost
   // Pose as the agent is told it. Standard deviations per executed step.
   double drift_xy_m = 0;           ///< each horizontal axis, a move
   double drift_z_m = 0;            ///< a move
@@ -33,6 +39,8 @@ struct NoiseConfig {
   double drop = 0;            ///< probability that a frame is lost: no depth, black picture
   double exposure_stops = 0;  ///< std. dev. of the exposure of a frame, in powers of two
   double blur_px = 0;         ///< longest horizontal motion blur; a frame's is uniform in 0 to this
+  double rolling_px = 0;      ///< farthest that rolling exposure moves the last row of colour to a
+                              ///< side; a frame's is uniform up to this
 };
 
 template <class V>
@@ -46,6 +54,11 @@ void Visit(V& visit, NoiseConfig& c) {
   visit("depth_edge_hole", c.depth_edge_hole, 0.0, 1.0);
   visit("depth_hole_share", c.depth_hole_share, 0.0, 1.0);
   visit("depth_max_m", c.depth_max_m, 0.0, 1000.0);
+  visit("depth_angle_sigma_m", c.depth_angle_sigma_m, 0.0, 1.0);
+  visit("depth_flying", c.depth_flying, 0.0, 1.0);
+  visit("depth_grazing_hole", c.depth_grazing_hole, 0.0, 1.0);
+  visit("depth_dark_hole", c.depth_dark_hole, 0.0, 1.0);
+  visit("depth_glass_hole", c.depth_glass_hole, 0.0, 1.0);
   visit("drift_xy_m", c.drift_xy_m, 0.0, 1.0);
   visit("drift_z_m", c.drift_z_m, 0.0, 1.0);
   visit("drift_yaw_deg", c.drift_yaw_deg, 0.0, 90.0);
@@ -57,6 +70,7 @@ void Visit(V& visit, NoiseConfig& c) {
   visit("drop", c.drop, 0.0, 1.0);
   visit("exposure_stops", c.exposure_stops, 0.0, 10.0);
   visit("blur_px", c.blur_px, 0.0, 200.0);
+  visit("rolling_px", c.rolling_px, 0.0, 200.0);
 }
 
 /// The settings that `profile` stands for, with the default seed. Unknown names give none's.

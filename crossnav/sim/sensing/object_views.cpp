@@ -14,8 +14,8 @@ namespace crossnav::sim {
 namespace {
 
 constexpr double kGrid_m = 0.2;       // chosen: steps of about one forward action
-constexpr double kAboveFoot_m = 2.2;  // chosen: what begins higher hangs over everything
-constexpr double kBelowFoot_m = 0.3;  // chosen: what ends lower is another floor's
+constexpr double kAboveFoot_m = 2.2;  // chosen: objects that begin higher hang over everything
+constexpr double kBelowFoot_m = 0.3;  // chosen: objects that end lower are on another floor
 constexpr double kMinDepth_m = 0.1;   // chosen: a corner beside or behind the camera is too near
 constexpr int kCoarse = 4;            // chosen: a picture of a quarter tells which views are good
 

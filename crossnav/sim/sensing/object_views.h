@@ -30,9 +30,9 @@ struct ObjectView {
   double visible_fraction = 0;  ///< of the silhouette it would have alone in an endless picture
 };
 
-/// Up to `rules.per_object` good views, spread evenly over the directions from which there are any
-/// (every n-th of all on a 0.2 m grid, ordered by direction). Empty where nobody can see it well.
-/// Deterministic. Costs some milliseconds per grid point.
+/// Up to `rules.per_object` good views, spread evenly over the available directions (every n-th of
+/// all on a 0.2 m grid, ordered by direction). Empty without a good view. Deterministic. Costs some
+/// milliseconds per grid point.
 std::vector<ObjectView> GoodViews(const Scene& scene, const NavMesh& navmesh,
                                   const RayCaster& caster, const SceneInstance& instance,
                                   const ViewRules& rules);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `crossnav scene info` reports, and the viewpoints of instances that benchmark and report
-// share.
+// Report of `crossnav scene info`, and the viewpoints of instances, shared by benchmark and report.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +25,7 @@ std::vector<Vector3d> Viewpoints(const Scene& scene, const NavMesh& navmesh,
                                  const RayCaster& caster, const SceneInstance& instance,
                                  const SensorConfig& sensor);
 
-/// Floor that holds most of `viewpoints`, -1 where there are none (nobody can see the instance).
+/// Floor with most of `viewpoints`, -1 without viewpoints (the instance cannot be seen).
 int FloorOfViewpoints(const NavMesh& navmesh, const std::vector<Vector3d>& viewpoints);
 
 struct InstanceInfo {

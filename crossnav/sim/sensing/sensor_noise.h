@@ -5,8 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <string_view>
 
 #include "crossnav/core/action.h"
+#include "crossnav/core/camera.h"
 #include "crossnav/core/image.h"
 #include "crossnav/core/pose.h"
 #include "crossnav/core/rng.h"
@@ -20,11 +23,24 @@ inline double DepthSigma(const NoiseConfig& noise, double z_m) {
   return noise.depth_sigma_m + noise.depth_sigma_per_m2 * z_m * z_m;
 }
 
-/// Shifted pixels, lost edges, patches without depth, noise, steps, range: in this order. Invalid
-/// pixels (0) stay invalid; what noise takes to 0 or below is invalid.
-DepthImage NoisyDepth(const NoiseConfig& noise, const DepthImage& depth_m, std::uint64_t seed);
+/// Whether a depth camera looks through things of this name, or sees another place in them.
+bool IsGlass(std::string_view name);
 
-/// Exposure, then motion blur.
+/// What depth noise depends on besides depth. What is missing has no effect.
+struct Scenery {
+  CameraIntrinsics camera;        ///< width 0 = missing
+  const RgbImage* rgb = nullptr;  ///< as large as depth
+  const InstanceImage* instance = nullptr;
+  const std::set<std::int32_t>* glass = nullptr;  ///< instances of glass, and mirrors
+};
+
+/// Shifted pixels, flying pixels, lost edges, patches without depth, what is dark, grazing or of
+/// glass lost, noise, steps, range: in this order. Invalid pixels (0) stay invalid; what noise
+/// takes to 0 or below is invalid.
+DepthImage NoisyDepth(const NoiseConfig& noise, const DepthImage& depth_m, std::uint64_t seed,
+                      const Scenery& scenery = {});
+
+/// Exposure, rolling exposure, then motion blur.
 RgbImage NoisyColour(const NoiseConfig& noise, const RgbImage& rgb, std::uint64_t seed);
 
 /// One episode's worth of noise.
@@ -48,8 +64,9 @@ class SensorNoise {
   /// Where the agent believes to be: world as it was at the start, drift included.
   const AgentPose& believed() const { return believed_; }
 
-  /// Makes a frame imperfect. A lost frame has no depth and no instances and is black.
-  void Disturb(Frame& frame);
+  /// Makes a frame imperfect. A lost frame has no depth and no instances and is black. `glass`:
+  /// instances of glass, and mirrors.
+  void Disturb(Frame& frame, const CameraIntrinsics& camera, const std::set<std::int32_t>& glass);
 
  private:
   void CloseLoop(const AgentPose& true_pose);

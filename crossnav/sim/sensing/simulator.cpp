@@ -58,6 +58,10 @@ Result<void> Simulator::Reset(const AgentPose& start) {
 void Simulator::UseNoise(const NoiseConfig& noise, std::uint64_t episode_seed) {
   noise_.emplace(noise, episode_seed);
   if (!noise_->IsOn()) noise_.reset();
+  glass_.clear();
+  if (!noise_ || noise.depth_glass_hole <= 0) return;
+  for (const SceneInstance& instance : scene_.instances)
+    if (IsGlass(instance.name)) glass_.insert(instance.id);
 }
 
 double Simulator::Step(Action action) {
@@ -109,7 +113,7 @@ Observation Simulator::Observe() {
   frame_ = caster_.Render(observation.camera, observation.T_world_camera, channels_);
   if (noise_) {
     observation.T_world_camera = CameraPose(noise_->believed(), sensor_.camera_height_m);
-    noise_->Disturb(frame_);
+    noise_->Disturb(frame_, observation.camera, glass_);
   }
   observation.rgb = frame_.rgb;
   observation.depth_m = frame_.depth_m;

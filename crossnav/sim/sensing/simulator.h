@@ -38,8 +38,8 @@ class Simulator {
     channels_ = is_wanted ? Channels::kAll : Channels::kWithoutColour;
   }
 
-  /// From the next Reset on, steps, poses and frames are as imperfect as `noise` says; the same
-  /// seed gives the same. Settings that are all off change nothing.
+  /// Applies `noise` to steps, poses and frames from the next Reset on; the same seed gives the
+  /// same noise. With all settings off nothing changes.
   void UseNoise(const NoiseConfig& noise, std::uint64_t episode_seed);
 
   const AgentPose& agent() const { return agent_; }  ///< the true one
@@ -58,6 +58,7 @@ class Simulator {
 
   AgentPose agent_;
   std::optional<SensorNoise> noise_;  // nothing = perfect
+  std::set<std::int32_t> glass_;      // instances of glass, and mirrors; empty while perfect
   Frame frame_;
   Channels channels_ = Channels::kAll;
 };

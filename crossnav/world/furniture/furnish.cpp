@@ -26,7 +26,7 @@ bool Inside(const Rect& in, const Rect& out) {
          in.y1 <= out.y1 + 0.02;
 }
 
-/// One of the four sides of a rectangle: origin and direction along it, front into the room.
+/// A side of a rectangle: origin and direction along it, front into the room.
 struct Side {
   Vector2d start, along;
   double length_m, yaw_rad;
@@ -60,7 +60,7 @@ class RoomFiller {
       if (room_.rects[0].Area() < rule.min_area_m2) continue;
       for (int i = 0; i < rule.most; ++i) {
         if (!rng_.Chance(rule.chance)) continue;
-        // Another size may fit where the first does not.
+        // Tries another size if the first does not fit.
         bool is_done = false;
         for (double share : {1.0, 0.8, 0.6, 0.5}) is_done = is_done || Try(rule, share);
       }
@@ -132,7 +132,7 @@ class RoomFiller {
     return true;
   }
 
-  /// `share` of the longest wall may be used.
+  /// Places a piece within `share` of the longest wall.
   bool Try(const Rule& rule, double share) {
     const double space = share * std::max(inner_.Width(), inner_.Depth());
     auto group = MakeGroup(rule.kind, source_, space, rng_);
@@ -198,11 +198,11 @@ class RoomFiller {
     return false;
   }
 
-  /// Opposite the television, as far away as the room allows.
+  /// Opposite the television, at the largest distance that the room allows.
   bool TryFacing(Group& group) {
     if (!tv_) return false;
     const Vector3d ahead = tv_->linear() * Vector3d::UnitY();
-    const double yaw = std::atan2(ahead.x(), -ahead.y());  // looks back at it
+    const double yaw = std::atan2(ahead.x(), -ahead.y());  // faces it
     const Vector2d from = tv_->translation().head<2>(), n = ahead.head<2>();
     for (double d = 6.0; d > 1.8; d -= 0.1) {
       for (double aside : {0.0, 0.3, -0.3, 0.6, -0.6}) {
@@ -230,14 +230,14 @@ class RoomFiller {
     return true;
   }
 
-  /// Where people put things down: not into a bath, not on top of a wardrobe.
+  /// Tops on which people put things: neither a bath nor the top of a wardrobe.
   static bool IsShelf(const ObjectModel& model) {
     constexpr double kLow_m = 0.3, kHigh_m = 1.3;  // chosen: within reach
     return model.top_m >= kLow_m && model.top_m <= kHigh_m && model.name != "bathtub" &&
            model.name != "toilet" && model.name != "shower";
   }
 
-  /// Small things on free tops.
+  /// Small objects on free tops.
   void AddClutter() {
     static constexpr std::string_view kSmall[] = {"vase", "book", "bowl", "table lamp", "book"};
     const std::size_t count = plan_.furniture.size();

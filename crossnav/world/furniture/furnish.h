@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Furnishes a plan room by room: what a room of its type holds, against walls, in corners, in the
-// middle, on tops and on walls. Keeps doors, their leaves, stairs and walkways free; boxes of
-// furniture do not overlap by more than kOverlapTolerance_m.
+// Furnishes a plan room by room by the rules of its type: against walls, in corners, in the middle,
+// on tops and on walls. Keeps doors, their leaves, stairs and walkways free; boxes of furniture do
+// not overlap by more than kOverlapTolerance_m.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ inline constexpr double kOverlapTolerance_m = 0.03;  // chosen: handles and rims
 
 void Furnish(HousePlan& plan, const FurnitureSource& source, Rng& rng);
 
-/// One room of it, with those pieces only whose kind (of MakeGroup) `wants` takes.
+/// Furnishes one room with the kinds (of MakeGroup) that `wants` accepts.
 void FurnishRoom(HousePlan& plan, int room, const FurnitureSource& source, Rng& rng,
                  const std::function<bool(std::string_view kind)>& wants);
 

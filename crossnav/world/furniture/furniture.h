@@ -12,7 +12,7 @@
 
 namespace crossnav::world {
 
-/// Every kind that MakeFurniture knows, sorted.
+/// Kinds of MakeFurniture, sorted.
 std::vector<std::string_view> FurnitureKinds();
 
 /// A model of `kind` ("sofa", "dining chair", ...), or nullopt for an unknown kind.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which models of the Sweet Home 3D furniture libraries stand for which kind of MakeFurniture:
-// chosen by hand from the catalogues, ambiguous pieces (day beds, high chairs) left out. Facts
-// only; the models themselves stay in their package.
+// Maps models of the Sweet Home 3D furniture libraries to kinds of MakeFurniture: chosen by hand
+// from the catalogues, without ambiguous pieces (day beds, high chairs). Facts only; the models
+// themselves stay in their package.
 #pragma once
 
 #include <span>
@@ -16,10 +16,10 @@ struct FurnitureClass {
 
 std::span<const FurnitureClass> FurnitureClasses();
 
-/// Models in the CC0 library whose own licence file says CC-BY.
+/// Models in the CC0 library with a licence file of CC-BY.
 bool IsReallyCcBy(std::string_view id);
 
-/// Triangles that a model of `kind` may keep.
+/// Maximum number of triangles of a model of `kind`.
 int TriangleBudget(std::string_view kind);
 
 }  // namespace crossnav::world

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Properties = std::map<std::string, std::string>;
 
-/// ISO-8859-1 with \uXXXX escapes, as Java writes properties; comes out as UTF-8.
+/// Converts ISO-8859-1 with \uXXXX escapes, the encoding of Java's properties, to UTF-8.
 std::string Unescape(const std::string& latin1) {
   std::string out;
   const auto put = [&out](unsigned c) {
@@ -71,8 +71,8 @@ double Centimetres(const Properties& p, const std::string& key, double otherwise
   return text.empty() ? otherwise : std::strtod(text.c_str(), nullptr) / 100;
 }
 
-/// Model rotation, then the box is fitted to width x depth x height; the result stands on the floor
-/// in object frame. Catalogue frame: X width, Y up, front +Z.
+/// Applies the model rotation, then fits the box to width x depth x height; the result stands on
+/// the floor in object frame. Catalogue frame: X width, Y up, front +Z.
 void Fit(ObjectModel& model, const Properties& p, const std::string& n, Vector3d size_m) {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   std::istringstream numbers(Get(p, "modelRotation#" + n));
@@ -86,7 +86,7 @@ void Fit(ObjectModel& model, const Properties& p, const std::string& n, Vector3d
     box.Add(v.cast<double>());
   }
   const Vector3d extent = (box.max - box.min).cwiseMax(1e-9);
-  // Two tables have width and depth exchanged against their mesh.
+  // Two tables of the catalogue have width and depth exchanged against their mesh.
   const double straight = extent.x() / extent.y() / (size_m.x() / size_m.y());
   if (straight > 1.3 || straight < 1 / 1.3) {
     const double turned = extent.x() / extent.y() / (size_m.y() / size_m.x());

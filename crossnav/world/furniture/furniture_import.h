@@ -20,7 +20,7 @@ struct ImportReport {
 };
 
 /// Reads every .sh3f in `libraries` (a folder) and writes the pack to `out_dir`. Models of
-/// FurnitureClasses only. kNotFound where there is no library.
+/// FurnitureClasses only. kNotFound without a library.
 Result<ImportReport> ImportFurniture(const std::filesystem::path& libraries,
                                      const std::filesystem::path& out_dir);
 

@@ -8,7 +8,7 @@
 namespace crossnav::world {
 namespace {
 
-/// A picture made of coloured blocks on the plane y = `y`, so that a screen is not just black.
+/// A picture of coloured blocks on the plane y = `y`, so that a screen is not plain black.
 void AddBlocks(ModelBuilder& b, const Rect& xz, double y, Rng& rng) {
   const int columns = rng.Int(3, 6), rows = rng.Int(2, 4);
   for (int i = 0; i < columns; ++i) {
@@ -24,7 +24,7 @@ void AddBlocks(ModelBuilder& b, const Rect& xz, double y, Rng& rng) {
   }
 }
 
-/// One curved leaf: three quads from `root`, rising and then bending down.
+/// A curved leaf: three quads from `root`, rising and then bending down.
 void AddLeaf(MeshBuilder& mesh, const Vector3d& root, double azimuth, double length, double rise) {
   const Vector3d out(std::cos(azimuth), std::sin(azimuth), 0), side(-out.y(), out.x(), 0);
   const double half = 0.13 * length;

@@ -74,7 +74,7 @@ std::string Packed(const std::string& model) {
   return packed;
 }
 
-/// Every index must have what it points at.
+/// True if every index refers to an existing element.
 bool IsSound(const ObjectModel& m) {
   const auto& mesh = m.mesh;
   bool ok = mesh.uvs.size() == mesh.vertices.size() &&
@@ -205,7 +205,7 @@ Result<FurniturePack> FurniturePack::Load(const fs::path& dir) {
     return Fail(ErrorCode::kMalformed,
                 PlainReason(e.what()) + "; `crossnav assets import` makes the pack again", where);
   }
-  pack.bytes_ = ReadFile(dir / "furniture.pack").value_or("");  // a missing one is not whole
+  pack.bytes_ = ReadFile(dir / "furniture.pack").value_or("");  // a missing file counts as damaged
   bool is_whole = HashOf(pack.bytes_) == pack_hash;
   for (const auto& e : pack.entries_) {
     is_whole = is_whole && e.offset <= pack.bytes_.size() &&

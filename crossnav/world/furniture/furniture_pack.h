@@ -30,12 +30,12 @@ class FurniturePack {
   static Result<FurniturePack> Load(const std::filesystem::path& dir);
 
   const std::vector<PackEntry>& entries() const { return entries_; }
-  /// Identity: of everything in the pack. Houses furnished from equal packs have equal bytes.
+  /// Hash of the whole pack. Houses furnished from equal packs have equal bytes.
   const std::string& hash() const { return hash_; }
-  /// nullptr where there is no such id.
+  /// nullptr for an unknown id.
   const PackEntry* Find(std::string_view id) const;
   Result<ObjectModel> Read(const PackEntry& entry) const;
-  /// One of the models of `kind`, or nullopt where the pack has none.
+  /// A model of `kind`, or nullopt if the pack has none.
   std::optional<ObjectModel> Draw(std::string_view kind, Rng& rng) const;
 
  private:
@@ -49,8 +49,8 @@ struct PackModel {
   ObjectModel model;
 };
 
-/// A model as it lies in the pack, unpacked, and back. Any bytes are safe to pass; `where` is for
-/// errors.
+/// Encodes a model as in the pack, uncompressed, and back. Any bytes are safe to decode; `where` is
+/// for errors.
 std::string EncodeModel(const ObjectModel& model);
 Result<ObjectModel> DecodeModel(const std::string& bytes, const PackEntry& entry,
                                 const std::string& where);

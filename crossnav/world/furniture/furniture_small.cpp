@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clutter: small things that are no goals, on tops and on the floor.
+// Clutter: small objects that are no goals, on tops and on the floor.
 #include "crossnav/world/furniture/furniture.h"
 #include "crossnav/world/mesh/palette.h"
 

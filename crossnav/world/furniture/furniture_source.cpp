@@ -11,7 +11,7 @@
 namespace crossnav::world {
 namespace {
 
-/// Names that people give the same thing; all of them are in the category table.
+/// Synonyms in use for an object; the category table has all of them.
 void VaryName(ObjectModel& model, Rng& rng) {
   static constexpr const char* kNames[][3] = {{"couch", "sofa", "couch"},
                                               {"potted plant", "plant", "houseplant"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where furniture comes from: an imported pack where there is one, otherwise (and for kinds that
-// the pack lacks) the parametric shapes.
+// Source of furniture: an imported pack if there is one, else (and for kinds that the pack lacks)
+// the parametric shapes.
 #pragma once
 
 #include <optional>
@@ -16,9 +16,9 @@ class FurniturePack;
 struct FurnitureSource {
   const FurniturePack* pack = nullptr;
   bool has_pictures = false;  ///< on screens and in frames
-  double pack_share = 0.85;   ///< chosen: mostly real models, some parametric ones for variety
+  double pack_share = 0.85;   ///< chosen: mostly real models, some parametric shapes for variety
 
-  /// nullopt for an unknown kind. The raw name varies as annotators' names do ("couch", "sofa").
+  /// nullopt for an unknown kind. The raw name varies among annotators' synonyms ("couch", "sofa").
   std::optional<ObjectModel> Make(std::string_view kind, Rng& rng) const;
 };
 

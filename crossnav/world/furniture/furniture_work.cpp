@@ -18,7 +18,7 @@ void AddTable(ModelBuilder& b, double w, double d, double h, double leg) {
   b.SetTop(h);
 }
 
-/// Kitchens share one look per seed stream: fronts, worktop.
+/// Looks of a kitchen: fronts and worktop.
 constexpr std::array<Rgb8, 5> kFronts = {
     Rgb8{232, 230, 226}, {176, 132, 88}, {92, 104, 110}, {120, 140, 124}, {206, 190, 164}};
 constexpr std::array<Rgb8, 3> kWorktops = {Rgb8{70, 68, 66}, {176, 132, 88}, {210, 208, 204}};

@@ -23,7 +23,7 @@ struct Maker {
     return g;
   }
 
-  /// Puts `kind` on the top of `below`, which stands at `p`.
+  /// Puts `kind` on the top of `below`, which is at `p`.
   void OnTop(Group& g, std::string_view kind, const ObjectModel& below, const Vector3d& p) const {
     if (below.top_m < 0) return;
     auto model = Make(kind);
@@ -155,7 +155,7 @@ struct Maker {
   }
 
   Group TableWithChairs() const {
-    Group g;  // a pair of garden chairs and a plant between them
+    Group g;  // a pair of garden chairs with a plant between them
     auto chair = Make("chair"), other = Make("chair");
     g.Add(std::move(*chair), {-0.55, 0, 0});
     g.Add(std::move(*other), {0.55, 0, 0});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pieces of furniture that belong together: a bed with its bedside tables, a desk with its chair, a
-// row of kitchen units. Group frame: origin on the floor at the wall, x along the wall, y into the
-// room, z up.
+// Groups of furniture: a bed with its bedside tables, a desk with its chair, a row of kitchen
+// units. Group frame: origin on the floor at the wall, x along the wall, y into the room, z up.
 #pragma once
 
 #include <optional>
@@ -16,7 +15,7 @@ namespace crossnav::world {
 struct GroupItem {
   ObjectModel model;
   Pose T_group_object = Pose::Identity();
-  bool is_optional = false;  ///< left out where something is in its way, e.g. a window
+  bool is_optional = false;  ///< left out if obstructed, e.g. by a window
 };
 
 struct Group {

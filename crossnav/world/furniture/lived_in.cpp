@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// One room with what stands in it.
+/// A room with its furniture.
 class Dweller {
  public:
   Dweller(HousePlan& plan, int room, const FurnitureSource& source, Rng& rng)
@@ -73,7 +73,7 @@ class Dweller {
     model.top_m = -1;
   }
 
-  /// Something on the floor close before the object, or beside it.
+  /// Places an object on the floor close before the goal object, or beside it.
   void HideOne(std::size_t index) {
     static constexpr std::string_view kBefore[] = {"box", "basket", "stool", "ottoman",
                                                    "chest of drawers"};

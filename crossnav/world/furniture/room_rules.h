@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands in a room of a type.
+// Furniture of a room by its type.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct Rule {
   double min_area_m2 = 0;  ///< of the room
 };
 
-/// In the order in which they are placed, important things first.
+/// In order of placement, important pieces first.
 std::span<const Rule> RulesOf(RoomType type);
 
 }  // namespace crossnav::world

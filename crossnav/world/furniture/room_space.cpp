@@ -12,7 +12,7 @@ namespace {
 constexpr double kOffWall_m = 0.08;  // half a wall and its skirting
 constexpr double kDoorHead_m = 2.1;
 
-/// What is to stay free before a window or a door, from above.
+/// Zone before a window or a door that stays free, from above.
 Rect ZoneOf(const Wall& wall, const Opening& o) {
   const Vector2d d = (wall.b - wall.a).normalized(), n(-d.y(), d.x());
   const bool is_window = o.kind == OpeningKind::kWindow;
@@ -76,7 +76,7 @@ struct SpaceMaker {
     }
   }
 
-  /// Below a sloping roof in pieces, each as low as its lowest corner.
+  /// Below a sloping roof: pieces, each as low as its lowest corner.
   void AddBlock(const Block& block) {
     Rect all{1e9, 1e9, -1e9, -1e9};
     for (const Vector3d& p : block.bottom) {

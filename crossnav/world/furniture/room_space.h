@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What must stay free in a room: before doors and windows, around stairs, railings and blocks.
+// Zones of a room that stay free: before doors and windows, around stairs, railings and blocks.
 // World frame, metres.
 #pragma once
 
@@ -19,7 +19,8 @@ RoomSpace SpaceOf(const HousePlan& plan, int room);
 
 Box3 Solid(const Rect& r, double z0, double z1);
 
-/// More than kOverlapTolerance_m, or than a part of the thinner box: a picture would fit anywhere.
+/// Overlap by more than kOverlapTolerance_m, or by more than a part of the thinner box: without
+/// this a picture would fit anywhere.
 bool Overlap(const Box3& a, const Box3& b);
 
 }  // namespace crossnav::world

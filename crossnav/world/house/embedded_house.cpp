@@ -103,7 +103,7 @@ void AddWalls(HousePlan& plan, int level) {
   const int ws = level * 5, wn = ws + 1, hall = ws + 2, es = ws + 3, en = ws + 4;
   const Vector2d sw(kWest, kSouth), nw(kWest, kNorth), se(kEast, kSouth), ne(kEast, kNorth);
   constexpr double t = 0.06;  // half a wall, so that corners close
-  // Outside, counter-clockwise: the inside is on the left.
+  // Outer walls, counter-clockwise: the inside is on the left.
   AddWall(plan, level, sw + Vector2d(-t, 0), {kHallWest, kSouth}, {ws, -1}, {Window(2.0, 1.6)});
   AddWall(plan, level, {kHallWest, kSouth}, {kHallEast, kSouth}, {hall, -1},
           {level == 0 ? Door(1.2, OpeningKind::kDoorClosed) : Window(1.2, 1.0)});
@@ -115,7 +115,7 @@ void AddWalls(HousePlan& plan, int level) {
   AddWall(plan, level, {kHallWest, kNorth}, nw + Vector2d(-t, 0), {wn, -1}, {Window(1.9, 1.4)});
   AddWall(plan, level, nw, {kWest, kWestSplit}, {wn, -1}, {Window(1.9, 1.2)});
   AddWall(plan, level, {kWest, kWestSplit}, sw, {ws, -1}, {Window(2.6, 1.6)});
-  // Inside. Doors in the hall's west wall keep clear of the stair (y 2 to 6.2).
+  // Inner walls. Doors in the hall's west wall keep clear of the stair (y 2 to 6.2).
   AddWall(plan, level, {kHallWest, kSouth}, {kHallWest, kWestSplit}, {ws, hall}, {Door(1.1)});
   AddWall(plan, level, {kHallWest, kWestSplit}, {kHallWest, kNorth}, {wn, hall},
           {Door(2.4, level == 0 ? OpeningKind::kDoorway : OpeningKind::kDoorOpen)});
@@ -136,7 +136,7 @@ void Put(HousePlan& plan, const char* kind, int room, const Vector3d& p_room, do
   plan.furniture.push_back({std::move(*model), StandAt(p_room + ground, yaw_rad), room});
 }
 
-/// Puts `kind` on the top of what was placed last.
+/// Puts `kind` on the top of the last placed object.
 void PutOnTop(HousePlan& plan, const char* kind, const Vector3d& offset, double yaw_rad) {
   const Placement& below = plan.furniture.back();
   const Vector3d p = below.T_world_object.translation();

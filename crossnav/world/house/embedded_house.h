@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The house that comes with the program: two floors of 10 x 9 m joined by a straight flight, drawn
-// by hand so that the demo and the tests know where everything is. Sofa, tv and chairs stand only
-// below, beds and toilet only above, plants on both floors. World frame, metres.
+// The house that ships with the program: two floors of 10 x 9 m joined by a straight flight, drawn
+// by hand, so that the demo and the tests know every position. Sofa, tv and chairs are below only,
+// beds and toilet above only, plants on both floors. World frame, metres.
 #pragma once
 
 #include <filesystem>

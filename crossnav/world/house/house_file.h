@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// `<hash>.house.json` beside a generated scene: what it was drawn from (seed, sizes, switches, the
-// furniture pack's hash), its rooms, and the credits of every imported model in it, which their
-// licences ask to travel with it. Other readers of the folder ignore it.
+// `<hash>.house.json` beside a generated scene: its parameters (seed, sizes, switches, the
+// furniture pack's hash), its rooms, and the credits of every imported model, which their licences
+// require. Other readers of the folder ignore it.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace crossnav::world {
 
-/// JSON text; `pack` is nullptr where only parametric shapes were used.
+/// JSON text; `pack` is nullptr with parametric shapes only.
 std::string HouseText(const HousePlan& plan, const HouseParams& params, const FurniturePack* pack);
 
 struct HouseRoom {
@@ -24,7 +24,7 @@ struct HouseRoom {
   std::vector<Rect> rects;  ///< world, up to the middle of its walls
 };
 
-/// Rooms of the scene in `folder`; empty where it has no such file (other scenes have none).
+/// Rooms of the scene in `folder`; empty without such a file (other scenes have none).
 Result<std::vector<HouseRoom>> ReadHouseRooms(const std::filesystem::path& folder);
 
 }  // namespace crossnav::world

@@ -12,7 +12,7 @@ namespace crossnav::world {
 namespace {
 
 constexpr double kSample_m = 0.35;       // chosen: grid on which rooms are probed
-constexpr double kReachableShare = 0.6;  // chosen: of a room's walkable ground
+constexpr double kReachableShare = 0.6;  // chosen: share of a room's walkable ground
 
 tl::unexpected<Error> Refuse(std::string what, std::string where) {
   return Fail(ErrorCode::kInvalid, std::move(what), std::move(where));
@@ -29,10 +29,10 @@ Result<void> CheckCategories(const sim::Scene& scene) {
 
 /// Places of a room on a grid.
 struct Probe {
-  int walkable = 0, reached = 0;  ///< of which from `start`
+  int walkable = 0, reached = 0;  ///< number of places; reached: from `start`
 };
 
-/// `start` is the first walkable place if there is none yet.
+/// `start` becomes the first walkable place if empty.
 Probe ProbeRoom(const Room& room, double z_m, const sim::NavMesh& navmesh,
                 std::optional<Vector3d>* start) {
   Probe probe;
@@ -51,7 +51,7 @@ Probe ProbeRoom(const Room& room, double z_m, const sim::NavMesh& navmesh,
   return probe;
 }
 
-/// A room that cannot be used, and why.
+/// A room that cannot be used, and the reason.
 struct Blocked {
   int room = -1;
   std::string what;
@@ -81,7 +81,7 @@ Result<void> CheckRooms(const HousePlan& plan, const sim::NavMesh& navmesh) {
                 fmt::format("{} {} on level {}", room.name, blocked->room, room.level));
 }
 
-/// Every floor of the navmesh reaches every other.
+/// Checks that every floor of the navmesh reaches every other floor.
 Result<void> CheckFloors(const HousePlan& plan, const sim::NavMesh& navmesh) {
   const auto& floors = navmesh.Floors();
   if (floors.size() < plan.levels.size()) return Refuse("a floor has no walkable ground", plan.id);

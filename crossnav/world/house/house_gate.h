@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The quality gate of generated houses: what a house must have before it is written.
+// Quality gate of generated houses: requirements of a house before it is written.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,10 @@ namespace crossnav::world {
 
 inline constexpr std::uintmax_t kMaxSceneBytes = 40'000'000;
 
-/// Error with the first reason: floors that are not connected, a room that cannot be reached or is
-/// mostly cut off, fewer than five of the six categories, furniture in furniture or in a doorway.
-/// Index of the first room without walkable ground or mostly cut off, or nullopt.
+/// First violated requirement: floors that are not connected, a room that cannot be reached or is
+/// mostly cut off, fewer than five of the six categories, furniture that overlaps furniture or a
+/// doorway. BlockedRoom: index of the first room without walkable ground or mostly cut off, or
+/// nullopt.
 std::optional<int> BlockedRoom(const HousePlan& plan, const sim::NavMesh& navmesh);
 
 Result<void> CheckHouse(const HousePlan& plan, const sim::Scene& scene,

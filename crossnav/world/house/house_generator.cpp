@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr double kLitEdge_m = 0.5;       // chosen: fine enough for the shadow of a table
 constexpr double kFinelyLit_m2 = 250;    // chosen: walkable; half of 40 MB and less
-constexpr double kLeastOffice_m2 = 120;  // chosen: smaller is a flat
+constexpr double kLeastOffice_m2 = 120;  // chosen: smaller buildings are flats
 constexpr double kLitArea_m2 = 0.03;     // chosen: skirtings and frames need no finer light
 
 Result<void> CheckParams(const HouseParams& params) {
@@ -53,8 +53,8 @@ Result<void> CheckParams(const HouseParams& params) {
   return {};
 }
 
-/// Floors and area drawn from the seed alone: were they drawn anew for each attempt, the houses
-/// that are easy to draw would crowd out the others.
+/// Floors and area drawn from the seed alone: redrawing them for each attempt would favour houses
+/// that pass easily.
 HouseParams Settled(HouseParams params) {
   Rng rng(params.seed, 0);
   constexpr int kFloors[] = {1, 2, 2, 2, 2, 3, 3, 4};
@@ -83,7 +83,7 @@ HouseReport Describe(const HousePlan& plan, const sim::Scene& scene) {
   return report;
 }
 
-/// Clean, or as a scanner would see it.
+/// The clean scene, or the scene with a scanner's faults.
 sim::Scene AsAsked(sim::Scene scene, const HouseParams& params) {
   if (!params.is_scan) return scene;
   ScanDamage damage;
@@ -92,7 +92,7 @@ sim::Scene AsAsked(sim::Scene scene, const HouseParams& params) {
   return scene;
 }
 
-/// Takes furniture out of rooms that it blocks, the last placed half first.
+/// Removes furniture from rooms that it blocks, the last placed half first.
 Result<void> ClearRooms(HousePlan& plan) {
   constexpr int kRounds = 6;  // chosen: large buildings have a few such rooms
   for (int round = 0; round < kRounds; ++round) {
@@ -103,7 +103,7 @@ Result<void> ClearRooms(HousePlan& plan) {
     const auto is_in_room = [&](const Placement& p) { return p.room == *room; };
     auto surplus =
         (std::count_if(plan.furniture.begin(), plan.furniture.end(), is_in_room) + 1) / 2;
-    if (surplus == 0) return {};  // the room itself is at fault: the gate says so
+    if (surplus == 0) return {};  // the room itself is at fault; the gate reports it
     for (auto i = plan.furniture.size(); i-- > 0 && surplus > 0;) {
       if (!is_in_room(plan.furniture[i])) continue;
       plan.furniture.erase(plan.furniture.begin() + static_cast<std::ptrdiff_t>(i));
@@ -113,8 +113,8 @@ Result<void> ClearRooms(HousePlan& plan) {
   return {};
 }
 
-/// One plan: drawn, built, checked, lit, written. kIo where the disk refuses, else what the plan
-/// lacks.
+/// One attempt: draws, builds, checks, lights and writes a plan. kIo on write errors, else the
+/// violated requirement.
 Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::path& out_dir,
                             const FurniturePack* pack) {
   auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
@@ -129,8 +129,8 @@ Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::pa
   if (auto ok = CheckHouse(*plan, checked, *navmesh); !ok) return tl::unexpected(ok.error());
   HouseReport report = Describe(*plan, checked);
   report.area_m2 = navmesh->AreaM2();
-  if (params.has_lights) {  // of the house, not of its scan
-    // Large buildings of edition 2 have coarser light, so that their files stay small.
+  if (params.has_lights) {  // of the clean house, not of its scan
+    // Large buildings of edition 2 have coarser light, which limits the size of their files.
     const double coarser =
         params.edition > 1 ? std::max(1.0, std::sqrt(report.area_m2 / kFinelyLit_m2)) : 1.0;
     Subdivide(clean.mesh, kLitEdge_m * coarser, kLitArea_m2 * coarser * coarser);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Furnished houses without end: draw a plan, furnish it, build it, and let it through only when it
-// is usable (house_gate.h). Same parameters, same bytes.
+// Generator of furnished houses: draws a plan, furnishes it, builds it, and accepts it if usable
+// (house_gate.h). Same parameters, same bytes.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace crossnav::world {
 struct HouseReport {
   std::string scene_id;
   std::filesystem::path folder;
-  int attempts = 0;                      ///< plans drawn until one passed
+  int attempts = 0;                      ///< plans drawn until the first that passed
   int floors = 0;                        ///< levels of the plan
   double area_m2 = 0;                    ///< walkable
   std::map<std::string, int> stairs;     ///< per kind
@@ -25,11 +25,11 @@ struct HouseReport {
   std::map<std::string, int> instances;  ///< per category
   int pieces = 0;                        ///< of furniture
   std::uintmax_t bytes = 0;              ///< of all files
-  std::map<std::string, int> refusals;   ///< reasons of the attempts that did not pass
+  std::map<std::string, int> refusals;   ///< reasons of rejected attempts
 };
 
-/// Writes `<out_dir>/<id>/...` and returns what it is; kInvalid after AttemptsFor(params) attempts.
-/// Furnished from `pack` where there is one, otherwise with the parametric shapes.
+/// Writes `<out_dir>/<id>/...` and reports its content; kInvalid after AttemptsFor(params)
+/// attempts. Furnished from `pack` if given, else with the parametric shapes.
 Result<HouseReport> GenerateHouse(const HouseParams& params, const std::filesystem::path& out_dir,
                                   const FurniturePack* pack = nullptr);
 
@@ -37,7 +37,7 @@ Result<HouseReport> GenerateHouse(const HouseParams& params, const std::filesyst
 Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
                                     const FurnitureSource& source = {});
 
-/// How many plans are tried.
+/// Maximum number of plans tried.
 int AttemptsFor(const HouseParams& params);
 
 /// "00017-House17".

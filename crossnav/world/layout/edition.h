@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an edition of the generator draws from. Edition 1 is the first one, kept byte for byte:
-// named benchmarks are made of it. Edition 2 adds what other people build. A chance of 0 draws no
-// random number, so that an ingredient of a later edition changes no house of an earlier one.
+// Distributions of an edition of the generator. Edition 1 is kept byte for byte, because named
+// benchmarks use it. Edition 2 adds shapes of real buildings. A chance of 0 draws no random number,
+// so that an ingredient of a later edition changes no house of an earlier edition.
 #pragma once
 
 #include "crossnav/core/rng.h"
@@ -18,7 +18,7 @@ struct Edition {
   int number = 1;
   int max_attempts = 12;  ///< plans tried; chosen: more than half of them pass (`world stats`)
   bool has_wide_stairs = false;   ///< stairs of every steepness, with half turns of winders
-  double attic_chance = 0;        ///< that a stair of its own leads to the top level
+  double attic_chance = 0;        ///< chance of a separate stair to the top level
   Range door_m{0.80, 0.95};       ///< clear width
   Range ajar_deg{75, 75};         ///< of a leaf that is neither open nor closed
   double threshold_chance = 0;    ///< of a door
@@ -26,10 +26,10 @@ struct Edition {
   double sloping_chance = 0;      ///< of the top level of a house: a roof with slopes
   double mezzanine_chance = 0;    ///< of a room of double height
   double open_plan_chance = 0;    ///< of a level: rooms without walls between them
-  double clutter_chance = 0;      ///< of a room: things on its floor
+  double clutter_chance = 0;      ///< of a room: objects on its floor
   double small_goal_chance = 0;   ///< of a top: a small plant on it
-  double hidden_goal_chance = 0;  ///< of a goal object: something before it
-  double office_chance = 0;       ///< of a building that may be either
+  double hidden_goal_chance = 0;  ///< of a goal object: an object before it
+  double office_chance = 0;       ///< of a building that may be a house or an office
 };
 
 inline constexpr int kEditions = 2;
@@ -37,7 +37,7 @@ inline constexpr int kEditions = 2;
 /// `number` 1 to kEditions.
 const Edition& EditionOf(int number);
 
-/// False without a draw where the edition lacks the ingredient.
+/// False, without drawing a number, if the edition lacks the ingredient.
 inline bool Draws(double chance, Rng& rng) {
   return chance > 0 && rng.Chance(chance);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a generated house is asked to be.
+// Parameters of a generated house.
 #pragma once
 
 #include <cstdint>
 
 namespace crossnav::world {
 
-/// Goes up when the same parameters give another house. Named benchmarks are defined by it.
+/// Raise it when the same parameters give another house. Named benchmarks refer to it.
 inline constexpr int kGeneratorVersion = 1;
 
 /// Offices are of edition 2.
@@ -21,7 +21,7 @@ struct HouseParams {
   bool has_textures = true;
   bool has_lights = true;  ///< light of windows and lamps, baked into vertex colours
   bool is_scan = false;    ///< holes, noise and floating fragments, as in a real scan
-  int max_attempts = 0;    ///< plans tried; 0 = as many as the edition says
+  int max_attempts = 0;    ///< plans tried; 0 = the edition's default
 };
 
 }  // namespace crossnav::world

@@ -118,7 +118,7 @@ struct Draft {
     stair.finish = {kLooks[rng.Below(std::size(kLooks))], Pattern::kPlain};
   }
 
-  /// Stairwells with walls of their own become rooms before the walls are derived.
+  /// Enclosed stairwells become rooms before the walls are derived.
   std::vector<std::pair<int, const Shaft*>> AddStairwells() {
     std::vector<std::pair<int, const Shaft*>> made;
     for (const Shaft& s : layout.shafts) {
@@ -132,7 +132,7 @@ struct Draft {
 
   void OpenStairwell(int room, const Shaft& shaft) {
     const int level = plan.rooms[static_cast<std::size_t>(room)].level;
-    // The longest wall may be one to an open stair beside it, which is part of the hall.
+    // The longest wall may border an open stair beside it, which is part of the hall.
     Wall* wall = edition.number > 1
                      ? FindCorridorWall(room)
                      : FindWall(plan, room, hall_of_level[static_cast<std::size_t>(level)]);
@@ -164,7 +164,7 @@ struct Draft {
     return static_cast<std::size_t>(plan.rooms[static_cast<std::size_t>(room)].level);
   }
 
-  /// The part of the wall, from its `a`, that lies on the edge of its level's corridor.
+  /// Part of the wall, from its `a`, on the edge of its level's corridor.
   Range AlongCorridor(const Wall& w) const {
     const Rect near = layout.levels[static_cast<std::size_t>(w.level)].corridor.Grown(0.1);
     const Vector2d d = (w.b - w.a).normalized();
@@ -175,7 +175,7 @@ struct Draft {
             d.dot(Vector2d(shared.x1, shared.y1) - w.a)};
   }
 
-  /// The longest wall of `room` along the corridor; a door into a stair shaft would be no use.
+  /// The longest wall of `room` along the corridor; doors into a stair shaft are excluded.
   Wall* FindCorridorWall(int room) {
     const Rect near = layout.levels[LevelOf(room)].corridor.Grown(0.1);
     const int hall = hall_of_level[LevelOf(room)];
@@ -183,7 +183,7 @@ struct Draft {
     for (Wall& w : plan.walls) {
       const bool is_pair =
           (w.room == room && w.other_room == hall) || (w.room == hall && w.other_room == room);
-      // Edition 2 takes a wall that goes on beside an open stair, too.
+      // Edition 2 also accepts a wall that continues beside an open stair.
       const bool is_along = edition.number > 1 ? AlongCorridor(w).hi - AlongCorridor(w).lo > 1.1
                                                : near.Contains(w.a) && near.Contains(w.b);
       if (!is_pair || !is_along) continue;
@@ -192,7 +192,7 @@ struct Draft {
     return best;
   }
 
-  /// A door or passage somewhere along the wall of two rooms.
+  /// Adds a door or passage in the wall between two rooms.
   bool Connect(int from, int to) {
     if (IsOpenBetween(plan, from, to)) return true;
     Wall* wall =
@@ -285,7 +285,8 @@ struct Draft {
     }
   }
 
-  /// A platform outside an upper room, railed, sometimes with a side left open: no stair.
+  /// A platform outside an upper room, with railings, sometimes open on one side: a false stair
+  /// entrance.
   void AddBalcony(int level) {
     const auto k = static_cast<std::size_t>(level);
     for (std::size_t i = 0; i < rooms_of_level[k].size(); ++i) {

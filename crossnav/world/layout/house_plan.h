@@ -12,7 +12,7 @@
 
 namespace crossnav::world {
 
-/// One attempt; floors and area must be given. kInvalid where the draw does not work out.
+/// One attempt; floors and area must be given. kInvalid if the draw fails.
 Result<HousePlan> DrawHousePlan(const HouseParams& params, Rng& rng);
 
 std::string_view NameOf(RoomType type);

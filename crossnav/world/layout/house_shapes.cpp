@@ -17,7 +17,7 @@ bool IsPlain(const Room& room) {
          room.type != kVoid && room.type != kMezzanine && room.offset_m == 0;
 }
 
-/// Whether stairs, voids or openings come into `rect` on `level`.
+/// Whether stairs, voids or openings reach into `rect` on `level`.
 bool IsInUse(const HousePlan& plan, int level, const Rect& rect) {
   for (const Rect& v : plan.VoidsOf(level)) {
     if (v.Grown(0.3).Overlaps(rect)) return true;
@@ -50,7 +50,7 @@ bool HasWallAt(const HousePlan& plan, int level, const Vector2d& p) {
 
 /// From the floor to the ceiling of the room.
 Block Prism(const HousePlan& plan, std::size_t room, std::vector<Vector2d> polygon) {
-  double area = 0;  // twice, signed
+  double area = 0;  // twice the signed area
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     area += a.x() * b.y() - a.y() * b.x();
@@ -63,7 +63,7 @@ Block Prism(const HousePlan& plan, std::size_t room, std::vector<Vector2d> polyg
   return block;
 }
 
-/// Fills the corner with what lies outside of a quarter circle.
+/// Fills the corner outside a quarter circle.
 void RoundCorner(HousePlan& plan, std::size_t room, const Vector2d& corner, const Vector2d& inward,
                  double radius_m) {
   constexpr int kPieces = 6;
@@ -114,7 +114,7 @@ void AddColumn(HousePlan& plan, std::size_t index, Rng& rng) {
   plan.blocks.back().name = "column";
 }
 
-/// The wedge between the roof and the ceiling of one room, over the facade at `y0`.
+/// Wedge between the roof and the ceiling of one room, over the facade at `y0`.
 void AddWedge(HousePlan& plan, std::size_t index, const Rect& r, double y0, double knee_m,
               double reach_m) {
   const Level& level = plan.levels[static_cast<std::size_t>(plan.rooms[index].level)];
@@ -130,7 +130,7 @@ void AddWedge(HousePlan& plan, std::size_t index, const Rect& r, double y0, doub
   plan.blocks.push_back(std::move(block));
 }
 
-/// Windows of the facade at `y0` become as low as the knee wall, or go.
+/// Lowers windows of the facade at `y0` to the knee wall, or removes them.
 void LowerWindows(HousePlan& plan, int level, double y0, double knee_m) {
   constexpr double kLeast_m = 1.2;  // chosen: a knee wall high enough for a window
   for (Wall& wall : plan.walls) {

@@ -9,7 +9,7 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kMinCell_m = 2.0;     // chosen: narrower is a cupboard
+constexpr double kMinCell_m = 2.0;     // chosen: narrower cells are cupboards
 constexpr double kMinStrip_m = 2.5;    // chosen: depth of a usable room
 constexpr double kDeepCell_m = 5.2;    // chosen: deeper cells are divided
 constexpr double kOfficeCell_m = 2.6;  // chosen: a desk and a shelf
@@ -19,7 +19,7 @@ struct Interval {
   double lo, hi;
 };
 
-/// What of [0, end] is left beside `taken`, sorted.
+/// Free intervals of [0, end] beside `taken`, sorted.
 std::vector<Interval> Free(double end, std::vector<Interval> taken) {
   std::sort(taken.begin(), taken.end(),
             [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
@@ -72,7 +72,8 @@ struct Drawing {
     return taken;
   }
 
-  /// Whether a strip that ends there has a rest beside its shafts that is no cell.
+  /// Whether a strip that ends at `end_m` leaves a rest beside its shafts that is too narrow for a
+  /// cell.
   bool HasSliver(int level, double end_m) const {
     for (const bool is_north : {false, true}) {
       for (const Interval& in : Free(end_m, Taken(is_north, level, level))) {
@@ -82,7 +83,7 @@ struct Drawing {
     return false;
   }
 
-  /// Puts the shaft somewhere in [0, end_m] where what is left beside it is nothing or a cell.
+  /// Places the shaft in [0, end_m] so that the rest beside it is empty or a cell.
   bool PlaceShaft(Shaft shaft, double end_m) {
     const StairBlock block = MakeStairBlock(shaft.params);
     shaft.width_m = block.width_m;
@@ -144,18 +145,18 @@ struct Drawing {
       lo = 1;
     }
     while (lo < main_top) {
-      // Mostly one shaft all the way up; sometimes the next storey has its stair elsewhere.
+      // Usually one shaft through all levels; sometimes the next storey has its stair elsewhere.
       const int hi = rng.Chance(0.7) ? main_top : lo + 1;
       if (!AddShaft(lo, hi, StairUse::kMain, end_m)) return false;
       lo = hi;
     }
     if (lo < top && !AddShaft(lo, top, StairUse::kAttic, end_m)) return false;
-    // The second stair of an office is an escape: one does without it where it finds no place.
+    // The second stair of an office is an escape stair; it is omitted if it does not fit.
     if (params.is_office && top > 0) AddShaft(0, top, StairUse::kMain, end_m);
     return true;
   }
 
-  /// Cells of one strip of one level; `voids` are left open in it.
+  /// Cells of a strip of a level; `voids` stay open.
   void FillStrip(int level, bool is_north, double end_m, const std::vector<Rect>& voids) {
     LevelLayout& out = house.levels[static_cast<std::size_t>(level)];
     const double depth = StripDepth(is_north);
@@ -194,8 +195,8 @@ struct Drawing {
     out.cells.push_back({rect(x0, x1, front, depth), parent, false, false});
   }
 
-  /// The space behind a shaft becomes a small room, entered from a neighbour, where it is deep
-  /// enough; otherwise nobody gets there.
+  /// The space behind a shaft becomes a small room with a door to a neighbour if it is deep enough;
+  /// otherwise it stays closed.
   template <class MakeRect>
   void AddRests(int level, bool is_north, double depth, LevelLayout& out, MakeRect rect) {
     for (const Shaft& s : house.shafts) {
@@ -265,7 +266,7 @@ struct Drawing {
     return true;
   }
 
-  /// A cell on the corridor that may rise through the next level as well.
+  /// A cell on the corridor that may extend through the next level.
   std::optional<Rect> DrawGallery(int level, double end_m) const {
     for (const Cell& c : house.levels[static_cast<std::size_t>(level)].cells) {
       if (c.parent >= 0 || c.is_void || c.is_end_room || c.rect.Area() < 14) continue;
@@ -274,7 +275,7 @@ struct Drawing {
       for (const Interval& t : Taken(is_north, level + 1, level + 1)) {
         is_free = is_free && (c.rect.x1 <= t.lo + 1e-6 || c.rect.x0 >= t.hi - 1e-6);
       }
-      // What is left beside it on the level above must be nothing or a cell.
+      // The rest beside it on the level above must be empty or a cell.
       auto taken = Taken(is_north, level + 1, level + 1);
       taken.push_back({c.rect.x0, c.rect.x1});
       for (const Interval& f : Free(end_m, taken)) is_free = is_free && f.hi - f.lo >= kMinCell_m;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The division of a house's levels into rectangles: a corridor with strips of cells on both sides,
-// stair shafts at the same place on the levels they join, and sometimes a room across the
+// Division of a house's levels into rectangles: a corridor with strips of cells on both sides,
+// stair shafts at the same place on the levels that they join, and sometimes a room across the
 // corridor's end. Canonical frame: the footprint is [0, width] x [0, depth], the corridor runs
 // along x.
 #pragma once
@@ -18,13 +18,13 @@ struct Shaft {
   StairParams params;
   int lo = 0, hi = 1;
   bool is_north = true;      ///< side of the corridor
-  bool is_enclosed = false;  ///< a room of its own behind doors
+  bool is_enclosed = false;  ///< a separate room behind doors
   double x0 = 0, width_m = 0, depth_m = 0;
 };
 
 struct Cell {
   Rect rect;
-  int parent = -1;  ///< cell through which it is entered; -1 = the corridor
+  int parent = -1;  ///< cell that holds its door; -1 = the corridor
   bool is_end_room = false;
   bool is_void = false;  ///< open to the cell below
 };
@@ -48,18 +48,18 @@ struct LayoutParams {
   int levels = 2;
   double area_m2 = 90;
   bool has_basement = false;
-  bool has_attic = false;       ///< a stair of its own leads to the top level
+  bool has_attic = false;       ///< a separate stair leads to the top level
   std::vector<double> rises_m;  ///< floor to floor, one per storey
   double slab_m = 0.25;
 };
 
-/// nullopt where the draw does not work out (a shaft does not fit); try another seed.
+/// nullopt if the draw fails (a shaft does not fit); try another seed.
 std::optional<HouseLayout> DrawLayout(const LayoutParams& params, Rng& rng);
 
-/// The shaft's rectangle in the canonical frame.
+/// Rectangle of the shaft in the canonical frame.
 Rect RectOf(const HouseLayout& layout, const Shaft& shaft);
 
-/// The shaft's stair from `level` to the next, in the canonical frame, standing at height `z_m`.
+/// Stair of the shaft from `level` to the next, in the canonical frame, at height `z_m`.
 StairBlock StairIn(const HouseLayout& layout, const Shaft& shaft, int level, double rise_m);
 
 }  // namespace crossnav::world

@@ -10,11 +10,11 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kLeastVoid_m = 1.4;  // chosen: narrower is a slot
+constexpr double kLeastVoid_m = 1.4;  // chosen: a narrower void is a slot
 constexpr double kFoot_m = 1.0;       // chosen: ground before the first riser
 
-/// Climbs along the wall at x0 towards the platform's edge at `y_edge`; nullopt where it is too
-/// long for `room_m`.
+/// A stair along the wall at x0 towards the platform's edge at `y_edge`; nullopt if it is longer
+/// than `room_m`.
 std::optional<Stair> StairTo(const HousePlan& plan, const VoidPlace& place, double y_edge,
                              double room_m, Rng& rng) {
   const Room& above = plan.rooms[static_cast<std::size_t>(place.void_room)];
@@ -34,7 +34,7 @@ std::optional<Stair> StairTo(const HousePlan& plan, const VoidPlace& place, doub
   DrawStairBody(params, rng);
   const double run_m = (params.risers - 1) * params.tread_m;
   if (run_m + kFoot_m > room_m) return std::nullopt;
-  params.has_left_rail = place.is_north;  // seen when climbing; the wall is on the other side
+  params.has_left_rail = place.is_north;  // as seen when climbing; the wall is on the other side
   params.has_right_rail = !place.is_north;
   const double s = place.is_north ? 1 : -1;
   const Vector3d foot(above.rects[0].x0 + 0.08 + 0.5 * params.width_m, y_edge + s * run_m,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A platform in a room of double height, railed towards the void: entered from the hall of its
-// level, or by a steep stair of its own from the room below. Canonical frame.
+// A platform in a room of double height, railed towards the void. Access: from the hall of its
+// level, or by a steep stair from the room below. Canonical frame.
 #pragma once
 
 #include "crossnav/core/rng.h"
@@ -10,7 +10,7 @@ namespace crossnav::world {
 
 /// A void over a room.
 struct VoidPlace {
-  int void_room = -1;  ///< shrinks to what the platform leaves
+  int void_room = -1;  ///< shrinks to the area beside the platform
   int below_room = -1;
   bool is_north = true;  ///< side of the corridor
   double slab_m = 0.25;

@@ -6,7 +6,7 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kShared_m = 1.2;  // chosen: less is a corner that touches
+constexpr double kShared_m = 1.2;  // chosen: rooms that share less touch at a corner only
 
 Room& At(HousePlan& plan, int room) {
   return plan.rooms[static_cast<std::size_t>(room)];

@@ -9,11 +9,10 @@
 
 namespace crossnav::world {
 
-/// Joins those of `rooms` that lie beside each other, and now and then the hall with them. Before
-/// the walls are derived.
+/// Joins adjacent rooms of `rooms`, sometimes with the hall. Before the walls are derived.
 void OpenLevel(HousePlan& plan, const std::vector<int>& rooms, int hall, Rng& rng);
 
-/// Rooms that need no door between them.
+/// True if the two rooms need no door between them.
 bool IsOpenBetween(const HousePlan& plan, int room_a, int room_b);
 
 }  // namespace crossnav::world

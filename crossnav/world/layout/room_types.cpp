@@ -12,7 +12,7 @@ namespace {
 
 using enum RoomType;
 
-/// In the order in which a level gets them, largest cell first.
+/// Types of a level in order of assignment, largest cell first.
 std::vector<RoomType> Programme(LevelRole role, Rng& rng) {
   std::vector<RoomType> rest;
   switch (role) {
@@ -54,7 +54,7 @@ RoomType ChildOf(RoomType parent, double area_m2, Rng& rng) {
   }
 }
 
-/// The type, or one that fits a room of this size better.
+/// The type, or another type that fits a room of this size better.
 RoomType Fitting(RoomType type, double area_m2) {
   if (type == kGarage && area_m2 < 14) type = kStorage;
   if (type == kWc && area_m2 > 6) type = kStorage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which room is what, and what it looks like.
+// Types and finishes of rooms.
 #pragma once
 
 #include "crossnav/world/layout/house_plan.h"
@@ -8,7 +8,7 @@
 namespace crossnav::world {
 
 /// One type per cell. The largest cell becomes the living room (or main bedroom), the smallest the
-/// bathroom; a cell entered through another one gets a type that belongs to it.
+/// bathroom; a cell entered through another cell gets a matching type.
 std::vector<RoomType> DrawRoomTypes(const LevelLayout& level, LevelRole role, Rng& rng);
 
 /// Colours and patterns of floor, walls and ceiling.

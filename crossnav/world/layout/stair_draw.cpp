@@ -7,7 +7,7 @@
 namespace crossnav::world {
 namespace {
 
-constexpr Range kFirstRiser_m{0.15, 0.21};   // edition 1: what building codes allow
+constexpr Range kFirstRiser_m{0.15, 0.21};   // edition 1: limits of building codes
 constexpr Range kSecondRiser_m{0.10, 0.29};  // edition 2: the navmesh climbs 0.30 m
 
 // chosen: after building codes (comfortable), old town houses (steep), ladders to lofts (attic).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws the kind and the dimensions of a stair: comfortable flights by Blondel's rule in edition 1,
-// every steepness that people build in edition 2. Metres.
+// the full range of existing steepness in edition 2. Metres.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,15 @@
 
 namespace crossnav::world {
 
-/// What a stair's dimensions are drawn from.
+/// Ranges of a stair's dimensions.
 struct StairRange {
   Range riser_m, tread_m, width_m;
 };
 
 enum class StairUse { kMain, kCellar, kAttic };
 
-/// Least and largest floor to floor of the storeys that a stair serves, all with as many risers.
+/// Minimum and maximum floor-to-floor height of the storeys that a stair serves, all with the same
+/// number of risers.
 struct Storeys {
   double least_m = 2.8, most_m = 2.8;
   double slab_m = 0.25;
@@ -25,17 +26,18 @@ struct Storeys {
 
 StairKind DrawStairKind(const Edition& edition, StairUse use, Rng& rng);
 
-/// nullopt where no number of risers keeps to the edition's limits on all storeys.
+/// nullopt if no number of risers keeps to the edition's limits on all storeys.
 std::optional<StairParams> DrawStair(const Edition& edition, StairKind kind, const Storeys& storeys,
                                      Rng& rng);
 
-/// Ranges of edition 2; a riser stays below the climb limit of 0.30 m that the benchmark sets.
+/// Ranges of edition 2; a riser stays below the benchmark's climb limit of 0.30 m.
 StairRange DrawStairRange(StairKind kind, Rng& rng);
 
-/// Number of risers nearest to `wanted_riser_m` whose largest stays within `limit_m`, or nullopt.
+/// Number of risers nearest to `wanted_riser_m` with the largest riser within `limit_m`, or
+/// nullopt.
 std::optional<int> RisersFor(const Storeys& storeys, double wanted_riser_m, const Range& limit_m);
 
-/// Body and railings, as every edition draws them.
+/// Draws body and railings; common to all editions.
 void DrawStairBody(StairParams& stair, Rng& rng);
 
 }  // namespace crossnav::world

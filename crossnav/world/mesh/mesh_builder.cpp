@@ -9,7 +9,7 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kMinExtent_m = 1e-4;  // chosen: thinner is no solid
+constexpr double kMinExtent_m = 1e-4;  // chosen: thinner solids are dropped
 
 Vector3d RingPoint(const Vector3d& base, double radius, int i, int sides) {
   const double angle = 2 * std::numbers::pi * i / sides;
@@ -21,7 +21,7 @@ Vector3d RingPoint(const Vector3d& base, double radius, int i, int sides) {
 std::uint32_t MeshBuilder::AddVertex(const Vector3d& p_part, const Vector3d& normal_part) {
   const Vector3d p_world = T_world_part * p_part;
   mesh_.vertices.push_back(p_world.cast<float>());
-  // Part coordinates, so that a pattern turns with its object.
+  // Part coordinates, so that a pattern rotates with its object.
   const Vector3d n = normal_part.cwiseAbs();
   Eigen::Vector2d uv(p_part.x(), p_part.y());
   if (n.x() > n.y() && n.x() > n.z()) uv = {p_part.y(), p_part.z()};
@@ -58,7 +58,7 @@ void MeshBuilder::AddPictureQuad(const Vector3d& a, const Vector3d& b, const Vec
                                  const Vector3d& d) {
   const std::size_t first = mesh_.uvs.size();
   AddQuad(a, b, c, d);
-  if (mesh_.uvs.size() != first + 4) return;  // too small to show anything
+  if (mesh_.uvs.size() != first + 4) return;  // too small to show a pattern
   constexpr float kIn = 0.004F;               // stays off the edge, where the texture repeats
   constexpr std::array<std::array<float, 2>, 4> kCorners = {
       {{kIn, 1 - kIn}, {1 - kIn, 1 - kIn}, {1 - kIn, kIn}, {kIn, kIn}}};

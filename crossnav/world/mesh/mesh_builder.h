@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Builds triangles out of simple solids. The builder holds a current material, instance, transform
-// and texture scale; every solid added takes them. Faces do not share vertices (flat shading) and
-// carry texture coordinates in metres / scale, projected along the face's dominant axis, so that a
-// texture has its real size everywhere. Units: metres; z up.
+// Builds triangles out of simple solids. Every solid uses the builder's current material, instance,
+// transform and texture scale. Faces do not share vertices (flat shading) and carry texture
+// coordinates in metres / scale, projected along the face's dominant axis, so that a texture has
+// its real size everywhere. Units: metres; z up.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ class MeshBuilder {
   int instance = 0;
   double texture_m = 1.0;                ///< length of one texture repeat
   double texture_height_m = 0;           ///< of one repeat across; 0 = texture_m, square
-  Pose T_world_part = Pose::Identity();  ///< applied to everything that is added
+  Pose T_world_part = Pose::Identity();  ///< applied to every solid
 
   void AddTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
   /// Counter-clockwise seen from the front.
   void AddQuad(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d);
-  /// As AddQuad, showing the whole picture once: a is its lower left corner, b its lower right.
+  /// As AddQuad, with the whole picture once: a is its lower left corner, b its lower right.
   void AddPictureQuad(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d);
-  /// Axis-aligned in the part frame; nothing is added where an extent is below 0.1 mm.
+  /// Axis-aligned in the part frame; dropped if an extent is below 0.1 mm.
   void AddBox(const Vector3d& min, const Vector3d& max);
-  /// A board of `size` centred at `center`, turned by `rotation` about its centre.
+  /// A board of `size` centred at `center`, rotated by `rotation` about its centre.
   void AddOrientedBox(const Vector3d& center, const Vector3d& size,
                       const Eigen::Matrix3d& rotation);
   /// Extrudes the convex polygon `base_xy` (counter-clockwise) from z0 to z1.
@@ -43,7 +43,7 @@ class MeshBuilder {
   /// Round bar from `a` to `b`.
   void AddBar(const Vector3d& a, const Vector3d& b, double radius, int sides = 8);
   void AddEllipsoid(const Vector3d& center, const Vector3d& radii, int sides = 12);
-  /// Box with its upper edges bevelled by `bevel_m`: reads as a cushion.
+  /// Box with its upper edges bevelled by `bevel_m`, as a cushion.
   void AddCushion(const Vector3d& min, const Vector3d& max, double bevel_m);
 
   /// Appends `part` (in the part frame, its materials shifted by `material_offset`) as the current

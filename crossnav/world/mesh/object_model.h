@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One piece of furniture in its own frame: origin on the floor at the centre of its footprint, x to
+// A piece of furniture in its own frame: origin on the floor at the centre of its footprint, x to
 // the right, y towards the FRONT (the side people use), z up, metres. -y goes to the wall.
 #pragma once
 
@@ -18,9 +18,10 @@ struct ObjectModel {
   sim::TriangleMesh mesh;
   std::vector<sim::Material> materials;
   std::vector<sim::Texture> textures;
-  int own_textures = 0;   ///< how many of the last textures belong to this copy of an asset alone
-  std::set<int> glowing;  ///< materials that give light of their own, e.g. a screen
-  double top_m = -1;      ///< height of a usable top on which small things may stand; < 0 = none
+  /// number of textures, the last ones, that belong to this copy of an asset alone
+  int own_textures = 0;
+  std::set<int> glowing;  ///< materials that emit light, e.g. a screen
+  double top_m = -1;      ///< height of a usable top for small objects; < 0 = none
 
   Box3 Bounds() const;
   Vector3d Size() const;
@@ -36,7 +37,7 @@ class ModelBuilder {
 
   MeshBuilder mesh;
 
-  /// Everything added from now on has this colour.
+  /// Sets the colour of subsequent solids.
   void Colour(Rgb8 colour);
   void SetTop(double top_m) { model_.top_m = top_m; }
   ObjectModel Finish();

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Models with more triangles than a scene needs.
+// Simplification of models with more triangles than a scene needs.
 #pragma once
 
 #include "crossnav/world/mesh/object_model.h"
 
 namespace crossnav::world {
 
-/// Fewer triangles, material by material, so that seams stay. Some models stop far above `budget`.
+/// Reduces triangles material by material, so that seams stay. Some models stop far above `budget`.
 void Simplify(ObjectModel& model, int budget);
 
-/// Drops vertices that no triangle uses.
+/// Drops unused vertices.
 void Compact(ObjectModel& model);
 
 }  // namespace crossnav::world

@@ -13,7 +13,7 @@ double AreaOf(const sim::TriangleMesh& mesh, std::size_t t) {
   return 0.5 * static_cast<double>((b - a).cross(c - a).norm());
 }
 
-/// Adds the vertex half way from a to b.
+/// Adds the midpoint of a and b.
 std::uint32_t AddMiddle(sim::TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
   const Vector3f middle = 0.5F * (mesh.vertices[a] + mesh.vertices[b]);
   mesh.vertices.push_back(middle);

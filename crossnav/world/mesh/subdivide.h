@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finer triangles, for light and damage that need them. Surfaces keep their shape; texture
-// coordinates and vertex colours are interpolated.
+// Finer triangles for baked light and scan faults. Surfaces keep their shape; texture coordinates
+// and vertex colours are interpolated.
 #pragma once
 
 #include <functional>
@@ -10,10 +10,10 @@
 namespace crossnav::world {
 
 /// Splits triangles until no edge is longer than `max_edge_m`. Triangles of at most `min_area_m2`
-/// stay whole: long strips would give many.
+/// stay whole, because long strips would give many.
 void Subdivide(sim::TriangleMesh& mesh, double max_edge_m, double min_area_m2 = 0);
 
-/// The same, only where `wants(triangle)`, which is asked again about each half.
+/// Splits only where `wants(triangle)`; each half is tested again.
 void SubdivideWhere(sim::TriangleMesh& mesh, double max_edge_m,
                     const std::function<bool(std::size_t)>& wants);
 

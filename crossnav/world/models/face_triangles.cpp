@@ -10,7 +10,7 @@ namespace {
 
 using Vector2d = Eigen::Vector2d;
 
-constexpr std::size_t kMaxConcave = 1000;  // chosen: cutting ears costs n^2 and more
+constexpr std::size_t kMaxConcave = 1000;  // chosen: ear cutting costs n^2 and more
 
 double Turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d u = b - a, v = c - a;
@@ -50,7 +50,7 @@ bool IsConvex(const std::vector<Vector2d>& flat, double tolerance) {
   return true;
 }
 
-/// An ear is a convex corner without another corner inside; `margin` < 0 forgives those on its
+/// An ear is a convex corner with no other corner inside; `margin` < 0 tolerates corners on its
 /// edge.
 bool IsEar(const std::vector<Vector2d>& flat, const std::vector<std::size_t>& rest, std::size_t i,
            double margin) {
@@ -67,7 +67,7 @@ bool IsEar(const std::vector<Vector2d>& flat, const std::vector<std::size_t>& re
   return true;
 }
 
-/// Which of the corners `rest` is an ear; their number if none is.
+/// Position in `rest` of a corner that is an ear; its size if none is.
 std::size_t FindEar(const std::vector<Vector2d>& flat, const std::vector<std::size_t>& rest,
                     double margin) {
   std::size_t i = 0;
@@ -75,7 +75,8 @@ std::size_t FindEar(const std::vector<Vector2d>& flat, const std::vector<std::si
   return i;
 }
 
-/// Which of the corners `rest` has the least area: none, or the face crosses itself.
+/// Position in `rest` of the corner with the least area: used if no ear exists, as in a face that
+/// crosses itself.
 std::size_t FlattestCorner(const std::vector<Vector2d>& flat,
                            const std::vector<std::size_t>& rest) {
   const std::size_t n = rest.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles of one flat face with any number of corners, concave ones and ones with bridges to
-// their holes included (door frames are drawn so).
+// Triangulates a flat face with any number of corners, including concave faces and faces with
+// bridges to their holes (as in door frames).
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace crossnav::world {
 
-/// Indices into `corners`. A fan from the first corner where the face is convex, or has more than
-/// 1000 corners.
+/// Indices into `corners`. A fan from the first corner if the face is convex, or has more than 1000
+/// corners.
 std::vector<std::array<std::size_t, 3>> FaceTriangles(std::span<const Vector3f> corners);
 
 }  // namespace crossnav::world

@@ -78,7 +78,7 @@ struct ObjParser {
   int material = -1, group = -1;
   double ear_work = 0;
 
-  /// Index of the material in the model, -1 where it is as good as invisible.
+  /// Index of the material in the model, -1 if it is nearly invisible.
   int UseMaterial(const std::string& name) {
     const auto known = material_of_name.find(name);
     if (known != material_of_name.end()) return known->second;
@@ -86,7 +86,7 @@ struct ObjParser {
     const ObjMaterial m = found == library.end() ? ObjMaterial{} : found->second;
     if (m.opacity < 0.15) return material_of_name[name] = -1;
     sim::Material out{m.colour, TextureOf(m.picture)};
-    if (out.texture >= 0) out.colour = {255, 255, 255};  // exporters leave grey beside a picture
+    if (out.texture >= 0) out.colour = {255, 255, 255};  // exporters write grey beside a picture
     model.materials.push_back(out);
     names.material_names.push_back(name);
     names.is_material_defined.push_back(found != library.end());
@@ -115,7 +115,7 @@ struct ObjParser {
     return static_cast<int>(k);
   }
 
-  /// What is wrong with the face, or nullptr.
+  /// Reason for rejecting the face, or nullptr.
   const char* AddFace(std::istringstream& in) {
     std::vector<std::uint32_t> corners;
     std::string corner;

@@ -13,19 +13,19 @@
 
 namespace crossnav::world {
 
-/// Gives the bytes of a file named by the OBJ or MTL, or nullopt where it does not exist.
+/// Returns the bytes of a file named by the OBJ or MTL, or nullopt if it does not exist.
 using FileLookup = std::function<std::optional<std::string>(const std::string& name)>;
 
-/// Triangles whose material is mostly transparent (d < 0.15) are left out.
+/// Drops triangles with a mostly transparent material (d < 0.15).
 Result<ObjectModel> ParseObj(const std::string& text, const FileLookup& lookup,
                              const std::string& where);
 
-/// What an OBJ file names, beside its model.
+/// Names of an OBJ file, in addition to its model.
 struct NamedObj {
   ObjectModel model;
   std::vector<std::string> material_names;  ///< as model.materials; "" = before any usemtl
-  std::vector<bool> is_material_defined;    ///< as model.materials: in an MTL that is there
-  std::vector<std::string> group_names;     ///< of "g" and "o" lines, each once
+  std::vector<bool> is_material_defined;    ///< as model.materials: defined in an existing MTL
+  std::vector<std::string> group_names;     ///< of "g" and "o" lines, without duplicates
   std::vector<int> triangle_group;          ///< per triangle, -1 = before any
 };
 

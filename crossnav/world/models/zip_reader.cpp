@@ -10,11 +10,12 @@
 namespace crossnav::world {
 namespace {
 
-constexpr std::uint64_t kMaxDeflate = 1032;      // what a packed byte can unpack to at most
-constexpr std::uint64_t kMaxEntry = 512U << 20;  // chosen: no model is larger; guards against bombs
+constexpr std::uint64_t kMaxDeflate = 1032;  // largest ratio of unpacked to packed bytes
+// chosen: above every known model; limits decompression bombs
+constexpr std::uint64_t kMaxEntry = 512U << 20;
 
-/// Whether the entry holds just as many bytes as `out` and is intact: libzip compares the checksum
-/// where the entry ends.
+/// True if the entry holds exactly as many bytes as `out` and is intact: libzip compares the
+/// checksum at the end of the entry.
 bool ReadWhole(zip_file_t* file, std::string& out) {
   std::size_t at = 0;
   while (at < out.size()) {
@@ -33,7 +34,7 @@ struct ZipReader::Archive {
   zip_t* zip = nullptr;
 
   explicit Archive(std::string all) : bytes(std::move(all)) {
-    if (bytes.empty()) return;  // libzip takes it for an archive without entries
+    if (bytes.empty()) return;  // libzip would accept it as an archive without entries
     zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr);
     if (source == nullptr) return;
     zip = zip_open_from_source(source, ZIP_RDONLY, nullptr);

@@ -20,9 +20,9 @@ class ZipReader {
   static Result<ZipReader> Open(const std::filesystem::path& path);
   static Result<ZipReader> Parse(std::string bytes, std::string where);
 
-  std::vector<std::string> Names() const;  ///< sorted; of equal ones the last entry counts
+  std::vector<std::string> Names() const;  ///< sorted; of equal names the last entry counts
   bool Has(const std::string& name) const { return entries_.count(name) != 0; }
-  /// Unpacked size that the directory states, 0 where there is no such entry [bytes].
+  /// Unpacked size according to the directory [bytes]; 0 without such an entry.
   std::uint64_t SizeOf(const std::string& name) const;
   Result<std::string> Read(const std::string& name) const;
 

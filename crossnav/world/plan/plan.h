@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A house before it has a mesh: levels, rooms, walls with openings, stairs, railings and furniture.
-// World frame, z up, metres. Rooms tile their level up to the centre lines of the walls.
+// Plan of a house before meshing: levels, rooms, walls with openings, stairs, railings and
+// furniture. World frame, z up, metres. Rooms tile their level up to the centre lines of the walls.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct Level {
   double ceiling_m = 0;  ///< underside of the ceiling
 };
 
-/// A material of a surface: a colour, and a pattern of real size where textures are on.
+/// Finish of a surface: a colour, and a pattern of real size if textures are on.
 enum class Pattern { kPlain, kPlanks, kTiles, kPlaster, kCarpet, kBrick };
 struct SurfaceFinish {
   Rgb8 colour{200, 200, 200};
@@ -131,12 +131,12 @@ struct Stair {
   std::vector<Tread> treads;    ///< in climbing order, landings included; not the upper floor
   std::optional<Tread> column;  ///< of a spiral stair, from the ground to its top
   std::vector<Railing> railings;
-  Vector3d p_bottom = Vector3d::Zero();  ///< where one stands before the first riser
-  Vector3d p_top = Vector3d::Zero();     ///< where one stands after the last
+  Vector3d p_bottom = Vector3d::Zero();  ///< standing place before the first riser
+  Vector3d p_top = Vector3d::Zero();     ///< standing place after the last riser
   std::vector<Rect> footprint;           ///< on the lower floor, kept free of furniture
   std::vector<Rect> voids;               ///< cut out of the upper floor
-  std::vector<Edge> arrivals;    ///< edges of the voids where one steps onto the upper floor
-  std::vector<Edge> departures;  ///< where one steps onto the stair, on the lower floor
+  std::vector<Edge> arrivals;            ///< edges of the voids with access to the upper floor
+  std::vector<Edge> departures;          ///< edges with access from the lower floor
   SurfaceFinish finish{{150, 110, 75}, Pattern::kPlain};
   int room = -1;
 };
@@ -157,9 +157,9 @@ struct HousePlan {
   std::vector<std::pair<int, Rect>> voids;  ///< (level, rect) besides those of the stairs
   std::vector<Block> blocks;
   std::vector<Placement> furniture;
-  std::vector<Box3> taken;  ///< furniture keeps out, besides openings, stairs and railings
+  std::vector<Box3> taken;  ///< kept free of furniture, besides openings, stairs and railings
 
-  /// Everything cut out of the floor of `level`.
+  /// Voids in the floor of `level`.
   std::vector<Rect> VoidsOf(int level) const {
     std::vector<Rect> all;
     for (const auto& [l, rect] : voids) {
@@ -172,8 +172,7 @@ struct HousePlan {
   }
 };
 
-/// Pose of an object standing at `p_world`, its front turned to `yaw_rad` (0 = world +y,
-/// counter-clockwise).
+/// Pose of an object at `p_world` with its front at `yaw_rad` (0 = world +y, counter-clockwise).
 inline Pose StandAt(const Vector3d& p_world, double yaw_rad) {
   Pose T = Pose::Identity();
   T.translate(p_world);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kProbe_m = 0.01;
 
-/// Rooms that are open to a void beside them.
+/// Rooms that are open to an adjacent void.
 bool IsOpenToVoid(RoomType type) {
   return type == RoomType::kHall || type == RoomType::kStairwell || type == RoomType::kMezzanine;
 }
@@ -47,7 +47,7 @@ struct Deriver {
     return room < 0 ? 0.0 : std::min(0.0, plan.rooms[static_cast<std::size_t>(room)].offset_m);
   }
 
-  /// One wall from s0 to s1 along the line; `left` and `right` as seen from a to b.
+  /// Adds a wall from s0 to s1 along the line; `left` and `right` as seen from a to b.
   void Add(bool vertical, double fixed, double s0, double s1, int left, int right) {
     Wall wall;
     wall.level = level;
@@ -62,7 +62,7 @@ struct Deriver {
     plan.walls.push_back(std::move(wall));
   }
 
-  /// What is at a place on a line: a wall between two rooms, as seen from a to b, or nothing.
+  /// Rooms on both sides of a place on a line, as seen from a to b; empty without a wall.
   struct Sides {
     bool is_wall = false;
     int left = -1, right = -1;
@@ -77,7 +77,7 @@ struct Deriver {
     return NeedsWall(plan, sides.left, sides.right) ? sides : Sides();
   }
 
-  /// The walls on one line: a wall goes on as long as both its rooms do.
+  /// Walls on a line: a wall extends as long as both its rooms are the same.
   void AlongLine(bool vertical, double fixed) {
     const auto& along = vertical ? ys : xs;
     double start = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walls follow from the rooms: where two rooms, or a room and the outside, meet.
+// Derives walls from rooms: at each border between two rooms, or between a room and the outside.
 #pragma once
 
 #include "crossnav/world/plan/plan.h"
@@ -16,8 +16,8 @@ int RoomAt(const HousePlan& plan, int level, const Vector2d& p);
 /// The longest wall between two rooms (either order; -1 = outside), or nullptr.
 Wall* FindWall(HousePlan& plan, int room_a, int room_b);
 
-/// Adds the opening where it overlaps no other one and stays off the wall's ends; false where it
-/// does not fit. `opening.center_m` is along the wall.
+/// Adds the opening if it overlaps no other opening and stays off the wall's ends; else returns
+/// false. `opening.center_m` is along the wall.
 bool AddOpening(Wall& wall, const Opening& opening);
 
 }  // namespace crossnav::world

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
-constexpr std::size_t kMostShort = 65535;  // vertices; glTF keeps the last index for itself
+constexpr std::size_t kMostShort = 65535;  // vertices; glTF reserves the last index
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kUnsignedByte = 5121;
 
@@ -53,7 +53,7 @@ struct Buffers {
     return static_cast<int>(accessors.size()) - 1;
   }
 
-  /// Two bytes each where `vertices` allows it.
+  /// Two bytes each if `vertices` allows it.
   int AddIndices(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertices) {
     int a = 0;
     if (vertices <= kMostShort) {
@@ -135,9 +135,14 @@ Json Root(Json primitives, Json materials) {
   return root;
 }
 
-Json MaterialJson(const sim::Scene& scene, const sim::Material& m) {
+double FactorOf(std::uint8_t byte, RenderColours colours) {
+  return colours == RenderColours::kLinear ? LinearOfSrgb(byte) : byte / 255.0;
+}
+
+Json MaterialJson(const sim::Scene& scene, const sim::Material& m, RenderColours colours) {
   Json pbr = {{"baseColorFactor",
-               {LinearOfSrgb(m.colour.r), LinearOfSrgb(m.colour.g), LinearOfSrgb(m.colour.b), 1.0}},
+               {FactorOf(m.colour.r, colours), FactorOf(m.colour.g, colours),
+                FactorOf(m.colour.b, colours), 1.0}},
               {"metallicFactor", 0.0},
               {"roughnessFactor", 1.0}};
   Json material;
@@ -154,7 +159,7 @@ Json MaterialJson(const sim::Scene& scene, const sim::Material& m) {
 }
 
 Json RenderPrimitive(const sim::Scene& scene, const std::vector<std::uint32_t>& group, int material,
-                     Buffers& buffers) {
+                     RenderColours encoding, Buffers& buffers) {
   const auto& mesh = scene.mesh;
   std::vector<std::uint32_t> new_index(mesh.vertices.size(), kNone);
   std::vector<std::uint32_t> used;
@@ -185,7 +190,11 @@ Json RenderPrimitive(const sim::Scene& scene, const std::vector<std::uint32_t>& 
     std::vector<std::array<std::uint16_t, 4>> colours;  // linear: 8 bits would lose the dark tones
     for (auto v : used) {
       const Rgb8 c = mesh.vertex_colours[v];
-      colours.push_back({Linear16(c.r), Linear16(c.g), Linear16(c.b), 65535});
+      const auto number = [encoding](std::uint8_t byte) {
+        return encoding == RenderColours::kLinear ? Linear16(byte)
+                                                  : static_cast<std::uint16_t>(byte * 257);
+      };
+      colours.push_back({number(c.r), number(c.g), number(c.b), 65535});
     }
     attributes["COLOR_0"] = buffers.AddAccessor(colours, kUnsignedShort, "VEC4", kArrayBuffer);
     buffers.accessors.back()["normalized"] = true;
@@ -210,7 +219,7 @@ void AddImages(const sim::Scene& scene, Json& root, Buffers& buffers) {
   }
 }
 
-/// Part of the semantic mesh, small enough for short indices.
+/// Part of the semantic mesh that fits short indices.
 struct SemanticPart {
   std::vector<Vector3f> points_file;
   std::vector<std::array<std::uint8_t, 4>> colours;
@@ -246,14 +255,14 @@ Rgb8 SemanticColour(int instance_id) {
           static_cast<std::uint8_t>(c)};
 }
 
-std::string EncodeRenderGlb(const sim::Scene& scene) {
+std::string EncodeRenderGlb(const sim::Scene& scene, RenderColours colours) {
   Buffers buffers;
   Json primitives = Json::array(), materials = Json::array();
   const auto groups = TrianglesByMaterial(scene);
   for (std::size_t m = 0; m < groups.size(); ++m) {
-    materials.push_back(MaterialJson(scene, scene.materials[m]));
+    materials.push_back(MaterialJson(scene, scene.materials[m], colours));
     if (groups[m].empty()) continue;
-    primitives.push_back(RenderPrimitive(scene, groups[m], static_cast<int>(m), buffers));
+    primitives.push_back(RenderPrimitive(scene, groups[m], static_cast<int>(m), colours, buffers));
   }
   Json root = Root(std::move(primitives), std::move(materials));
   const bool has_unlit = std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -268,7 +277,7 @@ std::string EncodeSemanticGlb(const sim::Scene& scene, SemanticColours colours) 
   Buffers buffers;
   Json primitives = Json::array();
   SemanticPart part;
-  // A vertex is repeated where triangles of another instance or another primitive use it.
+  // Repeats a vertex used by triangles of another instance or another primitive.
   std::vector<std::uint32_t> new_index(mesh.vertices.size(), kNone);
   std::vector<std::int32_t> instance_of(mesh.vertices.size(), -1);
   const auto flush = [&] {

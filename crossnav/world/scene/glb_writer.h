@@ -12,14 +12,20 @@
 
 namespace crossnav::world {
 
-/// One primitive per material, textures embedded as PNG, vertex colours where the scene has them.
-std::string EncodeRenderGlb(const sim::Scene& scene);
+/// Numbers of colour factors and vertex colours: linear light, as glTF defines them, or the
+/// picture's own (sRGB / 255) for renderers that multiply them with a texture's bytes as they are,
+/// as habitat-sim does.
+enum class RenderColours { kLinear, kAsShown };
 
-/// How vertex colours name instances: as bytes, which renderers take for linear light, or as 16-bit
-/// linear light, which every renderer turns into the bytes of the semantic text.
+/// One primitive per material, textures embedded as PNG, vertex colours if the scene has them.
+std::string EncodeRenderGlb(const sim::Scene& scene,
+                            RenderColours colours = RenderColours::kLinear);
+
+/// Encoding of instances in vertex colours: as bytes, which renderers take for linear light, or as
+/// 16-bit linear light, which every renderer converts to the bytes of the semantic text.
 enum class SemanticColours { kBytes, kLinear };
 
-/// One unlit primitive whose vertex colours name the instance (SemanticColour of its id).
+/// One unlit primitive with instances as vertex colours (SemanticColour of the id).
 std::string EncodeSemanticGlb(const sim::Scene& scene,
                               SemanticColours colours = SemanticColours::kBytes);
 

@@ -15,15 +15,15 @@ namespace fs = std::filesystem;
 namespace {
 
 struct NamedBytes {
-  std::string name, bytes;  ///< without bytes there shall be no such file
+  std::string name, bytes;  ///< without bytes: the file is removed
 };
 
 fs::path PartOf(const fs::path& folder, const NamedBytes& file) {
   return folder / (file.name + ".part");
 }
 
-/// All of them or none, instead of what was there. Readers know a scene by the last file: it goes
-/// first and comes last, so that a scene is never half the old one.
+/// Replaces all files or none. Readers recognise a scene by the last file: it is removed first and
+/// written last, so that a scene never mixes old and new files.
 Result<void> WriteTogether(const fs::path& folder, std::span<const NamedBytes> files) {
   std::error_code ignored;
   for (const NamedBytes& file : files) {
@@ -70,7 +70,7 @@ Result<void> WriteDatasetConfig(const fs::path& dir) {
   std::string list;
   for (const auto& s : scenes)
     list += fmt::format("{}\n        \"{}\"", list.empty() ? "" : ",", s);
-  // Keys as Habitat's HM3D configuration has them; the colours are in vertices, not in a texture.
+  // Keys of Habitat's HM3D configuration; the colours are in vertices, not in a texture.
   const std::string text = R"({
   "stages": {
     "paths": {

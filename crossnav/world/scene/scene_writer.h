@@ -2,8 +2,8 @@
 // Writes a scene in HM3D's layout, so that one reader serves both:
 //   <dir>/<id>/<hash>.glb, <hash>.semantic.glb, <hash>.semantic.txt   with id = "<number>-<hash>"
 //   <dir>/crossnav.scene_dataset_config.json                          for Habitat
-// Every file is written beside its name first and renamed, so that none is ever half written, nor a
-// scene half replaced by another one.
+// Every file is written under a temporary name and renamed: no file is half written, and no scene
+// is half replaced by another scene.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,9 @@
 
 namespace crossnav::world {
 
-/// Writes `scene` below `dir` (made if absent) and returns the scene's folder. `scene.id` must read
-/// "<number>-<name>". `house_text` goes into `<hash>.house.json`, `changes_text` into
-/// `<hash>.changes.json`, where there is any.
+/// Writes `scene` below `dir` (created if absent) and returns the scene's folder. `scene.id` must
+/// be "<number>-<name>". A non-empty `house_text` goes into `<hash>.house.json`, a non-empty
+/// `changes_text` into `<hash>.changes.json`.
 Result<std::filesystem::path> WriteScene(const sim::Scene& scene, const std::filesystem::path& dir,
                                          const std::string& house_text = {},
                                          const std::string& changes_text = {});

@@ -8,8 +8,7 @@ namespace {
 
 constexpr double kTopSlab_m = 0.2;  // chosen: thickness of the roof slab
 
-/// Half the gap between a ceiling and the floor above, so that slabs meet and close the edges of
-/// stairwells.
+/// Half the gap between a ceiling and the floor above, so that slabs close the edges of stairwells.
 double SlabHalf(const HousePlan& plan, std::size_t level) {
   if (level + 1 >= plan.levels.size()) return kTopSlab_m;
   return 0.5 * (plan.levels[level + 1].floor_m - plan.levels[level].ceiling_m);

@@ -21,7 +21,7 @@ struct BuildOptions {
   std::uint64_t texture_seed = 1;
 };
 
-/// A scene and which of its materials give light of their own.
+/// A scene and its materials that emit light.
 struct BuiltHouse {
   sim::Scene scene;
   std::set<int> glowing;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene under construction: one mesh, its materials (each colour and texture once) and its named
-// instances. Finish() gives the same sim::Scene that the reader returns, so that what is written
-// can be compared with what is read.
+// instances. Finish() gives the same sim::Scene as the reader, so that written and read scenes can
+// be compared.
 #pragma once
 
 #include <map>
@@ -21,23 +21,23 @@ class SceneBuilder {
   MeshBuilder mesh;
   bool has_textures = false;
   std::uint64_t texture_seed = 1;
-  std::set<int> glowing;  ///< materials that give light of their own
+  std::set<int> glowing;  ///< materials that emit light
 
   /// Index of the material; the same colour and texture give the same index.
   int Material(Rgb8 colour, int texture = -1);
-  /// Makes the finish the current material, with its pattern where textures are on.
+  /// Makes the finish the current material, with its pattern if textures are on.
   void Use(const SurfaceFinish& finish);
   int AddTexture(sim::Texture texture);
-  /// What is seen through a window; one of a few views of the house.
+  /// View through a window; one of a few views of the house.
   int OutdoorMaterial();
 
-  /// Makes a new instance the current one and returns its id (1, 2, ...).
+  /// Begins a new instance and returns its id (1, 2, ...).
   int BeginInstance(std::string_view raw_name, int region);
 
   /// Adds `model` at `T_world_object` as a new instance and returns its id.
   int Place(const ObjectModel& model, const Pose& T_world_object, int region);
 
-  /// Instances without triangles are dropped and ids closed up; categories come from the table.
+  /// Drops instances without triangles and renumbers the others; categories come from the table.
   sim::Scene Finish(std::string_view id);
 
  private:

@@ -35,7 +35,7 @@ WallFrame FrameOf(const Wall& wall, const Level& level) {
   return f;
 }
 
-/// A solid piece: two painted faces, so that the two rooms may differ.
+/// A solid piece with two painted faces, so that the two rooms may differ.
 void AddPiece(const Wall& wall, const WallFrame& f, const Rect& piece_xz, SceneBuilder& scene) {
   const double x0 = piece_xz.x0, x1 = piece_xz.x1, z0 = piece_xz.y0, z1 = piece_xz.y1;
   MeshBuilder& mesh = scene.mesh;

@@ -21,7 +21,7 @@ Vector2d Turned(const Vector2d& p, int quarter_turns) {
   }
 }
 
-/// Applies `move2` to everything in the plan and lifts by `z_m`.
+/// Applies `move2` in the plan and lifts by `z_m`.
 template <class F>
 void Transform(Stair& stair, double z_m, F move2) {
   const auto move3 = [&](const Vector3d& p) {

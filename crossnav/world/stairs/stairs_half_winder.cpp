@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A U whose half turn is made of six winders around a newel, as in narrow town houses.
+// A U stair with six winders around a newel as half turn, as in narrow town houses.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -43,13 +43,13 @@ Plan PlanOf(const StairParams& params) {
   return p;
 }
 
-/// Where the direction meets the square around the turn.
+/// Intersection of the direction with the square around the turn.
 Vector2d OnWall(const Plan& p, double angle_rad) {
   const Vector2d d(std::cos(angle_rad), std::sin(angle_rad));
   return p.newel + d * ((p.reach_m + kIntoWall_m) / d.lpNorm<Eigen::Infinity>());
 }
 
-/// From `hi` down to `lo`, with the square's corner where it lies between.
+/// Winder from angle `hi` down to `lo`, with the square's corner if it lies between.
 Tread Winder(const Plan& p, double lo, double hi, double top_m) {
   Tread tread{{p.newel, OnWall(p, lo)}, top_m};
   for (const double corner : {0.25 * std::numbers::pi, 0.75 * std::numbers::pi}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Railings follow from the plan: every edge of a void that has no wall and no stair needs one.
+// Derives railings from the plan: every edge of a void without a wall or a stair needs a railing.
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +52,7 @@ bool NeedsRail(const Vector2d& p, const Vector2d& outward, const LevelEdges& edg
   for (const Edge& w : edges.walls) {
     if (IsOn(p, w, kOn_m)) return false;
   }
-  // A stair's edge may lie a few treads inside the void (headroom), so look further.
+  // A stair's edge may lie a few treads inside the void (headroom): the search extends beyond it.
   return std::none_of(edges.openings.begin(), edges.openings.end(), [&](const Edge& e) {
     const Vector2d along = (e.b - e.a).normalized();
     return std::abs(along.dot(outward)) < 0.1 && IsOn(p, e, 0.75);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Straight flights: one, with a landing, two side by side, and the few steps of a split level.
+// Straight flights: single, with a landing, two side by side, and the few steps of a split level.
 #include "crossnav/world/stairs/stairs.h"
 
 namespace crossnav::world {
@@ -100,7 +100,7 @@ StairBlock TwoFlights(const StairParams& params) {
   all.footprint.insert(all.footprint.end(), other.footprint.begin(), other.footprint.end());
   all.arrivals.insert(all.arrivals.end(), other.arrivals.begin(), other.arrivals.end());
   all.departures.insert(all.departures.end(), other.departures.begin(), other.departures.end());
-  // One opening over both: the strip between them would be a ledge to stand on.
+  // One opening over both: a strip between them would be a walkable ledge.
   all.voids = {{all.voids[0].x0, all.voids[0].y0, all.voids[0].x1, other.voids[0].y1}};
   all.arrivals = {{{all.voids[0].x1, all.voids[0].y0}, {all.voids[0].x1, all.voids[0].y1}}};
   all.departures = {{{kZone_m, all.voids[0].y0}, {kZone_m, all.voids[0].y1}}};

@@ -126,7 +126,7 @@ StairBlock MakeSpiralStair(const StairParams& params) {
   stair.body = StairBody::kOpenRisers;
   constexpr double kPole_m = 0.08;
   // Counter-clockwise from just right of the corridor side to just left of it; the sector between
-  // is the landing above and the way in below.
+  // is the landing above and the entry below.
   constexpr double kSector = std::numbers::pi / 3;
   const double radius = params.width_m + kPole_m, first = -std::numbers::pi / 2 + kSector / 2;
   const int treads = params.risers - 1;
@@ -156,7 +156,7 @@ StairBlock MakeSpiralStair(const StairParams& params) {
   stair.voids = {{c.x() - radius - 0.03, y_edge, c.x() + radius + 0.03, c.y() + radius + 0.03}};
   stair.arrivals = {{{c.x() - reach, y_edge}, {c.x() + reach, y_edge}}};
   stair.departures = stair.arrivals;
-  if (!params.is_continued) {  // beside the landing one would fall onto the first treads
+  if (!params.is_continued) {  // beside the landing there would be a drop onto the first treads
     stair.railings.push_back({Vector3d(c.x() + reach, y_edge + 0.02, params.rise_m),
                               Vector3d(c.x() + kPole_m, c.y() - kPole_m, params.rise_m), 0.95,
                               params.rail_style});

@@ -19,18 +19,18 @@ constexpr double kOffset_m = 0.004;
 constexpr double kPull_m = 0.12;  // chosen: off edges that run into other solids
 constexpr int kRays = 10;
 constexpr int kMostLights = 10;                      // chosen: per room
-constexpr double kSpill_m = 7;                       // chosen: light of other rooms reaches so far
-constexpr double kFaint = 0.02, kFaintSpill = 0.05;  // chosen: not worth a ray
-constexpr double kCell_m = 0.07;  // chosen: on furniture, light is the same within
-constexpr double kUpward = 0.2;   // chosen: floors send light up, to ceilings most of all
+constexpr double kSpill_m = 7;                       // chosen: reach of light from other rooms
+constexpr double kFaint = 0.02, kFaintSpill = 0.05;  // chosen: below this no ray is cast
+constexpr double kCell_m = 0.07;  // chosen: on furniture, light is constant within a cell
+constexpr double kUpward = 0.2;   // chosen: floors reflect light up, to ceilings most of all
 constexpr double kOutdoors = 0.9;
 const std::set<std::string, std::less<>> kLamps = {"ceiling lamp", "floor lamp", "table lamp"};
 const std::set<std::string, std::less<>> kShell = {"wall", "floor", "ceiling", "stairs", "window"};
 
-/// What the light at a vertex depends on.
+/// Inputs of the light at a vertex.
 struct Spot {
   Vector3d p_world = Vector3d::Zero();
-  Vector3d normal = Vector3d::Zero();  ///< unit, or zero where a vertex has no face
+  Vector3d normal = Vector3d::Zero();  ///< unit, or zero for a vertex without a face
   int instance = 0;
 };
 
@@ -38,7 +38,7 @@ Vector3d NormalOf(const sim::TriangleMesh& mesh, std::size_t t) {
   const auto& k = mesh.triangles[t];
   const Vector3d a = mesh.vertices[k[0]].cast<double>(), b = mesh.vertices[k[1]].cast<double>(),
                  c = mesh.vertices[k[2]].cast<double>();
-  return (b - a).cross(c - a);  // twice the area long
+  return (b - a).cross(c - a);  // length: twice the area
 }
 
 /// Vertices with their mean normals, pulled towards the middle of their faces.
@@ -103,7 +103,7 @@ class Baker {
     return RoomAt(plan_, level, p.head<2>());
   }
 
-  /// Lights of the room itself first, then those of others around it, nearest first.
+  /// Lights of the room first, then lights of other rooms around it, nearest first.
   std::vector<const Light*> LightsNear(int room) const {
     const Room& here = plan_.rooms[static_cast<std::size_t>(room)];
     const Vector2d c = here.rects[0].Center();
@@ -126,8 +126,8 @@ class Baker {
     return nearest;
   }
 
-  /// Share of what is around that stands close. Imported faces are wound either way: what looks
-  /// into its own solid is looked at from the other side.
+  /// Share of the surroundings that is close. Imported faces have either winding: a spot that faces
+  /// into its own solid is evaluated from the other side.
   double OcclusionAt(const Spot& spot) const {
     const double front = OcclusionAlong(spot.p_world, spot.normal);
     return front < 0.85 ? front : std::min(front, OcclusionAlong(spot.p_world, -spot.normal));
@@ -143,7 +143,7 @@ class Baker {
     return sum / kRays;
   }
 
-  /// Light that a point of `light` gives to the spot if nothing is in between.
+  /// Light from a point of `light` to the spot without occlusion.
   static double Unshadowed(const Spot& spot, const Light& light, const Vector3d& p_light) {
     const Vector3d to = p_light - spot.p_world;
     const double d2 = to.squaredNorm(), d = std::sqrt(d2);
@@ -158,7 +158,7 @@ class Baker {
 
   bool IsVisible(const Spot& spot, const Vector3d& p_light) const {
     const Vector3d to = p_light - spot.p_world;
-    const double side = spot.normal.dot(to) < 0 ? -1 : 1;  // lit from the side that the light is on
+    const double side = spot.normal.dot(to) < 0 ? -1 : 1;  // lit from the side of the light
     return !caster_.Cast(spot.p_world + side * kOffset_m * spot.normal, to, to.norm() - 0.02);
   }
 
@@ -189,7 +189,7 @@ class Baker {
   std::vector<std::vector<const Light*>> near_;
 };
 
-/// Equal for spots of one thing that lie together and face the same way.
+/// Equal for spots of one object that are close together and face the same direction.
 std::uint64_t CellOf(const Spot& spot) {
   std::uint64_t key = static_cast<std::uint64_t>(spot.instance);
   for (int i = 0; i < 3; ++i) {

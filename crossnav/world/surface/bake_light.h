@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light of a house, baked into vertex colours: daylight through windows, lamps, what bounces about
-// in a room, and the dimness of corners. Not physics: a picture should read as a room, and none be
-// so dark that one sees nothing. Deterministic; world frame, metres.
+// Baked light of a house, as vertex colours: daylight through windows, lamps, indirect light, and
+// dim corners. An approximation: pictures should show a recognisable room and never be too dark.
+// Deterministic; world frame, metres.
 #pragma once
 
 #include <set>
@@ -26,14 +26,14 @@ struct Light {
 
 struct HouseLights {
   std::vector<Light> lights;
-  std::vector<Vector3d> bounced;  ///< per room: light from everywhere
+  std::vector<Vector3d> bounced;  ///< per room: indirect light
 };
 
-/// Windows of outer walls, and lamps where they stand or hang.
+/// Windows of outer walls, and lamps.
 HouseLights LightsOf(const HousePlan& plan);
 
 /// Sets scene.mesh.vertex_colours; triangles should be small (Subdivide). Materials in `glowing`
-/// and lamps stay as bright as they are.
+/// and lamps keep their brightness.
 void BakeLight(sim::Scene& scene, const HousePlan& plan, const HouseLights& lights,
                const std::set<int>& glowing);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a house's light comes from.
+// Light sources of a house.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@ constexpr double kSky =
     4.0;  // chosen by eye, as all powers here: a window 2 m away suffices to read
 constexpr double kCeilingLamp_m2 = 1.7, kStandingLamp_m2 = 0.8;
 const Vector3d kDaylight(0.95, 0.99, 1.05), kLamplight(1.07, 1.0, 0.88);
-constexpr double kBase = 0.26;    // chosen: no room is darker
-constexpr double kBounce = 0.28;  // chosen: share of light that comes back
+constexpr double kBase = 0.26;    // chosen: minimum light of a room
+constexpr double kBounce = 0.28;  // chosen: reflected share of light
 constexpr double kLeastBounce = 0.1, kMostBounce = 0.42;
 
 Light WindowOf(const HousePlan& plan, const Wall& wall, const Opening& o) {
@@ -35,7 +35,7 @@ Light WindowOf(const HousePlan& plan, const Wall& wall, const Opening& o) {
   return light;
 }
 
-/// nullopt where the thing is no lamp.
+/// nullopt if the object is no lamp.
 std::optional<Light> LampOf(const Placement& thing) {
   const std::string& name = thing.model.name;
   const bool is_ceiling = name == "ceiling lamp";

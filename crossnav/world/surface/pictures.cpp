@@ -9,7 +9,7 @@ namespace crossnav::world {
 namespace {
 
 constexpr int kWidth_px = 128, kHeight_px = 72;
-constexpr double kPlane_m = 0.0005;   // chosen: faces this near to each other are one
+constexpr double kPlane_m = 0.0005;   // chosen: faces this near to each other are one plane
 constexpr double kMinFill = 0.85;     // chosen: share of its rectangle that a face must cover
 constexpr double kMinFace_m2 = 0.03;  // chosen: a small laptop's screen is larger
 constexpr double kLift_m = 0.0015;    // chosen: the picture's distance from its face
@@ -51,7 +51,7 @@ struct Painter {
       }
     }
   }
-  /// Everything below a wavy line around `v_mean`.
+  /// Fills the area below a wavy line around `v_mean`.
   void Hills(double v_mean, double height, Rgb8 colour, Rng& rng) {
     const double a = rng.Uniform(0, 6.28), b = rng.Uniform(0, 6.28);
     const double f = rng.Uniform(0.02, 0.06);
@@ -113,7 +113,7 @@ void PaintShapes(Painter& p, Rng& rng) {
   }
 }
 
-/// Triangles that look to the front, by the plane they lie in.
+/// Front-facing triangles of a plane.
 struct Plane {
   double area_m2 = 0;
   Box3 box;
@@ -126,7 +126,7 @@ std::map<long, Plane> FrontPlanes(const ObjectModel& model) {
                    b = model.mesh.vertices[t[1]].cast<double>(),
                    c = model.mesh.vertices[t[2]].cast<double>();
     const Vector3d n = (b - a).cross(c - a);
-    if (std::abs(n.y()) < 0.99 * n.norm()) continue;  // imported faces are wound either way
+    if (std::abs(n.y()) < 0.99 * n.norm()) continue;  // imported faces have either winding
     Plane& plane = planes[std::lround((a.y() + b.y() + c.y()) / 3 / kPlane_m)];
     plane.area_m2 += 0.5 * n.norm();
     for (const Vector3d& p : {a, b, c}) plane.box.Add(p);
@@ -179,7 +179,7 @@ std::optional<FrontFace> FindFrontFace(const ObjectModel& model) {
     const Vector3d size = plane.box.max - plane.box.min;
     const double rect_m2 = size.x() * size.z();
     const bool is_front = plane.box.max.y() > bounds.Center().y() - 0.02;
-    // Both sides of a thin board cover the rectangle twice; the one in front is looked at.
+    // Both sides of a thin board cover the rectangle twice; the front side counts.
     if (!is_front || plane.area_m2 < kMinFill * rect_m2 || rect_m2 < 0.6 * best_m2) continue;
     best_m2 = std::max(best_m2, rect_m2);
     best = FrontFace{plane.box.min.x(), plane.box.min.z(), plane.box.max.x(), plane.box.max.z(),

@@ -14,19 +14,19 @@ namespace crossnav::world {
 namespace {
 
 constexpr double kBehindMirror_m = 0.2;  // chosen: a wall and its other face
-constexpr double kNearCeiling_m = 0.7;   // chosen: what ends above this is hard to scan
+constexpr double kNearCeiling_m = 0.7;   // chosen: objects that end above this are hard to scan
 constexpr double kNoTop_m = 1e9;
 constexpr double kNoisyEdge_m = 0.4, kNoisyArea_m2 = 0.02;  // chosen: surfaces come out uneven
 constexpr double kFineEdge_m = 0.12;                        // chosen: borders come out ragged
-constexpr Rgb8 kUnseen{28, 28, 30};  // scanners leave black what they did not see
+constexpr Rgb8 kUnseen{28, 28, 30};                         // scanners leave unseen surfaces black
 constexpr double kFragment_m = 0.06;
-constexpr double kOverHead_m = 1.6;  // fragments float where nobody walks
+constexpr double kOverHead_m = 1.6;  // fragments float above head height
 
 Vector3d Normal2(const sim::TriangleMesh& mesh, std::size_t t) {
   const auto& k = mesh.triangles[t];
   const Vector3d a = mesh.vertices[k[0]].cast<double>(), b = mesh.vertices[k[1]].cast<double>(),
                  c = mesh.vertices[k[2]].cast<double>();
-  return (b - a).cross(c - a);  // twice the area long
+  return (b - a).cross(c - a);  // length: twice the area
 }
 
 Vector3d MiddleOf(const sim::TriangleMesh& mesh, std::size_t t) {
@@ -35,7 +35,7 @@ Vector3d MiddleOf(const sim::TriangleMesh& mesh, std::size_t t) {
   return c;
 }
 
-/// Ground that one walks on, or the like.
+/// Walkable ground or similar surfaces.
 bool IsGround(const sim::TriangleMesh& mesh, std::size_t t) {
   const Vector3d n = Normal2(mesh, t);
   return n.z() > 0.7 * n.norm();
@@ -65,7 +65,7 @@ void RemoveTriangles(sim::TriangleMesh& mesh, IsGone is_gone) {
   mesh.triangle_instance.resize(kept);
 }
 
-/// Places on surfaces, evenly by area, sorted by x, and what lies near one.
+/// Places on surfaces, evenly by area, sorted by x, with a search for neighbours.
 class Places {
  public:
   Places(const sim::TriangleMesh& mesh, double per_m2, double radius_m, Rng rng)
@@ -87,7 +87,7 @@ class Places {
 
   bool Cover(const Vector3d& p) const { return Touch({p, p}); }
 
-  /// Is any place within the radius of the box?
+  /// True if a place is within the radius of the box.
   bool Touch(const Box3& box) const {
     auto it = std::lower_bound(places_.begin(), places_.end(), box.min.x() - radius_m_,
                                [](const Vector3d& a, double x) { return a.x() < x; });
@@ -114,7 +114,7 @@ class Places {
   std::vector<Vector3d> places_;
 };
 
-/// The material that covers most of an instance: the glass of a window.
+/// Material that covers most of an instance: the glass of a window.
 std::uint16_t PaneOf(const sim::TriangleMesh& mesh, int instance) {
   std::map<std::uint16_t, double> area;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -127,10 +127,10 @@ std::uint16_t PaneOf(const sim::TriangleMesh& mesh, int instance) {
   return most == area.end() ? std::uint16_t{0} : most->first;
 }
 
-/// Panes and mirrors that a scanner looks through.
+/// Panes and mirrors that a scanner sees through.
 struct LostGlass {
-  std::map<int, std::uint16_t> panes;  ///< material, of windows that lose theirs
-  std::vector<Box3> mirrors;           ///< gone, the wall behind included
+  std::map<int, std::uint16_t> panes;  ///< material, for windows that lose their pane
+  std::vector<Box3> mirrors;           ///< removed, the wall behind included
 };
 
 LostGlass DrawLostGlass(const sim::Scene& scene, const ScanDamage& damage, Rng rng) {
@@ -152,7 +152,7 @@ LostGlass DrawLostGlass(const sim::Scene& scene, const ScanDamage& damage, Rng r
   return lost;
 }
 
-/// Height of the ceiling over the box, if its top comes near one.
+/// Height of the ceiling over the box, if its top is near a ceiling.
 std::optional<double> CeilingOver(const sim::Scene& scene, const Box3& box) {
   for (const auto& other : scene.instances) {
     if (other.name != "ceiling") continue;
@@ -165,7 +165,7 @@ std::optional<double> CeilingOver(const sim::Scene& scene, const Box3& box) {
   return std::nullopt;
 }
 
-/// Per instance, the height above which it is gone.
+/// Per instance, the height above which it is removed.
 std::vector<double> DrawTops(const sim::Scene& scene, const ScanDamage& damage, Rng rng) {
   static const std::set<std::string, std::less<>> kWhole = {"wall",    "ceiling", "floor", "stairs",
                                                             "railing", "window",  "mirror"};
@@ -180,7 +180,7 @@ std::vector<double> DrawTops(const sim::Scene& scene, const ScanDamage& damage, 
 }
 
 void AddNoise(sim::TriangleMesh& mesh, const ScanDamage& damage) {
-  // The same place moves the same way, or cracks would open between faces.
+  // The same place moves by the same offset, or cracks would open between faces.
   for (auto& v : mesh.vertices) {
     std::uint64_t key = damage.seed;
     for (int i = 0; i < 3; ++i) {
@@ -214,7 +214,7 @@ void AddFragments(sim::Scene& scene, const ScanDamage& damage, Rng rng) {
   }
 }
 
-/// Boxes of what is left; an instance that is gone altogether keeps its place without an extent.
+/// Boxes of the remaining geometry; a fully removed instance keeps its place with zero extent.
 void UpdateBoxes(sim::Scene& scene) {
   std::vector<Box3> boxes(scene.instances.size() + 1);
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
@@ -230,7 +230,7 @@ void UpdateBoxes(sim::Scene& scene) {
 }  // namespace
 
 void DamageAsScan(sim::Scene& scene, const ScanDamage& damage) {
-  // One stream per fault, so that one can be switched off without another place for the rest.
+  // One random stream per fault, so that switching a fault off does not change the others.
   const auto stream = [&](std::uint64_t fault) { return Rng(damage.seed, 77 + fault); };
   sim::TriangleMesh& mesh = scene.mesh;
   const LostGlass lost = DrawLostGlass(scene, damage, stream(0));
@@ -240,7 +240,8 @@ void DamageAsScan(sim::Scene& scene, const ScanDamage& damage) {
   const auto top_of = [&](std::size_t t) {
     return tops[static_cast<std::size_t>(mesh.triangle_instance[t])];
   };
-  std::vector<bool> is_behind(scene.instances.size() + 1, false);  // a mirror, or one itself
+  // behind a mirror, or a mirror itself
+  std::vector<bool> is_behind(scene.instances.size() + 1, false);
   for (const auto& i : scene.instances) {
     is_behind[static_cast<std::size_t>(i.id)] = i.name == "wall" || i.name == "mirror";
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The faults of a real scan, put into a clean scene: holes, noise, loose fragments, mirrors and
-// panes without a surface, patches without a texture, things that end below the ceiling. Seeded and
-// deterministic. Names and instances stay; one can still walk wherever one could.
+// Faults of a real scan, applied to a clean scene: holes, noise, loose fragments, mirrors and panes
+// without a surface, patches without a texture, objects cut off below the ceiling. Seeded and
+// deterministic. Names and instances stay; walkable places stay walkable.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,14 @@ struct ScanDamage {
   std::uint64_t seed = 1;
   double holes_per_m2 = 0.03;
   double hole_radius_m = 0.18;
-  double noise_m = 0.006;     ///< of vertices
-  int floaters = 40;          ///< loose fragments
-  double mirror_share = 0.8;  ///< of mirrors: gone with the wall behind, as a scanner sees through
-  double glass_share = 0.5;   ///< of windows: the pane is gone
+  double noise_m = 0.006;  ///< of vertices
+  int floaters = 40;       ///< loose fragments
+  /// of mirrors: removed with the wall behind, because a scanner sees through
+  double mirror_share = 0.8;
+  double glass_share = 0.5;     ///< of windows: the pane is removed
   double blanks_per_m2 = 0.02;  ///< patches without a texture
   double blank_radius_m = 0.35;
-  double cut_share = 0.4;  ///< of what stands or hangs near a ceiling: its top is gone
+  double cut_share = 0.4;  ///< of objects near a ceiling: the top is removed
 };
 
 void DamageAsScan(sim::Scene& scene, const ScanDamage& damage);

@@ -28,7 +28,7 @@ double Noise(double x, double y, int period, std::uint64_t seed) {
          fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
 }
 
-/// Several octaves of it; u, v in [0, 1).
+/// Several octaves of Noise; u, v in [0, 1).
 double Turbulence(double u, double v, int cells, std::uint64_t seed) {
   double sum = 0, weight = 0.5;
   for (int octave = 0; octave < 4; ++octave, cells *= 2, weight *= 0.5) {
@@ -41,7 +41,7 @@ double Planks(double u, double v, std::uint64_t seed) {
   constexpr int kRows = 8;
   const int row = static_cast<int>(v * kRows);
   const double shift = Hash01(row, 7, seed);
-  const double along = std::fmod(u + shift, 1.0) * 2;  // two boards a repeat
+  const double along = std::fmod(u + shift, 1.0) * 2;  // two boards per repeat
   const int board = static_cast<int>(along);
   const double across = v * kRows - row, end = along - board;
   const bool is_joint = across < 0.04 || end < 0.004;

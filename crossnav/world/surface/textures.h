@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Procedural surface patterns of real size: planks, tiles, plaster, carpet, brick. The pictures are
-// near white and multiply the surface's colour, so that one picture serves all colours. They repeat
+// near white and multiply the surface's colour, so that one picture serves all colours. They tile
 // without a seam.
 #pragma once
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a report is about, as tables: one row per figure, episode, stage, time and cause."""
+"""Tables of a report: one row per figure, episode, stage, time and cause."""
 
 import os
 import re
@@ -28,7 +28,7 @@ class Report:
     causes: pd.DataFrame  # run, cause, outcome, stages
     differences: pd.DataFrame  # before, after, metric, difference, low, high, episodes, scenes
     flips: pd.DataFrame  # before, after, episode, goals, outcome_.., goals_.., cause, replay
-    notes: list[str]  # what was compared, and what makes it unfair
+    notes: list[str]  # compared runs, and reasons against fairness
 
     def tables(self) -> dict[str, pd.DataFrame]:
         return {"figures": self.figures, "episodes": self.episodes, "stages": self.stages,
@@ -36,7 +36,7 @@ class Report:
                 "flips": self.flips}
 
     def figure(self, run: str, group: str, metric: str) -> dict[str, Any]:
-        """value, low, high, paper and episodes of a figure; NaN where there is none."""
+        """value, low, high, paper and episodes of a figure; NaN if there is none."""
         rows = self.figures
         found = rows[(rows.run == run) & (rows.group == group) & (rows.metric == metric)]
         empty = {"value": float("nan"), "low": float("nan"), "high": float("nan"),
@@ -95,7 +95,7 @@ def _notes(comparison: dict[str, Any]) -> list[str]:
 
 
 def _flip(comparison: dict[str, Any], flip: dict[str, Any]) -> dict[str, Any]:
-    """A row; cause and replay are those of the run that did not complete the episode."""
+    """A row; cause and replay are of the run that did not complete the episode."""
     worse = "before" if flip["goals_after"] > flip["goals_before"] else "after"
     return {"before": comparison["before"], "after": comparison["after"],
             "episode": flip["episode_id"], "goals": flip["goals"],

@@ -76,7 +76,7 @@ filter.addEventListener("input", () => {
 COLUMNS = (("run", "run", ""), ("episode", "episode", ""), ("replay", "replay", ""),
            ("floor_change", "floor change", ""),
            ("goals", "goals", ""), ("outcome", "outcome", ""), ("completed", "goals found", "d"),
-           ("spl", "SPL [%]", "%"), ("actions", "actions", "d"), ("length_m", "way [m]", ".1f"),
+           ("spl", "SPL [%]", "%"), ("actions", "actions", "d"), ("length_m", "path [m]", ".1f"),
            ("floor_changes", "floors changed", "d"), ("cause", "cause", ""))
 
 
@@ -94,7 +94,7 @@ def _per_cent(row: dict[str, Any]) -> str:
 
 
 def _tracks(report: Report, run: str) -> list[str]:
-    """Tracks of a run that has several; a run of one has it in its name."""
+    """Tracks of a run with several; a run of one track has it in its name."""
     groups = report.figures[report.figures.run == run].group.unique()
     tracks = [group for group in groups if group.startswith("track:") and group.count(":") == 1]
     return tracks if len(tracks) > 1 else []
@@ -168,7 +168,7 @@ def _difference_text(row: dict[str, Any]) -> str:
 
 
 def _comparison(report: Report, before: str, after: str) -> str:
-    """One run against the first: differences of the sequence figures, and what flipped."""
+    """One run against the first: differences of the sequence figures, and episodes that flipped."""
     of = report.differences
     rows = of[(of.before == before) & (of.after == after)].to_dict("records")
     shown = "".join(f'<tr><td>{row["metric"]}</td><td class="n">{_difference_text(row)}</td></tr>'

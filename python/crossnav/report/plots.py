@@ -31,7 +31,7 @@ DISTANCES_M = (0.0, 2.0, 5.0, 10.0, 20.0, float("inf"))  # chosen: a room, a flo
 class Plot:
     name: str
     title: str
-    note: str  # what is shown and how to read it
+    note: str  # content, and how to read it
     svg: str
     png: bytes
     pdf: bytes
@@ -240,7 +240,7 @@ def distance(report: Report) -> Plot:
               for low, high in zip(DISTANCES_M, DISTANCES_M[1:], strict=False)]
     axes.set_xticks(range(len(labels)), [f"{label}\nn = {' / '.join(n)}"
                                          for label, n in zip(labels, counts, strict=True)])
-    axes.set_xlabel("shortest way to the goal when it was set [m]; n: goals searched")
+    axes.set_xlabel("shortest path to the goal when it was set [m]; n: goals searched")
     axes.set_ylabel("SPL of a goal [%]")
     axes.set_ylim(-3, 105)
     _legend(figure, axes)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 PathLike = Union[str, "os.PathLike[str]"]
 MAP_EVERY = 10
-"""Steps from one drawing of the whole map to the next."""
+"""Steps between two drawings of the whole map."""
 
 
 def _needed() -> None:
@@ -66,7 +66,7 @@ def log(result: "StepResult", observation: "Observation | None" = None,
         draw.statics(stream)
     draw.step_record(stream, record)
     if observation is not None:
-        if observation.rgb_camera is not None:  # boxes lie on the grid of depth
+        if observation.rgb_camera is not None:  # boxes are on the grid of depth
             observation = observation.registered()
         k = observation.camera
         camera = Camera(k.width_px, k.height_px,
@@ -81,7 +81,7 @@ def log(result: "StepResult", observation: "Observation | None" = None,
 
 
 class _Drawing:
-    """What has to be known from one frame of a replay to the next."""
+    """State carried from frame to frame of a replay."""
 
     def __init__(self, replay: "Replay", stream: "rr.RecordingStream", map_every: int) -> None:
         self.stream, self.map_every = stream, max(1, map_every)
@@ -206,3 +206,34 @@ def write_recording(replay: PathLike, out: PathLike, map_every: int = MAP_EVERY)
             stream.disconnect()
             part.unlink(missing_ok=True)
     return steps
+
+
+def write_graph(graph: PathLike, out: PathLike) -> int:
+    """Writes a map's graph (JSON of `crossnav map graph`) as a recording; the number of its objects.
+
+    The file is whole or not there. Raises crossnav.Error where the graph cannot be read, and where
+    `out` cannot be written or does not end in .rrd.
+    """
+    target = Path(out)
+    if target.suffix != ".rrd":
+        raise Error("must end in .rrd", f"--to {target}")
+    _needed()
+    import rerun as rr
+
+    from crossnav.rerun.graph import draw_graph, read_graph
+    found = read_graph(graph)
+    part = target.with_name(target.name + ".part")
+    stream = rr.RecordingStream("crossnav", recording_id="graph")
+    try:
+        part.touch()
+        stream.save(part)
+        draw_graph(stream, found)
+        stream.flush()
+        stream.disconnect()
+        part.replace(target)
+    except OSError as error:
+        raise Error(f"cannot be written: {error.strerror}", f"--to {target}", "io") from None
+    finally:
+        stream.disconnect()
+        part.unlink(missing_ok=True)
+    return len(found["objects"])

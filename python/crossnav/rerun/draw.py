@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a step looks like in Rerun: one function a subject. World frame, z up, metres."""
+"""Drawing of a step in Rerun: one function a subject. World frame, z up, metres."""
 
 import io
 import math
@@ -21,7 +21,7 @@ STATES = {1: ("occupied", (201, 205, 212)), 2: ("traversable", (120, 190, 140)),
           3: ("traversable_stair", (250, 214, 120)), 4: ("traversable_fake", (200, 220, 240)),
           5: ("stair", (245, 159, 0)), 6: ("stair_expanded", (240, 120, 40)),
           7: ("fake_stair", (190, 75, 150))}
-SEEN_THROUGH = (1, 2, 4)  # small points, to see ways, boxes and what is behind
+SEEN_THROUGH = (1, 2, 4)  # small points, so that paths and boxes stay visible
 KINDS = {"live_poi": (214, 51, 108), "history_poi": (156, 54, 181),
          "traversable_frontier": (28, 126, 214), "descend_frontier": (232, 89, 12),
          "ascent_frontier": (245, 159, 0), "stair_frontier": (245, 159, 0)}
@@ -34,7 +34,7 @@ _CENTRE = np.array([[1, 0, 0.5], [0, 1, 0.5], [0, 0, 1]])  # in Rerun a pixel's 
 
 
 def statics(recording: rr.RecordingStream, info: dict[str, Any] | None = None) -> None:
-    """What holds all the time: axes, names of classes, and the replay's true goals."""
+    """Static content: axes, names of classes, and the replay's true goals."""
     recording.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     classes = [rr.AnnotationInfo(id=number, label=name, color=colour)
                for number, (name, colour) in MASKS.items()]
@@ -65,7 +65,7 @@ def voxels(recording: rr.RecordingStream, keys: NDArray[np.int32], states: NDArr
 
 def changes(recording: rr.RecordingStream, keys: NDArray[np.int32], states: NDArray[np.uint8],
             voxel_m: float) -> None:
-    """What this step changed; voxels that became unknown are black."""
+    """Voxels changed by this step; voxels that became unknown are black."""
     table = np.zeros((max(STATES) + 1, 3), np.uint8)
     for state, (_, colour) in STATES.items():
         table[state] = colour
@@ -102,8 +102,8 @@ def step_record(recording: rr.RecordingStream, record: dict[str, Any],
 
 
 def trail(recording: rr.RecordingStream, feet: Sequence[Sequence[float]]) -> None:
-    """The way so far through `feet`. It is drawn in pieces, an entity each, which
-    keep what was drawn last: a step costs no more when the way is long."""
+    """The path so far through `feet`. It is drawn in pieces, an entity each, which
+    keep their last drawing: the cost of a step does not grow with the path."""
     if len(feet) < 2:
         return
     piece = (len(feet) - 2) // TRAIL_PIECE
@@ -117,7 +117,7 @@ def _finite(value: Any) -> bool:
 
 
 def _flights(recording: rr.RecordingStream, flights: list[dict[str, Any]] | None) -> None:
-    """Only where one changed; the view keeps the last."""
+    """Drawn after a change only; the view keeps the last drawing."""
     if flights is None:
         return
     walked = [flight["walked_up"] + flight["walked_down"] > 0 for flight in flights]
@@ -187,7 +187,7 @@ def depth(recording: rr.RecordingStream, pixels: NDArray[Any], per_m: float,
 
 
 def boxes(recording: rr.RecordingStream, sight: dict[str, Any], camera: Camera) -> None:
-    """The detector's boxes of the goal, in the pixels of the image as it is drawn."""
+    """The detector's boxes of the goal, in the pixels of the drawn image."""
     found = sight["boxes"]
     scale = np.array([camera.width_px / max(1, sight["width_px"]),
                       camera.height_px / max(1, sight["height_px"])] * 2)

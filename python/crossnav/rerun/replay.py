@@ -42,7 +42,7 @@ class Camera:
 
 @dataclass
 class Frame:
-    """All messages of one time: as a rule one step."""
+    """All messages of one time: usually one step."""
 
     time_s: float
     step: dict[str, Any] | None = None
@@ -131,7 +131,7 @@ TOPICS = ("/agent/step", "/map/voxel_changes", "/camera/image", "/camera/calibra
 
 
 class Replay:
-    """An open replay; a context manager. Every CRC of what is read is checked.
+    """An open replay; a context manager. Checks every CRC.
 
     Raises crossnav.Error, on opening and while frames are read: the file is missing, no MCAP, cut
     off, damaged, no replay of crossnav, or of a later format.
@@ -142,7 +142,7 @@ class Replay:
         self._decoders: dict[int, Any] = {}
         self._factory = DecoderFactory()
         try:
-            # Whole: the readers of `mcap` seek back and forth.
+            # In memory: the readers of `mcap` seek back and forth.
             self._file = io.BytesIO(path.read_bytes())
         except OSError as error:
             raise Error(error.strerror or str(error), str(path),
@@ -174,7 +174,7 @@ class Replay:
             what = str(error) or type(error).__name__
             raise Error(f"is cut off, damaged or no MCAP file: {what}", str(self.path),
                         "malformed") from None
-        except Exception as error:  # zstandard and lz4 have their own, without a common base
+        except Exception as error:  # zstandard and lz4 raise their own types, without a common base
             if type(error).__module__.split(".")[0] not in ("zstandard", "zstd", "lz4"):
                 raise
             raise Error(f"is damaged: {error}", str(self.path), "malformed") from None

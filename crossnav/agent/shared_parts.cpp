@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/shared_parts.h"
+
+#include <cmath>
+
+#include "crossnav/policy/steering.h"
+
+namespace crossnav::agent {
+
+using policy::Candidate;
+using policy::CandidateKind;
+
+Candidate CandidateOf(const policy::LivePoi& poi) {
+  Candidate candidate;
+  candidate.kind = CandidateKind::kLivePoi;
+  candidate.poi_id = poi.id;
+  candidate.p_focus_world = poi.p_center_world;
+  candidate.size = static_cast<int>(poi.voxels.size());
+  candidate.score = poi.confidence;
+  return candidate;
+}
+
+Candidate CandidateOf(const HistoryPoi& poi) {
+  Candidate candidate;
+  candidate.kind = CandidateKind::kHistoryPoi;
+  candidate.p_focus_world = poi.p_center_world;
+  candidate.size = static_cast<int>(poi.voxels.size());
+  candidate.score = poi.score;
+  return candidate;
+}
+
+policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi) {
+  return policy::Verify(poi, now.sightings, {now.obs, now.agent, now.config.sensor.camera_height_m},
+                        now.config.policy, now.config.map.voxel_m);
+}
+
+double DistanceToEndOf(const std::vector<geometry::VoxelKey>& path, const Vector3d& p_foot,
+                       double voxel_m) {
+  return (CenterOf(path.back(), voxel_m) - p_foot).head<2>().norm();
+}
+
+std::deque<Action> FullTurn(const AgentPose& agent, double pitch_rad, const ActionConfig& action) {
+  std::deque<Action> turns;
+  if (const auto pitch = policy::PitchTowards(agent, pitch_rad, action)) turns.push_back(*pitch);
+  const auto count = static_cast<std::size_t>(std::lround(360.0 / action.turn_deg));
+  turns.insert(turns.end(), count, Action::kTurnLeft);
+  return turns;
+}
+
+void EnterLevel(World& world, double z_m) {
+  world.has_level = true;
+  world.level_m = z_m;
+  world.levels_m.push_back(z_m);
+}
+
+void NoteOffLevel(World& world, const Vector3d& p_foot, double voxel_m) {
+  auto& path = world.path_off_level_world;
+  if (path.empty() || (path.back() - p_foot).norm() > 0.5 * voxel_m) path.push_back(p_foot);
+}
+
+}  // namespace crossnav::agent

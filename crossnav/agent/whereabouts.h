@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Where the goal may be under memory.mode = revise: places of the memory that are still believed,
+// and the odds of every room for what is not at any of them. World frame, metres.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "crossnav/agent/decision.h"
+
+namespace crossnav::agent {
+
+/// memory.mode = revise, and a profile that follows it.
+bool IsRevising(const Config& config);
+
+/// The map's evidence with the counts of an old map, so that what is seen through is cleared soon
+/// (map.clearing = evidence).
+Result<void> CountEvidence(geometry::VoxelMap* map);
+
+/// The rooms of a loaded map.
+Revision RevisionOf(const World& world);
+
+/// Floor and room of every record by the loaded map.
+void LocateObjects(World* world);
+
+/// Leaves out places that records or the map contradict; adds records that no place covers.
+std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& world,
+                                const GoalState& goal);
+
+/// Brings `goal.full.search` up to date.
+void UpdateSearch(StepState& now);
+
+/// Path that ground in the room about `p_world` is worth more than in a room of mean odds [m]; 0
+/// without a search.
+double SearchBonus(const Situation& now, const Vector3d& p_world);
+
+/// Nothing was found where nearly everything was looked at: the goal is gone.
+bool IsSurelyAbsent(const Situation& now);
+
+}  // namespace crossnav::agent

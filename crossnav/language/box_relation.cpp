@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/language/box_relation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossnav::language {
+namespace {
+
+constexpr double kTouch_m = 0.15, kNextTo_m = 0.5, kNear_m = 1.5,
+                 kCovered = 0.5;         // as scenegraph/relations.cpp
+constexpr double kMissedBy_m = 0.25;     // chosen: two voxels and a half
+constexpr double kHardlyCovered = 0.3;   // chosen: likewise
+constexpr double kNearMissedBy_m = 0.5;  // chosen: a step more or less
+constexpr double kStorey_m = 2.0;        // chosen: nobody calls that near
+
+double OverlapOf(const Box3& a, const Box3& b, int axis) {
+  return std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
+}
+
+/// Of the ground plan of `a`, the share over that of `b`.
+double CoverOf(const Box3& a, const Box3& b) {
+  const double dx = std::max(0.0, OverlapOf(a, b, 0)), dy = std::max(0.0, OverlapOf(a, b, 1));
+  const Vector3d size = a.max - a.min;
+  return size.x() * size.y() > 0 ? dx * dy / (size.x() * size.y()) : 0;
+}
+
+double GapOf(const Box3& a, const Box3& b) {
+  return std::hypot(std::max(0.0, -OverlapOf(a, b, 0)), std::max(0.0, -OverlapOf(a, b, 1)));
+}
+
+Fit Within(double value, double limit, double missed_by) {
+  return value <= limit ? Fit::kYes : value <= limit + missed_by ? Fit::kMaybe : Fit::kNo;
+}
+
+Fit CoveredFit(const Box3& a, const Box3& b) {
+  const double cover = CoverOf(a, b);
+  return cover >= kCovered ? Fit::kYes : cover >= kHardlyCovered ? Fit::kMaybe : Fit::kNo;
+}
+
+Fit Both(Fit a, Fit b) {
+  return std::min(a, b);
+}
+
+Fit OnFit(const Box3& a, const Box3& b) {
+  const Fit touches = Within(std::abs(a.min.z() - b.max.z()), kTouch_m, kMissedBy_m);
+  // The top of what has a back or shelves lies below the top of its box.
+  const bool is_within = a.min.z() > b.min.z() + kMissedBy_m && a.min.z() < b.max.z();
+  return Both(CoveredFit(a, b), std::max(touches, is_within ? Fit::kMaybe : Fit::kNo));
+}
+
+Fit InFit(const Box3& a, const Box3& b) {
+  const double out_m = std::max({b.min.z() - a.min.z(), a.max.z() - b.max.z(), 0.0});
+  const Fit is_smaller = CoverOf(b, a) < kCovered ? Fit::kYes : Fit::kMaybe;
+  return Both(Both(CoveredFit(a, b), Within(out_m, kTouch_m, kMissedBy_m)), is_smaller);
+}
+
+Fit AboveFit(const Box3& a, const Box3& b) {
+  const double below_m = b.max.z() + kTouch_m - a.min.z();
+  const Fit is_over = below_m < 0 ? Fit::kYes : below_m < kMissedBy_m ? Fit::kMaybe : Fit::kNo;
+  return Both(CoveredFit(a, b), is_over);
+}
+
+/// It carries the other, or is below it, or on the floor between its legs.
+Fit UnderFit(const Box3& a, const Box3& b) {
+  const bool is_between = a.max.z() < b.max.z() && a.min.z() <= b.min.z() + kTouch_m;
+  const Fit between = is_between ? CoveredFit(a, b) : Fit::kNo;
+  return std::max({between, OnFit(b, a), AboveFit(b, a)});
+}
+
+}  // namespace
+
+Fit HoldsFor(Relation relation, const Box3& a, const Box3& b) {
+  const double gap_m = GapOf(a, b), apart_z_m = -OverlapOf(a, b, 2);
+  switch (relation) {
+    case Relation::kOn:
+      return OnFit(a, b);
+    case Relation::kIn:
+      return InFit(a, b);
+    case Relation::kAbove:
+      return AboveFit(a, b);
+    case Relation::kUnder:
+      return UnderFit(a, b);
+    case Relation::kNextTo:
+      return Both(Within(gap_m, kNextTo_m, kMissedBy_m), Within(apart_z_m, 0, kMissedBy_m));
+    case Relation::kNear:
+      return Both(Within(gap_m, kNear_m, kNearMissedBy_m), Within(apart_z_m, kStorey_m, 0));
+  }
+  return Fit::kNo;
+}
+
+}  // namespace crossnav::language

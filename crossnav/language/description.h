@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A thing as people describe it: "the red armchair near the window upstairs". Plain data;
+// parse_description.h makes it of words, resolve.h finds the thing. docs/lifelong.md says how each
+// word is read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crossnav/language/colour_name.h"
+#include "crossnav/language/room_type.h"
+
+namespace crossnav::language {
+
+enum class SizeWord { kBig, kSmall };  ///< the largest, the smallest of those that fit otherwise
+
+enum class Relation { kOn, kIn, kNextTo, kNear, kAbove, kUnder };
+inline constexpr int kRelations = 6;
+
+enum class FloorWord { kUpstairs, kDownstairs, kNumber, kTop, kBasement };
+
+struct FloorPhrase {
+  FloorWord word = FloorWord::kNumber;
+  int number = 0;  ///< with kNumber: 0 = ground floor, 1 = the one above it
+  friend bool operator==(const FloorPhrase&, const FloorPhrase&) = default;
+};
+
+struct RelationPhrase;
+
+struct Description {
+  std::string noun;          ///< canonical name (core/category_table.h): "sofa" for "couch"
+  bool is_definite = false;  ///< "the": one thing is meant; otherwise any will do
+  int order = 0;             ///< 1 = the nearest to the robot, 2 ...; -1 = the farthest; 0 = none
+  std::optional<SizeWord> size;
+  std::optional<Colour> colour;
+  std::vector<RelationPhrase> relations;
+  std::optional<RoomType> room;
+  std::optional<FloorPhrase> floor;
+
+  /// A category alone, as goals were before descriptions.
+  bool IsPlain() const;
+  friend bool operator==(const Description&, const Description&);
+};
+
+/// "near the window": some window will do.
+struct RelationPhrase {
+  Relation relation = Relation::kNear;
+  Description landmark;  ///< without room and floor, which are said of the whole
+  friend bool operator==(const RelationPhrase&, const RelationPhrase&);
+};
+
+std::string_view NameOf(Relation relation);
+std::string TextOf(const FloorPhrase& floor);  ///< "on the first floor", "upstairs"
+/// Words that parse to this very description.
+std::string TextOf(const Description& description);
+
+}  // namespace crossnav::language

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The records of all objects, kept over frames and days. Sightings of one category at one place are
+// one record; what contradicts a record lowers its confidence. Belief is kept as odds: a sighting
+// multiplies them, a good view of the place without the object divides them. World frame, metres.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "crossnav/core/observation.h"
+#include "crossnav/objects/object_record.h"
+#include "crossnav/objects/portrait.h"
+
+namespace crossnav::objects {
+
+/// Settings of `memory.*` that records follow.
+struct BookConfig {
+  double range_m = 5.0;        // chosen: as policy.explore.inspect_range_m
+  double good_view = 0.5;      // chosen: share of the place in view before it contradicts
+  double gone = 0.3;           // chosen: belief under which an object counts as gone
+  int least_views = 2;         // chosen: frames that make a record, as policy.object.stable_frames
+  double same_place_m = 0.25;  // chosen: between the centres; chairs at a table stand farther apart
+};
+
+/// One object in one frame.
+struct SeenObject {
+  std::string category;
+  std::vector<geometry::VoxelKey> voxels;  ///< sorted, not empty
+  double confidence = 0;                   ///< of the detector [0, 1]
+  const MaskImage* mask = nullptr;         ///< null = no pixels to look at
+  PictureBox box;
+};
+
+/// When a frame was taken.
+struct Moment {
+  int day = 0;
+  std::int64_t step = 0;
+};
+
+class ObjectBook {
+ public:
+  explicit ObjectBook(double voxel_m = 0.1, const BookConfig& config = {})
+      : voxel_m_(voxel_m), config_(config) {}
+
+  /// Sightings of one frame; two of them are two objects. Returns the record of each, by index into
+  /// records().
+  std::vector<int> Note(std::span<const SeenObject> seen, const Observation& obs,
+                        const Moment& when);
+
+  /// Objects whose place this frame shows well, from near, and that it does not show. `category` is
+  /// the one that the detector was asked for: of others only the place seen free counts. Records of
+  /// this frame's Note are left alone. Returns the indices of records that fell below `gone`.
+  std::vector<int> Doubt(const std::string& category, const Observation& obs, const Moment& when);
+
+  /// A claim about the object was refuted: `voxels` show something else.
+  void Refute(const std::string& category, std::span<const geometry::VoxelKey> voxels);
+
+  /// Looked at from near, and nothing was found: `voxels` are no place of the category. Where no
+  /// record lies there, one without views says so.
+  void Disprove(const std::string& category, std::vector<geometry::VoxelKey> voxels,
+                const Moment& when);
+
+  /// In no order; those of a single frame, too.
+  const std::vector<ObjectRecord>& records() const { return records_; }
+  /// Those that enough frames showed, and places that were disproved, by id: what is saved.
+  std::vector<ObjectRecord> Confirmed() const;
+  bool IsGone(const ObjectRecord& record) const { return record.confidence < config_.gone; }
+
+  /// Goes on from saved records. Errors of ids are the reader's to find.
+  void Load(std::vector<ObjectRecord> records);
+  /// Floor and room of every record, as `place(record, &floor, &room)` says.
+  template <class Place>
+  void Locate(const Place& place) {
+    for (ObjectRecord& record : records_) place(record, &record.floor, &record.room);
+  }
+  double voxel_m() const { return voxel_m_; }
+
+ private:
+  /// What is not saved of a record.
+  struct Watch {
+    std::int64_t noted_step = -1;                        ///< of the last Note in this run
+    double picture_px = 0;                               ///< pixels behind the picture
+    Vector3d p_doubted_world = Vector3d::Constant(1e9);  ///< camera of the last contradiction
+    Vector3d doubted_along = Vector3d::Zero();           ///< and where it looked
+    std::int64_t colour_views = 0;
+  };
+
+  int FindFor(const SeenObject& seen, const Vector3d& centre, std::int64_t step) const;
+  void Merge(ObjectRecord& record, Watch& watch, const SeenObject& seen, const Observation& obs);
+  int MergeTwins(int index);  // the id of both, or -1
+
+  double voxel_m_;
+  BookConfig config_;
+  std::vector<ObjectRecord> records_;
+  std::vector<Watch> watches_;  // of each record
+  int next_id_ = 0;
+};
+
+/// Centre and box of a record from its voxels.
+void Measure(ObjectRecord& record, double voxel_m);
+
+}  // namespace crossnav::objects

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/objects/room_odds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace crossnav::objects {
+namespace {
+
+constexpr double kSameRoom = 6.0;       // chosen: people move things a little more often than far
+constexpr double kSameFloor = 1.5;      // chosen: against a room of another floor
+constexpr double kMostCompany = 3.0;    // chosen: few rooms teach little
+constexpr double kRemoved = 0.2;        // chosen: of what is not at its place, before any search
+constexpr double kTypicalArea_m2 = 15;  // chosen: of a room; larger ones hold more
+
+using RoomSets = std::map<std::string, std::set<int>>;
+
+RoomSets RoomsByCategory(std::span<const ObjectRecord> records) {
+  RoomSets rooms;
+  for (const ObjectRecord& record : records)
+    if (record.room >= 0) rooms[record.category].insert(record.room);
+  return rooms;
+}
+
+double CompanyOf(const RoomSets& sets, std::size_t rooms, const std::string& category,
+                 const std::string& other) {
+  const auto mine = sets.find(category), theirs = sets.find(other);
+  if (mine == sets.end() || theirs == sets.end() || rooms == 0) return 1;
+  std::size_t both = 0;
+  for (const int room : mine->second) both += theirs->second.count(room);
+  const double base = static_cast<double>(mine->second.size()) / static_cast<double>(rooms);
+  const double given =
+      (static_cast<double>(both) + base) / (static_cast<double>(theirs->second.size()) + 1);
+  return std::clamp(given / base, 1 / kMostCompany, kMostCompany);
+}
+
+/// Where objects of the category were that are gone now.
+std::vector<const ObjectRecord*> Lost(std::span<const ObjectRecord> records,
+                                      const std::string& category) {
+  std::vector<const ObjectRecord*> lost;
+  for (const ObjectRecord& record : records)
+    if (record.category == category && record.confidence < 0.5) lost.push_back(&record);
+  return lost;
+}
+
+double NearnessOf(const RoomPlace& room, const std::vector<const ObjectRecord*>& lost) {
+  double nearness = 1;
+  for (const ObjectRecord* record : lost) {
+    if (record->room == room.room)
+      nearness = std::max(nearness, kSameRoom);
+    else if (record->floor == room.floor)
+      nearness = std::max(nearness, kSameFloor);
+  }
+  return nearness;
+}
+
+}  // namespace
+
+double Company(std::span<const ObjectRecord> records, std::span<const RoomPlace> rooms,
+               const std::string& category, const std::string& other) {
+  return CompanyOf(RoomsByCategory(records), rooms.size(), category, other);
+}
+
+std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
+                               std::span<const RoomPlace> rooms, const std::string& category) {
+  const RoomSets sets = RoomsByCategory(records);
+  const auto lost = Lost(records, category);
+  std::map<int, double> odds;
+  double sum = 0;
+  for (const RoomPlace& room : rooms) {
+    // Furniture of one room is no independent evidence: the mean of what each piece says.
+    double log_company = 0;
+    int kinds = 0;
+    for (const auto& [other, in] : sets) {
+      if (other == category || in.count(room.room) == 0) continue;
+      log_company += std::log(CompanyOf(sets, rooms.size(), category, other));
+      ++kinds;
+    }
+    const double company = kinds > 0 ? std::exp(log_company / kinds) : 1;
+    const double size = std::sqrt(std::max(1.0, room.area_m2) / kTypicalArea_m2);
+    const double weight = size * company * NearnessOf(room, lost);
+    odds[room.room] += weight;
+    sum += weight;
+  }
+  for (auto& [room, share] : odds) share /= sum;
+  return odds;
+}
+
+double OddsOfAbsence(double unseen) {
+  const double here = (1 - kRemoved) * std::clamp(unseen, 0.0, 1.0);
+  return kRemoved / (kRemoved + here);
+}
+
+}  // namespace crossnav::objects

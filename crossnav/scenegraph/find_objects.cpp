@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/scenegraph/find_objects.h"
+
+#include <algorithm>
+
+#include "crossnav/core/category_table.h"
+#include "crossnav/memory/query_match.h"
+#include "crossnav/scenegraph/build_graph.h"
+
+namespace crossnav::scenegraph {
+namespace {
+
+/// A record of the category lies there.
+bool IsRecorded(const SceneGraph& graph, const std::string& category, const Box3& box) {
+  return std::any_of(graph.objects.begin(), graph.objects.end(), [&](const auto& object) {
+    return object.record >= 0 && CanonicalName(object.category) == CanonicalName(category) &&
+           (object.box.min.array() <= box.max.array()).all() &&
+           (object.box.max.array() >= box.min.array()).all();
+  });
+}
+
+}  // namespace
+
+void FindObjects(SceneGraph& graph, const memory::SemanticMemory& memory,
+                 const AskedCategory& category, memory::QueryConfig query,
+                 std::optional<double> present_from) {
+  query.top_k = 1000;  // all that stand out
+  const auto found = memory::Query(memory, category.text, query, category.background);
+  const auto match = memory::MatchOf(memory, category.text, found);
+  graph.asked.push_back(category.name);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (present_from && match.places[i] < *present_from) continue;
+    if (IsRecorded(graph, category.name, found[i].box)) continue;
+    GraphObject object;
+    object.category = category.name;
+    object.p_center_world = found[i].p_center_world;
+    object.box = found[i].box;
+    object.match = match.places[i];
+    object.is_certain = present_from.has_value();
+    AddObject(graph, std::move(object));
+  }
+}
+
+}  // namespace crossnav::scenegraph

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// NoisyDepth: each kind of noise is a pass over the pixels with a stream of its own.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "crossnav/sim/sensing/sensor_noise.h"
+
+namespace crossnav::sim {
+namespace {
+
+// chosen: side of a patch without depth; shiny and dark things are about so large [px of 640]
+constexpr int kPatch_px = 16;
+// chosen: neighbours whose depths differ by this share are on both sides of an edge
+constexpr double kEdgeShare = 0.05;
+constexpr double kFullAngle_rad = 1.48;    // chosen: 85 degrees; Nguyen's law has a pole at 90
+constexpr double kGrazing_rad = M_PI / 3;  // chosen: up to 60 degrees nothing is lost by the angle
+constexpr double kDark = 255.0 / 8;        // chosen: brighter things send enough light back
+constexpr std::array<std::string_view, 3> kGlass = {"window", "glass", "mirror"};
+constexpr std::array<std::string_view, 5> kOpaque = {"curtain", "frame", "blind", "sill", "seat"};
+
+enum DepthStream : std::uint64_t {
+  kShifts = 1,
+  kEdges,
+  kPatches,
+  kReadings,
+  kFlying,
+  kDim,
+  kPanes
+};
+
+template <class F>
+void ForEachPixel(const DepthImage& depth_m, F&& visit) {
+  for (int v = 0; v < depth_m.height; ++v)
+    for (int u = 0; u < depth_m.width; ++u) visit(u, v);
+}
+
+DepthImage Shifted(const DepthImage& depth_m, double sigma_px, Rng rng) {
+  DepthImage shifted = depth_m;
+  ForEachPixel(depth_m, [&](int u, int v) {
+    const int from_u = u + static_cast<int>(std::lround(sigma_px * rng.Normal()));
+    const int from_v = v + static_cast<int>(std::lround(sigma_px * rng.Normal()));
+    shifted.At(u, v) = depth_m.At(std::clamp(from_u, 0, depth_m.width - 1),
+                                  std::clamp(from_v, 0, depth_m.height - 1));
+  });
+  return shifted;
+}
+
+/// Depth on the other side where the perfect picture jumps between this pixel and one of its four
+/// neighbours, else 0.
+float BeyondEdge(const DepthImage& depth_m, int u, int v) {
+  const float here = depth_m.At(u, v);
+  for (const auto& [nu, nv] :
+       {std::pair(u - 1, v), std::pair(u + 1, v), std::pair(u, v - 1), std::pair(u, v + 1)}) {
+    if (!depth_m.Contains(nu, nv)) continue;
+    const float there = depth_m.At(nu, nv);
+    if (std::abs(there - here) > kEdgeShare * std::min(there, here)) return std::max(there, 1e-6F);
+  }
+  return 0;
+}
+
+/// Light of both sides of an edge comes back to one pixel; the sensor reads a depth between.
+void MixEdges(const DepthImage& perfect_m, double probability, Rng rng, DepthImage& depth_m) {
+  ForEachPixel(perfect_m, [&](int u, int v) {
+    const float there = BeyondEdge(perfect_m, u, v);
+    if (there <= 0 || !rng.Chance(probability)) return;
+    const auto share = static_cast<float>(rng.Uniform());
+    if (depth_m.At(u, v) > 0) depth_m.At(u, v) += share * (there - depth_m.At(u, v));
+  });
+}
+
+void LoseEdges(const DepthImage& perfect_m, double probability, Rng rng, DepthImage& depth_m) {
+  ForEachPixel(perfect_m, [&](int u, int v) {
+    if (BeyondEdge(perfect_m, u, v) > 0 && rng.Chance(probability)) depth_m.At(u, v) = 0;
+  });
+}
+
+void LosePatches(double share, Rng rng, DepthImage& depth_m) {
+  for (int v0 = 0; v0 < depth_m.height; v0 += kPatch_px) {
+    for (int u0 = 0; u0 < depth_m.width; u0 += kPatch_px) {
+      if (!rng.Chance(share)) continue;
+      for (int v = v0; v < std::min(v0 + kPatch_px, depth_m.height); ++v) {
+        const auto row = depth_m.data.begin() + static_cast<std::ptrdiff_t>(v) * depth_m.width;
+        std::fill(row + u0, row + std::min(u0 + kPatch_px, depth_m.width), 0.0F);
+      }
+    }
+  }
+}
+
+/// Angle between each pixel's ray and the surface's normal [rad]; 0 beside jumps and borders.
+std::vector<float> AnglesOf(const DepthImage& depth_m, const CameraIntrinsics& camera) {
+  std::vector<float> angles(depth_m.data.size(), 0.0F);
+  ForEachPixel(depth_m, [&](int u, int v) {
+    if (u == 0 || v == 0 || u + 1 >= depth_m.width || v + 1 >= depth_m.height) return;
+    if (!(depth_m.At(u, v) > 0) || BeyondEdge(depth_m, u, v) > 0) return;
+    const auto at = [&](int nu, int nv) {
+      return BackProjectPixel(camera, nu, nv, depth_m.At(nu, nv));
+    };
+    const Vector3d n = (at(u + 1, v) - at(u - 1, v)).cross(at(u, v + 1) - at(u, v - 1));
+    const Vector3d p = at(u, v);
+    const double cosine = std::abs(n.dot(p)) / std::max(1e-12, n.norm() * p.norm());
+    angles[static_cast<std::size_t>(v) * depth_m.width + u] =
+        static_cast<float>(std::acos(std::min(1.0, cosine)));
+  });
+  return angles;
+}
+
+/// What sends too little light back: dark, or seen at a grazing angle.
+void LoseDim(const NoiseConfig& noise, const Scenery& scenery, const std::vector<float>& angles,
+             Rng rng, DepthImage& depth_m) {
+  for (std::size_t i = 0; i < depth_m.data.size(); ++i) {
+    double keep = 1;
+    if (!angles.empty() && angles[i] > kGrazing_rad)
+      keep *= 1 - noise.depth_grazing_hole * (angles[i] - kGrazing_rad) / (M_PI_2 - kGrazing_rad);
+    if (scenery.rgb != nullptr && scenery.rgb->data.size() == depth_m.data.size()) {
+      const Rgb8& c = scenery.rgb->data[i];
+      const double light = 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;
+      keep *= 1 - noise.depth_dark_hole * std::max(0.0, 1 - light / kDark);
+    }
+    if (rng.Uniform() >= keep) depth_m.data[i] = 0;
+  }
+}
+
+void LoseGlass(double probability, const Scenery& scenery, Rng rng, DepthImage& depth_m) {
+  if (scenery.instance == nullptr || scenery.glass == nullptr) return;
+  if (scenery.instance->data.size() != depth_m.data.size()) return;
+  for (std::size_t i = 0; i < depth_m.data.size(); ++i)
+    if (scenery.glass->count(scenery.instance->data[i]) > 0 && rng.Chance(probability))
+      depth_m.data[i] = 0;
+}
+
+/// Nguyen et al. 2012, eq. 3: what the angle adds to sigma.
+double AngleSigma(const NoiseConfig& noise, double z_m, double angle_rad) {
+  const double a = std::min(angle_rad, kFullAngle_rad), share = a / (M_PI_2 - a);
+  return noise.depth_angle_sigma_m * share * share / std::sqrt(z_m);
+}
+
+float Reading(const NoiseConfig& noise, double z_m, double sigma_m, Rng& rng) {
+  double read_m = sigma_m > 0 ? z_m + sigma_m * rng.Normal() : z_m;
+  if (read_m <= 0) return 0;
+  const double step_m = noise.depth_step_per_m2 * z_m * z_m;
+  if (step_m > 0) read_m = std::round(read_m / step_m) * step_m;
+  if (noise.depth_max_m > 0 && read_m > noise.depth_max_m) return 0;
+  return static_cast<float>(read_m);
+}
+
+}  // namespace
+
+bool IsGlass(std::string_view name) {
+  const auto has = [&](std::string_view word) { return name.find(word) != name.npos; };
+  return std::any_of(kGlass.begin(), kGlass.end(), has) &&
+         std::none_of(kOpaque.begin(), kOpaque.end(), has);
+}
+
+DepthImage NoisyDepth(const NoiseConfig& noise, const DepthImage& depth_m, std::uint64_t seed,
+                      const Scenery& scenery) {
+  DepthImage noisy = noise.depth_shift_px > 0
+                         ? Shifted(depth_m, noise.depth_shift_px, Rng(seed, kShifts))
+                         : depth_m;
+  if (noise.depth_flying > 0) MixEdges(depth_m, noise.depth_flying, Rng(seed, kFlying), noisy);
+  if (noise.depth_edge_hole > 0) {
+    LoseEdges(depth_m, noise.depth_edge_hole, Rng(seed, kEdges), noisy);
+  }
+  if (noise.depth_hole_share > 0) LosePatches(noise.depth_hole_share, Rng(seed, kPatches), noisy);
+  const bool has_angles = scenery.camera.width_px > 0 &&
+                          (noise.depth_angle_sigma_m > 0 || noise.depth_grazing_hole > 0);
+  const auto angles = has_angles ? AnglesOf(depth_m, scenery.camera) : std::vector<float>{};
+  if (noise.depth_grazing_hole > 0 || noise.depth_dark_hole > 0)
+    LoseDim(noise, scenery, angles, Rng(seed, kDim), noisy);
+  if (noise.depth_glass_hole > 0)
+    LoseGlass(noise.depth_glass_hole, scenery, Rng(seed, kPanes), noisy);
+  Rng rng(seed, kReadings);
+  for (std::size_t i = 0; i < noisy.data.size(); ++i) {
+    const double z_m = noisy.data[i];
+    if (!(z_m > 0)) continue;
+    const double more_m = angles.empty() ? 0 : AngleSigma(noise, z_m, angles[i]);
+    noisy.data[i] = Reading(noise, z_m, DepthSigma(noise, z_m) + more_m, rng);
+  }
+  return noisy;
+}
+
+}  // namespace crossnav::sim

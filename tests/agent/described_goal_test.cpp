@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// A long room with a grey and a red couch: which one is claimed is up to what was said.
+#include <gtest/gtest.h>
+
+#include "agent/two_rooms.h"
+
+namespace crossnav::agent {
+namespace {
+
+using crossnav::testing::BoxOf;
+using test::BoxWalker;
+using test::FakeSight;
+using test::FakeSuite;
+using testing::SmallConfig;
+
+const Box3 kGrey = BoxOf(2.6, 1.6, 0, 3.4, 2.4, 0.7);
+const Box3 kRed = BoxOf(6.4, 2.2, 0, 7.4, 3.0, 0.7);
+
+BoxWalker LongRoom() {
+  BoxWalker walker;
+  walker.sensor = SmallConfig().sensor;
+  walker.rooms.shell = BoxOf(0, 0, 0, 9, 4, 2.6);
+  walker.rooms.solids = {kGrey, kRed};
+  walker.pose.p_world = Vector3d(0.8, 2.0, 0);
+  return walker;
+}
+
+bool IsOn(const Box3& box, const Vector3d& p) {
+  return box.HorizontalDistance(p) < 0.05 && p.z() < box.max.z() + 0.05 && p.z() > 0.05;
+}
+
+template <class F>
+void ForEachPixel(const Observation& obs, F&& f) {
+  for (int v = 0; v < obs.rgb.height; ++v)
+    for (int u = 0; u < obs.rgb.width; ++u)
+      f(u, v,
+        Vector3d(obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v))));
+}
+
+/// Both couches are detected whenever a sofa is asked for.
+FakeSight TwoSofas() {
+  FakeSight grey, red, sight;
+  test::SeeBox(kGrey, "sofa", &grey);
+  test::SeeBox(kRed, "sofa", &red);
+  sight.detect = [=](const Observation& obs, std::string_view goal) {
+    auto found = red.detect(obs, goal);
+    for (auto other : grey.detect(obs, goal)) {
+      other.confidence = 0.85F;
+      found.push_back(other);
+    }
+    return found;
+  };
+  sight.segment = [=](const Observation& obs, perception::Detection& detection) {
+    (detection.confidence == 0.85F ? grey : red).segment(obs, detection);
+  };
+  sight.text = [](std::string_view text) {
+    return text == "sofa" ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0, 0, 1};
+  };
+  sight.features = [](const Observation& obs) {
+    perception::FeatureGrid grid{obs.rgb.height, obs.rgb.width, 4, {}};
+    ForEachPixel(obs, [&](int, int, const Vector3d& p) {
+      const bool is_sofa = IsOn(kGrey, p) || IsOn(kRed, p);
+      const auto cell =
+          is_sofa ? std::array{1.0F, 0.0F, 0.0F, 0.0F} : std::array{0.0F, 0.8F, 0.6F, 0.0F};
+      grid.data.insert(grid.data.end(), cell.begin(), cell.end());
+    });
+    return grid;
+  };
+  return sight;
+}
+
+Observation InColour(const BoxWalker& walker) {
+  Observation obs = walker.Look();
+  ForEachPixel(obs, [&](int u, int v, const Vector3d& p) {
+    obs.rgb.At(u, v) = IsOn(kRed, p)    ? Rgb8{190, 40, 40}
+                       : IsOn(kGrey, p) ? Rgb8{120, 120, 122}
+                                        : Rgb8{230, 230, 225};
+  });
+  return obs;
+}
+
+/// Where the agent claims the goal; nothing where it does not.
+std::optional<Vector3d> ClaimOf(const std::string& goal) {
+  BoxWalker walker = LongRoom();
+  Agent agent(SmallConfig(), FakeSuite(TwoSofas()));
+  const auto set = agent.SetGoal(goal);
+  EXPECT_TRUE(set) << (set ? "" : set.error().Message());
+  for (int i = 0; set && i < 600; ++i) {
+    const auto result = agent.Step(InColour(walker));
+    if (!result || result->all_explored) return std::nullopt;
+    if (result->action == Action::kStop) return result->p_claimed_world;
+    walker.Do(result->action);
+  }
+  return std::nullopt;
+}
+
+bool IsAt(const std::optional<Vector3d>& claim, const Box3& box) {
+  return claim && box.HorizontalDistance(*claim) < 0.3;
+}
+
+TEST(DescribedGoal, TheInstanceThatFitsIsClaimedAndNotTheOneBeforeIt) {
+  EXPECT_TRUE(IsAt(ClaimOf("sofa"), kGrey));
+  EXPECT_TRUE(IsAt(ClaimOf("the grey couch"), kGrey));
+  EXPECT_TRUE(IsAt(ClaimOf("the red couch"), kRed));
+}
+
+TEST(DescribedGoal, WhatNothingFitsIsNotClaimed) {
+  EXPECT_FALSE(ClaimOf("the green couch").has_value());
+  EXPECT_FALSE(ClaimOf("the red couch upstairs").has_value());
+}
+
+TEST(DescribedGoal, OrdinalsCountFromTheStartOnceEverythingWasSeen) {
+  EXPECT_TRUE(IsAt(ClaimOf("the second couch"), kRed));
+  EXPECT_TRUE(IsAt(ClaimOf("the first couch"), kGrey));
+  EXPECT_FALSE(ClaimOf("the third couch").has_value());
+}
+
+TEST(DescribedGoal, WordsThatAreNotUnderstoodAreAnError) {
+  Agent agent(SmallConfig(), FakeSuite(TwoSofas()));
+  const auto set = agent.SetGoal("the leftmost couch");
+  ASSERT_FALSE(set);
+  EXPECT_NE(set.error().what.find("leftmost"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace crossnav::agent

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// A memory of yesterday in a house where things have moved: memory.mode = revise.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "agent/two_rooms.h"
+#include "crossnav/agent/whereabouts.h"
+
+namespace crossnav::agent {
+namespace {
+
+using test::BoxWalker;
+using test::FakeSight;
+using test::FakeSuite;
+using testing::BoxOf;
+using testing::BytesOf;
+using testing::kCouch;
+using testing::RunAgent;
+using testing::SmallConfig;
+using testing::Walk;
+
+const Box3 kMovedCouch = BoxOf(0.1, 0.1, 0, 1.0, 0.9, 0.8);  // in the first room
+
+/// Features and detections of a couch that stands at `couch`.
+FakeSight SightOf(const Box3& couch) {
+  FakeSight sight = testing::CouchSight();
+  test::SeeBox(couch, "couch", &sight);
+  sight.features = [couch](const Observation& obs) {
+    perception::FeatureGrid grid{8, 8, 4, {}};
+    for (int row = 0; row < 8; ++row)
+      for (int col = 0; col < 8; ++col) {
+        const int u = col * obs.rgb.width / 8, v = row * obs.rgb.height / 8;
+        const Vector3d p =
+            obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+        const bool is_couch = couch.HorizontalDistance(p) < 0.05 && p.z() < 0.9;
+        const std::vector<float> cell =
+            is_couch ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0.8F, 0.6F, 0};
+        grid.data.insert(grid.data.end(), cell.begin(), cell.end());
+      }
+    return grid;
+  };
+  return sight;
+}
+
+/// All that is kept over night.
+struct Night {
+  std::vector<geometry::MapBlock> blocks;
+  std::vector<memory::MemoryRow> rows;
+  std::vector<objects::ObjectRecord> objects;
+};
+
+Night NightAfter(const Agent& agent) {
+  Night night;
+  const testing::WorldBytes bytes = BytesOf(agent);
+  night.blocks = bytes.blocks;
+  night.rows = bytes.rows;
+  night.objects = agent.objects();
+  return night;
+}
+
+void Wake(const Night& night, int day, Agent* agent) {
+  geometry::MapConfig config = agent->config().map;
+  const bool is_counted = std::any_of(night.blocks.begin(), night.blocks.end(),
+                                      [](const auto& block) { return !block.counts.empty(); });
+  config.clearing = is_counted ? "evidence" : "never";
+  auto map = geometry::ImportBlocks(night.blocks, config);
+  ASSERT_TRUE(map.has_value());
+  memory::SemanticMemory memory(agent->config().fusion, agent->config().map.voxel_m);
+  for (const memory::MemoryRow& row : night.rows) memory.AppendRow(row);
+  ASSERT_TRUE(agent->Restore(std::move(*map), std::move(memory)).has_value());
+  agent->RestoreObjects(night.objects, day);
+}
+
+Config ConfigOf(const std::string& mode) {
+  Config config = SmallConfig();
+  config.memory.mode = mode;
+  return config;
+}
+
+/// The first day, at the end of which the couch was found.
+Night FirstDay() {
+  BoxWalker walker = testing::TwoRooms();
+  Agent agent(SmallConfig(), FakeSuite(SightOf(kCouch)));
+  EXPECT_TRUE(agent.SetGoal("couch").has_value());
+  EXPECT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
+  return NightAfter(agent);
+}
+
+/// The rooms with the couch elsewhere, or nowhere.
+BoxWalker Rearranged(const Box3* couch) {
+  BoxWalker walker = testing::TwoRooms();
+  walker.rooms.solids.pop_back();
+  if (couch) walker.rooms.solids.push_back(*couch);
+  return walker;
+}
+
+TEST(Revise, TheFoundObjectIsARecordToSave) {
+  const Night night = FirstDay();
+  ASSERT_EQ(night.objects.size(), 1U);
+  EXPECT_EQ(night.objects[0].category, "sofa");  // the canonical name
+  EXPECT_GT(night.objects[0].views, 2);
+  EXPECT_GT(night.objects[0].confidence, 0.8);
+  EXPECT_TRUE(night.objects[0].box_world_m.contains(kCouch.Center()));
+}
+
+TEST(Revise, AnObjectThatIsGoneIsKnownToBeGoneTheNextDay) {
+  const Night night = FirstDay();
+  BoxWalker walker = Rearranged(nullptr);
+  Agent second(ConfigOf("revise"), FakeSuite(SightOf(BoxOf(90, 90, 0, 91, 91, 1))));
+  Wake(night, 1, &second);
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  const Walk search = RunAgent(second, walker, 400);
+  EXPECT_TRUE(search.all_explored);
+  const Night later = NightAfter(second);
+  ASSERT_EQ(later.objects.size(), 1U);
+  EXPECT_LT(later.objects[0].confidence, 0.3);
+  EXPECT_EQ(later.objects[0].last_seen_day, 0);
+  // The third day: the old place is not visited again.
+  BoxWalker again = Rearranged(nullptr);
+  Agent third(ConfigOf("revise"), FakeSuite(SightOf(BoxOf(90, 90, 0, 91, 91, 1))));
+  Wake(later, 2, &third);
+  ASSERT_TRUE(third.SetGoal("couch").has_value());
+  for (const std::string& step : RunAgent(third, again, 400).traces)
+    EXPECT_EQ(step.find("\"visit\""), std::string::npos);
+}
+
+TEST(Revise, WhatIsNowhereIsSaidToBeGoneInLessThanHalfTheSteps) {
+  const Night night = FirstDay();
+  std::vector<std::size_t> steps;
+  for (const char* mode : {"keep", "revise"}) {
+    BoxWalker walker = Rearranged(nullptr);
+    Agent agent(ConfigOf(mode), FakeSuite(SightOf(BoxOf(90, 90, 0, 91, 91, 1))));
+    Wake(night, 1, &agent);
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    const Walk walk = RunAgent(agent, walker, 600);
+    EXPECT_TRUE(walk.all_explored) << mode;
+    steps.push_back(walk.traces.size());
+  }
+  EXPECT_LT(2 * steps[1], steps[0]) << steps[1] << " and " << steps[0];
+}
+
+TEST(Revise, AMovedObjectIsFoundAndBelievedWhereItIsNow) {
+  const Night night = FirstDay();
+  for (const char* mode : {"keep", "revise"}) {
+    BoxWalker walker = Rearranged(&kMovedCouch);
+    walker.pose.p_world = Vector3d(6.0, 1.0, 0);
+    Agent second(ConfigOf(mode), FakeSuite(SightOf(kMovedCouch)));
+    Wake(night, 1, &second);
+    ASSERT_TRUE(second.SetGoal("couch").has_value());
+    const Walk walk = RunAgent(second, walker, 400);
+    ASSERT_EQ(walk.last_action, Action::kStop) << mode;
+    const auto objects = second.objects();
+    ASSERT_EQ(objects.size(), 2U);
+    EXPECT_LT(objects[0].confidence, 0.3);
+    EXPECT_GT(objects[1].confidence, 0.8);
+    EXPECT_EQ(objects[1].first_seen_day, 1);
+  }
+}
+
+TEST(Revise, AfterOneRevisionTheWayLeadsStraightToTheNewPlace) {
+  const Night night = FirstDay();
+  std::vector<std::size_t> steps;
+  for (const char* mode : {"keep", "revise"}) {
+    Night last = night;
+    for (int day = 1; day <= 2; ++day) {
+      BoxWalker walker = Rearranged(&kMovedCouch);
+      walker.pose.p_world = Vector3d(6.0, 1.0, 0);
+      Agent agent(ConfigOf(mode), FakeSuite(SightOf(kMovedCouch)));
+      Wake(last, day, &agent);
+      ASSERT_TRUE(agent.SetGoal("couch").has_value());
+      const Walk walk = RunAgent(agent, walker, 400);
+      ASSERT_EQ(walk.last_action, Action::kStop) << mode << day;
+      if (day == 2) steps.push_back(walk.traces.size());
+      last = NightAfter(agent);
+    }
+  }
+  EXPECT_LT(steps[1], steps[0]);
+}
+
+TEST(Revise, WithoutALoadedMemoryEveryStepIsTheSame) {
+  std::vector<std::vector<std::string>> traces;
+  for (const char* mode : {"keep", "revise"}) {
+    BoxWalker walker = testing::TwoRooms();
+    Agent agent(ConfigOf(mode), FakeSuite(SightOf(kCouch)));
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    traces.push_back(RunAgent(agent, walker, 300).traces);
+  }
+  EXPECT_EQ(traces[0], traces[1]);
+}
+
+TEST(Revise, WhatIsSeenThroughIsClearedInAMapThatNeverForgot) {
+  const Night night = FirstDay();
+  BoxWalker walker = Rearranged(nullptr);
+  Agent agent(ConfigOf("revise"), FakeSuite(SightOf(kMovedCouch)));
+  Wake(night, 1, &agent);
+  const auto count = [&] {
+    int occupied = 0;
+    agent.map().ForEachInBox(geometry::KeyOf(kCouch.min + Vector3d(0.05, 0.05, 0.35), 0.1),
+                             geometry::KeyOf(kCouch.max, 0.1),
+                             [&](const geometry::VoxelKey&, const geometry::Voxel& voxel) {
+                               occupied += geometry::IsSurface(voxel.state);
+                             });
+    return occupied;
+  };
+  const int before = count();
+  ASSERT_GT(before, 10);
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  (void)RunAgent(agent, walker, 200);
+  EXPECT_LT(count(), before / 4);
+}
+
+// A shut door of an old map, open today, and the reverse.
+TEST(Revise, AnOpenedDoorIsWalkedThrough) {
+  BoxWalker shut = testing::TwoRooms();
+  shut.rooms.solids.push_back(BoxOf(4, 0.4, 0, 4.12, 1.4, 2.05));
+  Agent first(SmallConfig(), FakeSuite(SightOf(kCouch)));
+  ASSERT_TRUE(first.SetGoal("couch").has_value());
+  ASSERT_TRUE(RunAgent(first, shut, 400).all_explored);
+  const Night night = NightAfter(first);
+  BoxWalker open = testing::TwoRooms();
+  Agent second(ConfigOf("revise"), FakeSuite(SightOf(kCouch)));
+  Wake(night, 1, &second);
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  EXPECT_EQ(RunAgent(second, open, 400).last_action, Action::kStop);
+}
+
+TEST(Revise, AShutDoorIsRunIntoNotMoreThanOnce) {
+  const Night night = FirstDay();
+  BoxWalker shut = testing::TwoRooms();
+  shut.rooms.solids.push_back(BoxOf(4, 0.4, 0, 4.12, 1.4, 2.05));
+  Agent second(ConfigOf("revise"), FakeSuite(SightOf(kCouch)));
+  Wake(night, 1, &second);
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  const Walk walk = RunAgent(second, shut, 400);
+  EXPECT_TRUE(walk.all_explored);
+  const auto bumps = std::count_if(walk.traces.begin(), walk.traces.end(), [](const auto& step) {
+    return step.find("\"bump\"") != std::string::npos;
+  });
+  EXPECT_LE(bumps, 1);
+}
+
+}  // namespace
+}  // namespace crossnav::agent

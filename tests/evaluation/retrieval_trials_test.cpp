@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/evaluation/trials/retrieval_trials.h"
+
+#include <gtest/gtest.h>
+
+#include "crossnav/sim/sensing/ground_truth_encoder.h"
+#include "sim/micro_scene.h"
+
+namespace crossnav::evaluation {
+namespace {
+
+std::vector<RetrievalQuery> Queries(std::initializer_list<double> there,
+                                    std::initializer_list<double> not_there) {
+  std::vector<RetrievalQuery> all;
+  for (const double match : there) all.push_back({"h", "w", true, match});
+  for (const double match : not_there) all.push_back({"h", "w", false, match});
+  return all;
+}
+
+TEST(PresenceThreshold, PartsWhatIsThereFromWhatIsNot) {
+  const auto chosen = ChoosePresence(
+      Queries({.7, .7, .7, .8, .8, .8, .9, .9, .9, .4}, {.1, .1, .1, .2, .2, .2, .3, .3, .3, .3}));
+  ASSERT_TRUE(chosen.present_from);
+  EXPECT_GT(*chosen.present_from, 0.3);
+  EXPECT_LE(*chosen.present_from, 0.4);
+  EXPECT_EQ(chosen.found, 10);
+  EXPECT_EQ(chosen.falsely, 0);
+}
+
+TEST(PresenceThreshold, IsNoneWhereBothMatchAlikeOrTooFewWereAsked) {
+  EXPECT_FALSE(ChoosePresence(Queries({.7, .7, .8, .8, .8, .9, .9, .9, .9, .9},
+                                      {.7, .7, .8, .8, .8, .9, .9, .9, .9, .9}))
+                   .present_from);
+  EXPECT_FALSE(ChoosePresence(Queries({.9, .9}, {.1, .1})).present_from);
+}
+
+TEST(RetrievalCount, F1IsTheHarmonicMeanOfRecallAndPrecision) {
+  RetrievalCount count{4, 2, 3, 1};
+  EXPECT_NEAR(count.F1(), 2 * 0.5 * 0.75 / 1.25, 1e-12);
+  EXPECT_EQ((RetrievalCount{4, 0, 0, 9}).F1(), 0);
+  EXPECT_EQ(BestChoice({{4, 1, 1, 3}, {4, 3, 3, 1}, {4, 3, 3, 1}}), 1U);
+}
+
+TEST(RetrievalTrial, FindsTheNamesOfASceneWithGroundTruthAndNothingElse) {
+  sim::test::MicroScene micro;
+  micro.Room(0, 0, 6, 5);
+  micro.Begin("chair", "chair");
+  micro.Box({3, 2, 0}, {3.6, 2.6, 0.9});
+  const sim::Scene scene = micro.Finish();
+  const auto make = [](const sim::Simulator& simulator) -> Result<HeldEncoder> {
+    auto made = sim::MakeGroundTruthEncoder(simulator, {});
+    if (!made) return tl::unexpected(made.error());
+    const std::shared_ptr<perception::DenseEncoder> own = std::move(*made);
+    return HeldEncoder{own.get(), own};
+  };
+  auto words = WordsOfNoHouse();
+  words.insert("chair");
+  const auto trial = TryRetrieval(scene, words, RetrievalChoices(), make, {});
+  ASSERT_TRUE(trial) << trial.error().Message();
+  EXPECT_EQ(trial->counts.front().asked, 1);
+  EXPECT_EQ(trial->counts.front().found, 1);
+  int there = 0;
+  for (const RetrievalQuery& query : trial->queries) {
+    there += query.is_there;
+    EXPECT_EQ(query.is_there, query.word == "chair");
+  }
+  EXPECT_EQ(there, 1);
+}
+
+}  // namespace
+}  // namespace crossnav::evaluation

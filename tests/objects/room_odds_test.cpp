@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Where a thing may be that is not where it was.
+#include "crossnav/objects/room_odds.h"
+
+#include <gtest/gtest.h>
+
+namespace crossnav::objects {
+namespace {
+
+ObjectRecord RecordOf(const std::string& category, int room, int floor, double confidence = 0.9) {
+  ObjectRecord record;
+  record.category = category;
+  record.room = room;
+  record.floor = floor;
+  record.confidence = confidence;
+  record.views = 5;
+  return record;
+}
+
+const std::vector<RoomPlace> kRooms = {{0, 0, 15}, {1, 0, 15}, {2, 0, 15}, {3, 1, 15}};
+
+TEST(RoomOdds, TheRoomItWasInComesBeforeItsFloorAndThatBeforeOtherFloors) {
+  const std::vector<ObjectRecord> records = {RecordOf("plant", 0, 0, 0.01)};
+  const auto odds = RoomOdds(records, kRooms, "plant");
+  EXPECT_GT(odds.at(0), 2 * odds.at(1));
+  EXPECT_GT(odds.at(1), odds.at(3));
+  double sum = 0;
+  for (const auto& [room, share] : odds) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-9);
+}
+
+TEST(RoomOdds, RoomsWithTheFurnitureThatUsuallyStandsBesideItAreLikelier) {
+  // Two plants beside sofas; room 2 has a sofa, too, and room 3 a bathtub.
+  std::vector<ObjectRecord> records = {RecordOf("plant", 0, 0, 0.01), RecordOf("sofa", 0, 0),
+                                       RecordOf("plant", 1, 0),       RecordOf("sofa", 1, 0),
+                                       RecordOf("sofa", 2, 0),        RecordOf("bathtub", 3, 0)};
+  std::vector<RoomPlace> rooms = kRooms;
+  rooms[3].floor = 0;
+  const auto odds = RoomOdds(records, rooms, "plant");
+  EXPECT_GT(odds.at(2), 1.2 * odds.at(3));
+  EXPECT_GT(Company(records, rooms, "plant", "sofa"), 1);
+  EXPECT_LT(Company(records, rooms, "plant", "bathtub"), 1);
+}
+
+TEST(RoomOdds, WithoutRecordsAllRoomsOfOneSizeAreAlike) {
+  const auto odds = RoomOdds({}, kRooms, "chair");
+  EXPECT_NEAR(odds.at(0), 0.25, 1e-9);
+  EXPECT_NEAR(odds.at(3), 0.25, 1e-9);
+}
+
+TEST(RoomOdds, WhatIsNotFoundAnywhereIsGone) {
+  EXPECT_LT(OddsOfAbsence(1.0), 0.3);
+  EXPECT_GT(OddsOfAbsence(0.02), 0.9);
+  EXPECT_EQ(OddsOfAbsence(0), 1);
+}
+
+}  // namespace
+}  // namespace crossnav::objects
