@@ -196,8 +196,11 @@ Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& commo
                          Console& console) {
   const auto mode = ModeOf(options.variant);
   if (!mode) return tl::unexpected(mode.error());
-  const auto config = LoadRunConfig(common, {"full", "", "", ""});
+  auto config = LoadRunConfig(common, {"full", "", "", ""});
   if (!config) return tl::unexpected(config.error());
+  config->agent.memory.mode = "keep";
+  const std::string settings = evaluation::ConfigHash(*config);  // the same for every mode
+  if (*mode == "revise") config->agent.memory.mode = *mode;
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
   const auto file = EnsureVisits(options, console);
@@ -209,7 +212,7 @@ Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& commo
   std::error_code error;
   fs::create_directories(chain.run / "memory", error);
   if (error) return Fail(ErrorCode::kIo, error.message(), (chain.run / "memory").string());
-  auto results = Started(path, {file->content_hash, *mode, "full", evaluation::ConfigHash(*config),
+  auto results = Started(path, {file->content_hash, *mode, "full", settings,
                                 config->eval.perception + "-perception", CROSSNAV_VERSION});
   if (!results) return tl::unexpected(results.error());
   if (auto ok = PlayHouses(ByHouse(*file), options.jobs, chain, *results, console); !ok) return ok;
