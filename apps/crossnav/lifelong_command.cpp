@@ -27,19 +27,13 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kModes[] = {"none", "keep", "revise"};
-constexpr const char* kModeKey = "memory.mode=";
 
-/// memory.mode out of the overrides, which do not know it.
-Result<std::string> TakeMode(CommonOptions& common) {
-  std::string mode = "keep";
-  std::erase_if(common.overrides, [&](const std::string& setting) {
-    if (!setting.starts_with(kModeKey)) return false;
-    mode = setting.substr(std::string(kModeKey).size());
-    return true;
-  });
+/// --variant names the memory: the agent is the full one. `full` itself keeps it.
+Result<std::string> ModeOf(const std::string& variant) {
+  const std::string mode = variant == "full" ? "keep" : variant;
   if (std::find(std::begin(kModes), std::end(kModes), mode) != std::end(kModes)) return mode;
   return Fail(ErrorCode::kInvalid, "is \"" + mode + "\"; it must be none, keep or revise",
-              "memory.mode");
+              "--variant");
 }
 
 struct ChainSettings {
@@ -200,26 +194,26 @@ Result<void> LifelongMake(const SuiteOptions& options, Console& console) {
 
 Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& common,
                          Console& console) {
-  CommonOptions rest = common;
-  const auto mode = TakeMode(rest);
+  const auto mode = ModeOf(options.variant);
   if (!mode) return tl::unexpected(mode.error());
-  const auto config = LoadRunConfig(rest, {options.variant, "", "", ""});
+  auto config = LoadRunConfig(common, {"full", "", "", ""});
   if (!config) return tl::unexpected(config.error());
+  config->agent.memory.mode = "keep";
+  const std::string settings = evaluation::ConfigHash(*config);  // the same for every mode
+  if (*mode == "revise") config->agent.memory.mode = *mode;
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
   const auto file = EnsureVisits(options, console);
   if (!file) return tl::unexpected(file.error());
   const LifelongPlace place = LifelongPlaceOf(options);
-  const std::string name = options.variant == "full" ? *mode : *mode + "-" + options.variant;
-  const ChainSettings chain{*config, *perception, *mode, place, place.runs() / name};
+  const ChainSettings chain{*config, *perception, *mode, place, place.runs() / *mode};
   const fs::path path = chain.run / "visits.jsonl";
   if (auto ok = evaluation::CheckOutputFile(path, "--out"); !ok) return ok;
   std::error_code error;
   fs::create_directories(chain.run / "memory", error);
   if (error) return Fail(ErrorCode::kIo, error.message(), (chain.run / "memory").string());
-  auto results =
-      Started(path, {file->content_hash, *mode, options.variant, evaluation::ConfigHash(*config),
-                     config->eval.perception + "-perception", CROSSNAV_VERSION});
+  auto results = Started(path, {file->content_hash, *mode, "full", settings,
+                                config->eval.perception + "-perception", CROSSNAV_VERSION});
   if (!results) return tl::unexpected(results.error());
   if (auto ok = PlayHouses(ByHouse(*file), options.jobs, chain, *results, console); !ok) return ok;
   console.EndProgress();
@@ -242,10 +236,9 @@ Result<void> LifelongReport(const SuiteOptions& options, Console& console) {
     runs.push_back(std::move(*results));
   }
   if (runs.empty()) {
-    return Fail(
-        ErrorCode::kNotFound,
-        "has no run; begin with `crossnav suite run " + options.name + " --set memory.mode=keep`",
-        place.runs().string());
+    return Fail(ErrorCode::kNotFound,
+                "has no run; begin with `crossnav suite run " + options.name + " --variant keep`",
+                place.runs().string());
   }
   std::vector<evaluation::VisitComparison> comparisons;
   for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -10,8 +10,7 @@ bool IsLifelong(const std::string& suite);
 
 /// Houses, their later days, visits and a manifest.
 Result<void> LifelongMake(const SuiteOptions& options, Console& console);
-/// The same, and a run with the memory that memory.mode asks for: none, keep (the default) or
-/// revise.
+/// The same, and a run with the memory that --variant names: none, keep (the default) or revise.
 Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& common,
                          Console& console);
 /// The runs that are there, each against each.
