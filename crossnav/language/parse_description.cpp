@@ -193,17 +193,7 @@ Result<Description> ParseDescription(std::string_view text) {
 
 bool IsDescription(std::string_view text) {
   auto words = WordStream::Of(text);
-  if (!words) return false;
-  const std::size_t mark = words->Mark();
-  if (TakeArticle(*words) != Article::kNone) return true;
-  words->Return(mark);
-  auto parsed = ParseDescription(*words);
-  if (!parsed || parsed->IsPlain()) return false;
-  // "bathroom cabinet" is a name, "cabinet in the bathroom" is none.
-  if (text.find(' ') != std::string_view::npos && text.find(" in ") == std::string_view::npos &&
-      text.find(" at ") == std::string_view::npos)
-    parsed->room.reset();
-  return !parsed->IsPlain();
+  return words && TakeArticle(*words) != Article::kNone;
 }
 
 }  // namespace crossnav::language

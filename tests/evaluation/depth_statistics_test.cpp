@@ -33,7 +33,8 @@ TEST(DepthStatistics, TellTheSigmaOfAWall) {
 TEST(DepthStatistics, TellWhatIsLostInTheDarkAndWhatFliesAtEdges) {
   DepthImage depth_m(200, 150, 1.0F);
   for (int v = 0; v < 150; ++v)
-    for (int u = 100; u < 200; ++u) depth_m.At(u, v) = u < 101 ? 2.0F : 3.0F;  // a flying column
+    for (int u = 99; u < 200; ++u)  // half of the edge flies, in a column that is looked at
+      depth_m.At(u, v) = u == 99 && v < 75 ? 2.0F : 3.0F;
   Observation obs = Look(depth_m);
   for (int v = 0; v < 75; ++v)
     for (int u = 0; u < 50; ++u) {

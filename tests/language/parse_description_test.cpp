@@ -104,11 +104,12 @@ TEST(ParseDescription, GarbageIsAnErrorAndNeverMore) {
 }
 
 TEST(IsDescription, NamesStayNames) {
-  for (const char* name : {"chair", "tv_monitor", "potted plant", "chest of drawers", "couch",
-                           "something else", "vase with flowers", "", "picture on frame"})
+  for (const char* name :
+       {"chair", "tv_monitor", "potted plant", "chest of drawers", "couch", "something else",
+        "vase with flowers", "", "picture on frame", "red box", "second chair", "theatre"})
     EXPECT_FALSE(IsDescription(name)) << name;
-  for (const char* text : {"the chair", "red chair", "a bed on the first floor", "chair upstairs",
-                           "the leftmost chair", "second chair", "plant on the table"})
+  for (const char* text : {"the chair", "the red chair", "a bed on the first floor",
+                           "any chair upstairs", "the leftmost chair", "a plant on the table"})
     EXPECT_TRUE(IsDescription(text)) << text;
 }
 
