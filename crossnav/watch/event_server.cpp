@@ -103,6 +103,7 @@ struct EventServer::Impl {
 
   /// Closes the listener and all connections.
   void HangUp() {
+    is_hanging_up = true;
     if (http) evhttp_free(http);
     http = nullptr;
   }
@@ -131,6 +132,7 @@ struct EventServer::Impl {
   std::list<Viewer> viewers;
   std::shared_ptr<const EventLog> shown;
   bool is_closing = false;
+  bool is_hanging_up = false;  // evhttp frees the requests of its open connections itself
 
   // Requests of the owner.
   std::mutex mutex;
@@ -172,6 +174,8 @@ void EventServer::Impl::StartViewer(evhttp_request* request) {
       connection,
       [](evhttp_connection*, void* arg) {
         auto* gone = static_cast<Viewer*>(arg);
+        // A reply that its client left is no longer of the connection: ending it frees it.
+        if (!gone->is_over && !gone->server->is_hanging_up) evhttp_send_reply_end(gone->request);
         gone->server->Forget(gone);
       },
       &viewer);
