@@ -127,11 +127,11 @@ struct EpisodesOptions {
   double alternate = 0;  ///< of those: the share that changes floors at every stage
   std::uint64_t seed = 1;
   bool repeats = false;
-  std::string certify;     ///< coverage or detection; empty = as configured
-  std::string track;       ///< origin of the buildings; empty = none
-  std::string scene_list;  ///< file of names, one a line; empty = every scene
-  std::vector<int> first;  ///< episodes with their first transition at stage 1, 2, ...
-  bool by_scene = false;   ///< one scene in memory at a time
+  std::string certify;                ///< coverage or detection; empty = as configured
+  std::string track;                  ///< origin of the buildings; empty = none
+  std::string scene_list;             ///< file of names, one a line; empty = every scene
+  std::vector<int> first;             ///< episodes with their first transition at stage 1, 2, ...
+  bool by_scene = false;              ///< one scene in memory at a time
   std::string goals_as = "category";  ///< category, description, or mixed
 };
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,

@@ -30,8 +30,8 @@ bool ParsePlace(WordStream& words, Description* whole);
 /// All places up to the end of the stream: relations, room, floor.
 Result<void> ParsePlaces(WordStream& words, Description* whole);
 
-/// Whether a goal is to be read as a description: it begins with an article. Any other text is a name,
-/// known or not ("red box"), which perception is asked for as it stands.
+/// Whether a goal is to be read as a description: it begins with an article. Any other text is a
+/// name, known or not ("red box"), which perception is asked for as it stands.
 bool IsDescription(std::string_view text);
 
 /// kInvalid: the next word is not understood, `wanted` could stand there.

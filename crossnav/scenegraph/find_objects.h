@@ -20,9 +20,9 @@ struct AskedCategory {
   std::span<const std::vector<float>> background;  ///< for query.relevancy = contrastive
 };
 
-/// Adds the places that match at least as well as `present_from` (memory/query_match.h); all of them
-/// where it is not known. A place on a record of the category is no second object. Relations are not
-/// made yet.
+/// Adds the places that match at least as well as `present_from` (memory/query_match.h); all of
+/// them where it is not known. A place on a record of the category is no second object. Relations
+/// are not made yet.
 void FindObjects(SceneGraph& graph, const memory::SemanticMemory& memory,
                  const AskedCategory& category, memory::QueryConfig query,
                  std::optional<double> present_from);

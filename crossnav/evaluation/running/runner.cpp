@@ -252,12 +252,10 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
     end.is_reached = IsGoalReached(context_, context_.TargetsOf(stage.record.goal),
                                    simulator_.agent().p_world, config_.eval);
     const std::optional<Vector3d> p_claimed =
-        step->p_claimed_world
-            ? std::optional<Vector3d>(T_world_claims_ * *step->p_claimed_world)
-            : std::nullopt;
+        step->p_claimed_world ? std::optional<Vector3d>(T_world_claims_ * *step->p_claimed_world)
+                              : std::nullopt;
     if (language::IsDescription(stage.record.goal))
-      end.is_reached =
-          end.is_reached && p_claimed && IsClaimOf(stage.record.goal, *p_claimed);
+      end.is_reached = end.is_reached && p_claimed && IsClaimOf(stage.record.goal, *p_claimed);
     end.is_claim_near = p_claimed && IsClaimNear(stage.record.goal, *p_claimed);
   } else {
     Move(step->action, stage);

@@ -224,11 +224,10 @@ Result<WordTrial> TryWords(const WordTrialOptions& options, const RunConfig& con
   const auto plan = PassedPlan(params, config, context);
   if (!plan) return tl::unexpected(plan.error());
   Recorder recorder(context->scene(), config);
-  const auto survey = SurveyScene(
-      *context, config, Known::kObjects,
-      [&](const Observation& obs, const sim::Simulator& simulator) {
-        recorder.Note(obs, simulator.last_frame().instance);
-      });
+  const auto survey = SurveyScene(*context, config, Known::kObjects,
+                                  [&](const Observation& obs, const sim::Simulator& simulator) {
+                                    recorder.Note(obs, simulator.last_frame().instance);
+                                  });
   if (!survey) return tl::unexpected(survey.error());
   const auto graph = scenegraph::BuildGraph(survey->map, survey->memory, survey->flights);
   KnownHome known = language::HomeOf(graph, recorder.book().Confirmed());
