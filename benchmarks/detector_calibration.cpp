@@ -39,7 +39,7 @@ struct Scored {
   bool is_true = false;
 };
 
-/// One thing that was claimed, and the score of each view of it.
+/// Claimed object, with the score of each view.
 struct Thing {
   policy::LivePoi poi;
   policy::ClaimTracker book;

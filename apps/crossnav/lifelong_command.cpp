@@ -101,7 +101,7 @@ std::vector<std::vector<evaluation::HouseVisit>> ByHouse(const evaluation::Visit
   return houses;
 }
 
-/// What the run's file holds already. Error: it is of another run.
+/// Records that the run's file already holds. Error: the file belongs to another run.
 Result<evaluation::VisitResults> Started(const fs::path& path, const evaluation::VisitRun& run) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return evaluation::VisitResults{run, {}};

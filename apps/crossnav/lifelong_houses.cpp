@@ -35,21 +35,21 @@ Result<LifelongSuite> SuiteOf(const std::string& name) {
               "no suite of this name; there are crossnav-lifelong-1, -val and -mini", name);
 }
 
-/// What happens in each night of the suite: one change a track.
+/// Changes of each night of the suite: one per track.
 std::vector<world::ChangeKind> NightOf() {
   using world::ChangeKind;
   return {ChangeKind::kSameFurniture, ChangeKind::kOtherFurniture, ChangeKind::kOtherRoom,
           ChangeKind::kOtherFloor,    ChangeKind::kRemoved,        ChangeKind::kDoorClosed};
 }
 
-/// What visits are made with; they depend on no settings of the user's.
+/// Settings for making visits, independent of the user's settings.
 evaluation::RunConfig MakerConfig() {
   evaluation::RunConfig config;
   config.dataset.certificate = "detection";
   return config;
 }
 
-/// One house with its days and visits; empty text where the seed gives none.
+/// House with its days and visits; empty text if the seed gives no house.
 Result<std::string> MakeHouse(const LifelongSuite& suite, std::uint64_t seed,
                               const LifelongPlace& place) {
   world::HouseParams params;

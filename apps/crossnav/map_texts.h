@@ -19,7 +19,7 @@ namespace crossnav::app {
 Result<store::LoadedMemory> LoadMap(const std::string& file, bool skip_damaged,
                                     const evaluation::RunConfig& config, Console& console);
 
-/// What is looked for, in the space of the map's features.
+/// Query vectors in the space of the map's features.
 struct TextVectors {
   std::vector<float> text;
   std::vector<std::vector<float>> background;  ///< for query.relevancy = contrastive

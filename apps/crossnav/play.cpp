@@ -114,7 +114,7 @@ Json AwokenJson(const evaluation::Awoken& awoken) {
           {"off_deg", awoken.off_deg}};
 }
 
-/// What was learned besides the record.
+/// Results of an episode that are not part of its record.
 struct Learned {
   MemorySummary memory;
   std::optional<evaluation::Awoken> awoken;

@@ -47,7 +47,7 @@ std::string ShardScript(const SlurmJob& job) {
   text +=
       fmt::format("#SBATCH --array=0-{}\n#SBATCH --cpus-per-task={}\n", job.tasks - 1, job.cpus);
   if (!job.time.empty()) text += fmt::format("#SBATCH --signal=B:USR1@{}\n", kRequeueSeconds);
-  text += "# One shard of an evaluation. A restart continues behind the last finished episode.\n";
+  text += "# Shard of an evaluation. A restart continues behind the last finished episode.\n";
   text += Start(job);
   text += "task=$SLURM_ARRAY_TASK_ID\n";
   const std::string shards = ShellQuoted(job.out + "/shards");

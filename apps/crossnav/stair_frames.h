@@ -11,7 +11,7 @@
 
 namespace crossnav::app {
 
-/// What was found, as a JSON array of an object a frame, and in words.
+/// Findings, as a JSON array with one object per frame and as text.
 struct StairFrames {
   std::string json, text;
 };

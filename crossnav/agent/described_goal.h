@@ -42,7 +42,7 @@ struct DescribedGoal {
 Result<std::optional<DescribedGoal>> DescribedGoalOf(const std::string& text,
                                                      perception::DenseEncoder& encoder);
 
-/// What is known of the home now; does nothing for a plain goal.
+/// Updates the known home of a described goal; does nothing for a plain goal.
 void LookAtHome(const World& world, const Config& config, GoalState* goal);
 
 /// Remembered places without those that do not fit, the fitting first.

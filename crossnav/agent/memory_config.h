@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a loaded memory is to the agent: believed as it stands, or revised by what is seen.
+// Trust in a loaded memory: kept as saved, or revised by observations.
 #pragma once
 
 #include <string>

@@ -39,7 +39,7 @@ double ShareIn(const World& world, const std::vector<VoxelKey>& voxels,
   return few == 0 ? 0 : static_cast<double>(inside) / static_cast<double>(few);
 }
 
-/// What records say of a place: 1 believed, -1 gone, 0 nothing.
+/// Verdict of the records on a place: 1 believed, -1 gone, 0 no record.
 int OpinionOf(const World& world, const std::vector<VoxelKey>& voxels,
               const std::string& category) {
   int opinion = 0;

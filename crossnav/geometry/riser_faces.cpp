@@ -22,7 +22,7 @@ bool IsUpright(const DepthSurface& s, int i) {
   return s.area_m2[i] > 0 && std::abs(s.normal_world[i].z()) < kUpright;
 }
 
-/// What is upright and connected with pixel `first` without a bend.
+/// Upright pixels connected with pixel `first` without a bend.
 std::vector<int> TakeFace(const DepthSurface& s, int first, std::vector<bool>& is_taken) {
   std::vector<int> pixels = {first};
   is_taken[first] = true;

@@ -31,7 +31,7 @@ struct Level {
   bool has_face = false;
 };
 
-/// What one picture shows, without a direction.
+/// Surfaces of one picture, before a direction is chosen.
 struct Evidence {
   DepthSurface surface;
   std::vector<LevelPatch> patches;

@@ -41,7 +41,7 @@ std::string UnseenText(const std::vector<int>& unseen, const KnownHome& home) {
   return text + "\n";
 }
 
-/// Those that fit, the last seen first; those that only may fit where none does.
+/// Fitting objects, the last seen first; possible ones if no object fits.
 std::vector<int> Fitting(const Description& subject, const KnownHome& home) {
   std::vector<int> things;
   if (subject.order != 0 || subject.size) {

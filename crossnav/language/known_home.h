@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of a home, as descriptions and questions need it: floors, rooms with what they may
+// Known home, as descriptions and questions need it: floors, rooms with what they may
 // be for, things. Made of a map's graph and its records of objects; tests make it by hand. World
 // frame, metres.
 #pragma once

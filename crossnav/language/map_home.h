@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a saved map knows of a home: its graph, its records, and what its memory answers when names
+// Known home of a saved map: its graph, its records, and what its memory answers when names
 // are looked for in it.
 #pragma once
 

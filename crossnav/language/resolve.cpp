@@ -66,7 +66,7 @@ double SizeOf(const Thing& thing) {
   return sides[1] * sides[2];
 }
 
-/// Those that are as big (or small) as the biggest, as far as the eye can tell.
+/// Objects as big (or small) as the extreme one, within the margin of sight.
 std::vector<int> Extremes(const std::vector<int>& pool, SizeWord word, const KnownHome& home) {
   const auto size = [&](int i) { return SizeOf(home.things[i]); };
   const bool is_big = word == SizeWord::kBig;

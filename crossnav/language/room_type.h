@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a room is for. Rooms of a map are cut from geometry alone; what stands in them tells their
+// Type of a room. Rooms of a map are cut from geometry alone; the objects in them tell their
 // type, by the table in room_type.cpp. One room can be of several types: an open kitchen.
 #pragma once
 

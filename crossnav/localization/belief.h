@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is believed of the pose: hypotheses that differ, best first, and whether the best one is
+// Belief over the pose: distinct hypotheses, best first, and whether the best one is
 // known to be right. Frames: map, and odom of the scan.
 #pragma once
 

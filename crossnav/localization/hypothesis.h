@@ -14,7 +14,7 @@
 
 namespace crossnav::localization {
 
-/// What the map says of one beam under a hypothesis.
+/// Verdict of the map on one beam under a hypothesis.
 enum class Verdict : std::uint8_t { kNothing, kAgrees, kContradicts };
 
 struct Hypothesis {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was seen since waking up, in the frame of the odometry (right-handed, z up, metres): points
+// Scan since waking up, in the frame of the odometry (right-handed, z up, metres): points
 // for matching, and beams for checking. Frames without depth add nothing. Deterministic.
 #pragma once
 

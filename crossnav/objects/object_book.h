@@ -23,7 +23,7 @@ struct BookConfig {
   double same_place_m = 0.25;  // chosen: between the centres; chairs at a table stand farther apart
 };
 
-/// One object in one frame.
+/// Sighting of an object in one frame.
 struct SeenObject {
   std::string category;
   std::vector<geometry::VoxelKey> voxels;  ///< sorted, not empty
@@ -63,7 +63,7 @@ class ObjectBook {
 
   /// In no order; those of a single frame, too.
   const std::vector<ObjectRecord>& records() const { return records_; }
-  /// Those that enough frames showed, and places that were disproved, by id: what is saved.
+  /// Records to save, by id: objects confirmed by enough frames, and disproved places.
   std::vector<ObjectRecord> Confirmed() const;
   bool IsGone(const ObjectRecord& record) const { return record.confidence < config_.gone; }
 
@@ -77,7 +77,7 @@ class ObjectBook {
   double voxel_m() const { return voxel_m_; }
 
  private:
-  /// What is not saved of a record.
+  /// Fields of a record that are not saved.
   struct Watch {
     std::int64_t noted_step = -1;                        ///< of the last Note in this run
     double picture_px = 0;                               ///< pixels behind the picture

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What frames of a real depth camera tell of its noise, without knowing the truth: how readings lie
+// Noise of a real depth camera from its frames alone, without the truth: how readings lie
 // about the planes of their neighbours, where depth is missing, and what is read at edges.
 #pragma once
 

@@ -140,7 +140,7 @@ std::optional<DrawnWords> DrawClear(const KnownHome& home, int thing, Descriptio
   return std::nullopt;
 }
 
-/// One or two words, none of which tells it apart.
+/// One or two attributes that do not identify the object.
 std::optional<DrawnWords> DrawAmbiguous(const KnownHome& home, int thing, Description d, Rng& rng) {
   for (int i = Pick(3, rng); i > 0; --i)
     Say(kWords[rng.Below(4)], home, home.things[thing], d, rng);

@@ -29,7 +29,7 @@ class StaleWatch {
   int last_ = -1;  // stale place of the step before; -1 = none
 };
 
-/// What a visit begins and ends with.
+/// Memory at the begin and the end of a visit.
 struct VisitHooks {
   std::function<Result<void>(agent::Agent&)> begin = [](agent::Agent&) { return Result<void>(); };
   std::function<Result<void>(const agent::Agent&)> end = [](const agent::Agent&) {

@@ -75,7 +75,7 @@ struct VisitRecord {
   std::string failure;         ///< why it has no goals; empty = it was played
 };
 
-/// What makes two runs comparable.
+/// Fields that must be equal for two runs to be compared.
 struct VisitRun {
   std::string suite_hash, memory_mode, variant, config_hash, perception, version;
   friend bool operator==(const VisitRun&, const VisitRun&) = default;
