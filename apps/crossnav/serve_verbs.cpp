@@ -33,10 +33,7 @@ void AddServe(CLI::App& app, Options& o) {
   serve->add_option("--networks", o.serve.networks, kNetworksHelp)
       ->check(CLI::IsMember({"own", "real"}));
   serve->add_option("--memory", o.serve.memory, "Map file to start from, as --save-map wrote it");
-  serve
-      ->add_option("--pose", o.serve.pose,
-                   "unknown: the robot has to find itself in --memory; default: given")
-      ->check(CLI::IsMember({"given", "unknown"}));
+  serve->add_option("--pose", o.serve.pose, kPoseHelp)->check(CLI::IsMember({"given", "unknown"}));
   serve->add_option("--save-map", o.serve.save_map, "Map file to save the memory to at the end");
   AddWatch(serve, o.serve.watch);
 }

@@ -22,27 +22,6 @@ using testing::Walk;
 
 const Box3 kMovedCouch = BoxOf(0.1, 0.1, 0, 1.0, 0.9, 0.8);  // in the first room
 
-/// Features and detections of a couch that stands at `couch`.
-FakeSight SightOf(const Box3& couch) {
-  FakeSight sight = testing::CouchSight();
-  test::SeeBox(couch, "couch", &sight);
-  sight.features = [couch](const Observation& obs) {
-    perception::FeatureGrid grid{8, 8, 4, {}};
-    for (int row = 0; row < 8; ++row)
-      for (int col = 0; col < 8; ++col) {
-        const int u = col * obs.rgb.width / 8, v = row * obs.rgb.height / 8;
-        const Vector3d p =
-            obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
-        const bool is_couch = couch.HorizontalDistance(p) < 0.05 && p.z() < 0.9;
-        const std::vector<float> cell =
-            is_couch ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0.8F, 0.6F, 0};
-        grid.data.insert(grid.data.end(), cell.begin(), cell.end());
-      }
-    return grid;
-  };
-  return sight;
-}
-
 /// All that is kept over night.
 struct Night {
   std::vector<geometry::MapBlock> blocks;
@@ -81,7 +60,7 @@ Config ConfigOf(const std::string& mode) {
 /// The first day, at the end of which the couch was found.
 Night FirstDay() {
   BoxWalker walker = testing::TwoRooms();
-  Agent agent(SmallConfig(), FakeSuite(SightOf(kCouch)));
+  Agent agent(SmallConfig(), FakeSuite(testing::CouchSight(kCouch)));
   EXPECT_TRUE(agent.SetGoal("couch").has_value());
   EXPECT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
   return NightAfter(agent);
@@ -107,7 +86,7 @@ TEST(Revise, TheFoundObjectIsARecordToSave) {
 TEST(Revise, AnObjectThatIsGoneIsKnownToBeGoneTheNextDay) {
   const Night night = FirstDay();
   BoxWalker walker = Rearranged(nullptr);
-  Agent second(ConfigOf("revise"), FakeSuite(SightOf(BoxOf(90, 90, 0, 91, 91, 1))));
+  Agent second(ConfigOf("revise"), FakeSuite(testing::CouchSight(BoxOf(90, 90, 0, 91, 91, 1))));
   Wake(night, 1, &second);
   ASSERT_TRUE(second.SetGoal("couch").has_value());
   const Walk search = RunAgent(second, walker, 400);
@@ -118,7 +97,7 @@ TEST(Revise, AnObjectThatIsGoneIsKnownToBeGoneTheNextDay) {
   EXPECT_EQ(later.objects[0].last_seen_day, 0);
   // The third day: the old place is not visited again.
   BoxWalker again = Rearranged(nullptr);
-  Agent third(ConfigOf("revise"), FakeSuite(SightOf(BoxOf(90, 90, 0, 91, 91, 1))));
+  Agent third(ConfigOf("revise"), FakeSuite(testing::CouchSight(BoxOf(90, 90, 0, 91, 91, 1))));
   Wake(later, 2, &third);
   ASSERT_TRUE(third.SetGoal("couch").has_value());
   for (const std::string& step : RunAgent(third, again, 400).traces)
@@ -130,7 +109,7 @@ TEST(Revise, WhatIsNowhereIsSaidToBeGoneInLessThanHalfTheSteps) {
   std::vector<std::size_t> steps;
   for (const char* mode : {"keep", "revise"}) {
     BoxWalker walker = Rearranged(nullptr);
-    Agent agent(ConfigOf(mode), FakeSuite(SightOf(BoxOf(90, 90, 0, 91, 91, 1))));
+    Agent agent(ConfigOf(mode), FakeSuite(testing::CouchSight(BoxOf(90, 90, 0, 91, 91, 1))));
     Wake(night, 1, &agent);
     ASSERT_TRUE(agent.SetGoal("couch").has_value());
     const Walk walk = RunAgent(agent, walker, 600);
@@ -145,7 +124,7 @@ TEST(Revise, AMovedObjectIsFoundAndBelievedWhereItIsNow) {
   for (const char* mode : {"keep", "revise"}) {
     BoxWalker walker = Rearranged(&kMovedCouch);
     walker.pose.p_world = Vector3d(6.0, 1.0, 0);
-    Agent second(ConfigOf(mode), FakeSuite(SightOf(kMovedCouch)));
+    Agent second(ConfigOf(mode), FakeSuite(testing::CouchSight(kMovedCouch)));
     Wake(night, 1, &second);
     ASSERT_TRUE(second.SetGoal("couch").has_value());
     const Walk walk = RunAgent(second, walker, 400);
@@ -166,7 +145,7 @@ TEST(Revise, AfterOneRevisionTheWayLeadsStraightToTheNewPlace) {
     for (int day = 1; day <= 2; ++day) {
       BoxWalker walker = Rearranged(&kMovedCouch);
       walker.pose.p_world = Vector3d(6.0, 1.0, 0);
-      Agent agent(ConfigOf(mode), FakeSuite(SightOf(kMovedCouch)));
+      Agent agent(ConfigOf(mode), FakeSuite(testing::CouchSight(kMovedCouch)));
       Wake(last, day, &agent);
       ASSERT_TRUE(agent.SetGoal("couch").has_value());
       const Walk walk = RunAgent(agent, walker, 400);
@@ -182,7 +161,7 @@ TEST(Revise, WithoutALoadedMemoryEveryStepIsTheSame) {
   std::vector<std::vector<std::string>> traces;
   for (const char* mode : {"keep", "revise"}) {
     BoxWalker walker = testing::TwoRooms();
-    Agent agent(ConfigOf(mode), FakeSuite(SightOf(kCouch)));
+    Agent agent(ConfigOf(mode), FakeSuite(testing::CouchSight(kCouch)));
     ASSERT_TRUE(agent.SetGoal("couch").has_value());
     traces.push_back(RunAgent(agent, walker, 300).traces);
   }
@@ -192,7 +171,7 @@ TEST(Revise, WithoutALoadedMemoryEveryStepIsTheSame) {
 TEST(Revise, WhatIsSeenThroughIsClearedInAMapThatNeverForgot) {
   const Night night = FirstDay();
   BoxWalker walker = Rearranged(nullptr);
-  Agent agent(ConfigOf("revise"), FakeSuite(SightOf(kMovedCouch)));
+  Agent agent(ConfigOf("revise"), FakeSuite(testing::CouchSight(kMovedCouch)));
   Wake(night, 1, &agent);
   const auto count = [&] {
     int occupied = 0;
@@ -214,12 +193,12 @@ TEST(Revise, WhatIsSeenThroughIsClearedInAMapThatNeverForgot) {
 TEST(Revise, AnOpenedDoorIsWalkedThrough) {
   BoxWalker shut = testing::TwoRooms();
   shut.rooms.solids.push_back(BoxOf(4, 0.4, 0, 4.12, 1.4, 2.05));
-  Agent first(SmallConfig(), FakeSuite(SightOf(kCouch)));
+  Agent first(SmallConfig(), FakeSuite(testing::CouchSight(kCouch)));
   ASSERT_TRUE(first.SetGoal("couch").has_value());
   ASSERT_TRUE(RunAgent(first, shut, 400).all_explored);
   const Night night = NightAfter(first);
   BoxWalker open = testing::TwoRooms();
-  Agent second(ConfigOf("revise"), FakeSuite(SightOf(kCouch)));
+  Agent second(ConfigOf("revise"), FakeSuite(testing::CouchSight(kCouch)));
   Wake(night, 1, &second);
   ASSERT_TRUE(second.SetGoal("couch").has_value());
   EXPECT_EQ(RunAgent(second, open, 400).last_action, Action::kStop);
@@ -229,7 +208,7 @@ TEST(Revise, AShutDoorIsRunIntoNotMoreThanOnce) {
   const Night night = FirstDay();
   BoxWalker shut = testing::TwoRooms();
   shut.rooms.solids.push_back(BoxOf(4, 0.4, 0, 4.12, 1.4, 2.05));
-  Agent second(ConfigOf("revise"), FakeSuite(SightOf(kCouch)));
+  Agent second(ConfigOf("revise"), FakeSuite(testing::CouchSight(kCouch)));
   Wake(night, 1, &second);
   ASSERT_TRUE(second.SetGoal("couch").has_value());
   const Walk walk = RunAgent(second, shut, 400);

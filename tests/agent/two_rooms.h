@@ -51,17 +51,17 @@ inline BoxWalker TwoRooms() {
 }
 
 /// Features tell the couch's half of the house from the other; "couch" is the former's text.
-inline FakeSight CouchSight() {
+inline FakeSight CouchSight(const Box3& couch = kCouch) {
   FakeSight sight;
-  test::SeeBox(kCouch, "couch", &sight);
-  sight.features = [](const Observation& obs) {
+  test::SeeBox(couch, "couch", &sight);
+  sight.features = [couch](const Observation& obs) {
     perception::FeatureGrid grid{8, 8, 4, {}};
     for (int row = 0; row < 8; ++row)
       for (int col = 0; col < 8; ++col) {
         const int u = col * obs.rgb.width / 8, v = row * obs.rgb.height / 8;
         const Vector3d p =
             obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
-        const bool is_couch = kCouch.HorizontalDistance(p) < 0.05 && p.z() < 0.9;
+        const bool is_couch = couch.HorizontalDistance(p) < 0.05 && p.z() < 0.9;
         const std::vector<float> cell =
             is_couch ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0.8F, 0.6F, 0};
         grid.data.insert(grid.data.end(), cell.begin(), cell.end());
