@@ -4,30 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/scenegraph/box_measures.h"
+
 namespace crossnav::language {
 namespace {
 
-constexpr double kTouch_m = 0.15, kNextTo_m = 0.5, kNear_m = 1.5,
-                 kCovered = 0.5;         // as scenegraph/relations.cpp
+using scenegraph::CoverOf, scenegraph::GapOf, scenegraph::OverlapOf;
+using scenegraph::kCovered, scenegraph::kNear_m, scenegraph::kNextTo_m, scenegraph::kTouch_m;
+
 constexpr double kMissedBy_m = 0.25;     // chosen: two voxels and a half
 constexpr double kHardlyCovered = 0.3;   // chosen: likewise
 constexpr double kNearMissedBy_m = 0.5;  // chosen: a step more or less
 constexpr double kStorey_m = 2.0;        // chosen: nobody calls that near
-
-double OverlapOf(const Box3& a, const Box3& b, int axis) {
-  return std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
-}
-
-/// Of the ground plan of `a`, the share over that of `b`.
-double CoverOf(const Box3& a, const Box3& b) {
-  const double dx = std::max(0.0, OverlapOf(a, b, 0)), dy = std::max(0.0, OverlapOf(a, b, 1));
-  const Vector3d size = a.max - a.min;
-  return size.x() * size.y() > 0 ? dx * dy / (size.x() * size.y()) : 0;
-}
-
-double GapOf(const Box3& a, const Box3& b) {
-  return std::hypot(std::max(0.0, -OverlapOf(a, b, 0)), std::max(0.0, -OverlapOf(a, b, 1)));
-}
 
 Fit Within(double value, double limit, double missed_by) {
   return value <= limit ? Fit::kYes : value <= limit + missed_by ? Fit::kMaybe : Fit::kNo;

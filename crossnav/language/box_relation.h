@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether two boxes stand to each other as a word says. The measures are those of the graph
-// (scenegraph/relations.cpp); what misses them by little is a maybe, because boxes of what was seen
-// are coarse. World frame.
+// Relation word between two boxes. Measures are those of the graph (scenegraph/box_measures.h); a
+// near miss is a maybe, because boxes of seen objects are coarse. World frame.
 #pragma once
 
 #include "crossnav/core/box.h"

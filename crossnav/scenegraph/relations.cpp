@@ -1,31 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
 
+#include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/build_graph.h"
 
 namespace crossnav::scenegraph {
 namespace {
-
-constexpr double kTouch_m = 0.15;  // chosen: a voxel and a half between two surfaces
-constexpr double kNextTo_m = 0.5;  // chosen: too narrow to walk between
-constexpr double kNear_m = 1.5;    // chosen: within an arm and a step
-constexpr double kCovered = 0.5;   // chosen: share of the upper object's ground plan
-
-double OverlapOf(const Box3& a, const Box3& b, int axis) {
-  return std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
-}
-
-/// Share of the ground plan of `a` that lies over the plan of `b`.
-double CoverOf(const Box3& a, const Box3& b) {
-  const double dx = std::max(0.0, OverlapOf(a, b, 0)), dy = std::max(0.0, OverlapOf(a, b, 1));
-  const Vector3d size = a.max - a.min;
-  return size.x() * size.y() > 0 ? dx * dy / (size.x() * size.y()) : 0;
-}
-
-double GapOf(const Box3& a, const Box3& b) {
-  return std::hypot(std::max(0.0, -OverlapOf(a, b, 0)), std::max(0.0, -OverlapOf(a, b, 1)));
-}
 
 /// Whether `a` lies over or inside `b`; empty where neither holds.
 std::optional<RelationKind> OverOf(const Box3& a, const Box3& b) {
