@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/evaluation/settings/config_file.h"
 #include "crossnav/scenegraph/build_graph.h"
@@ -20,7 +21,7 @@ Result<store::LoadedMemory> ReadMemory(const std::filesystem::path& path,
   store::LoadOptions options;
   options.map = config.agent.map;
   // Agent::Restore gives the evidence counts where it has none.
-  if (config.agent.memory.mode == "revise") options.map->clearing = header->clearing;
+  if (agent::ClearsOldSurfaces(config.agent)) options.map->clearing = header->clearing;
   options.fusion = config.agent.fusion;
   return store::LoadMemory(path, options);
 }

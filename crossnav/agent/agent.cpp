@@ -165,7 +165,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
     return Fail(ErrorCode::kMismatch, "the saved features have another dimension than the encoder",
                 "memory");
   world.map = std::move(map);
-  if (IsRevising(impl_->config))
+  if (ClearsOldSurfaces(impl_->config))
     if (auto done = CountEvidence(&world.map); !done) return done;
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
@@ -266,7 +266,9 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   const auto lifted = Lift(percept->detections, obs);
   auto sightings = NoteSightings(lifted, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
-  world.coverage.Add(end_voxels, p_camera_world, goal.full.inspect_range_m, config.map.voxel_m);
+  const double inspect_m = goal.full.inspect_range_m, voxel_m = config.map.voxel_m;
+  world.coverage.Add(end_voxels, p_camera_world, inspect_m, voxel_m);
+  if (world.revision) goal.full.inspected.Add(end_voxels, p_camera_world, inspect_m, voxel_m);
   if (config.policy.profile == "onemap") world.onemap.map.Add(end_voxels, obs, config.fusion);
   clock.Stop("evidence");
   NoteObjects(lifted, percept->detections, obs, &world, &goal);

@@ -76,8 +76,17 @@ bool TryAllAgain(StepState& now) {
   return true;
 }
 
-constexpr std::array kResorts = {TakeGuesses, LookAroundAgain, ForgetBumps, Squeeze,
-                                 StepOnSeats, AskMemoryAgain,  TryAllAgain};
+/// Ground that was inspected for other goals only is open again: the memory may have missed the
+/// goal there.
+bool InspectForThisGoal(StepState& now) {
+  if (!now.world.revision) return false;
+  now.world.coverage = now.goal.full.inspected;
+  now.goal.events.push_back("nothing left: ground inspected for other goals is inspected again");
+  return true;
+}
+
+constexpr std::array kResorts = {TakeGuesses, LookAroundAgain, ForgetBumps,    InspectForThisGoal,
+                                 Squeeze,     StepOnSeats,     AskMemoryAgain, TryAllAgain};
 
 }  // namespace
 

@@ -165,6 +165,7 @@ struct FullGoal {
   policy::Relevancy relevancy;       ///< scoring = semantic
   int relevancy_step = -1;           ///< step of its last refresh
   std::optional<RoomSearch> search;  ///< memory.mode = revise
+  policy::Coverage inspected;        ///< for this goal; memory.mode = revise
 };
 
 /// Verification of a stair entrance, while the agent stands there and looks.

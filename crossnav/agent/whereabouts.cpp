@@ -20,12 +20,21 @@ constexpr double kStillThere = 0.5;  // chosen: share of a place's voxels that a
 constexpr double kSamePlace = 0.3;   // chosen: share of a place's voxels in a record's box
 constexpr int kSampled_vox = 4;      // chosen: cells of the plan that are asked, a chair apart
 constexpr double kOpenShare = 0.1;   // chosen: of a room's ground, that is worth going there
+constexpr double kMissed = 0.3;      // chosen: chance that the memory misses a thing that was seen
 
 double ShareOfSurfaces(const World& world, const std::vector<VoxelKey>& voxels) {
   const auto count = std::count_if(voxels.begin(), voxels.end(), [&](const VoxelKey& key) {
     return geometry::IsSurface(world.map.StateAt(key));
   });
   return voxels.empty() ? 0 : static_cast<double>(count) / static_cast<double>(voxels.size());
+}
+
+/// Share of the place that the record's surface covers.
+double ShareCovered(const std::vector<VoxelKey>& voxels, const ObjectRecord& record) {
+  const auto covered = std::count_if(voxels.begin(), voxels.end(), [&](const VoxelKey& key) {
+    return std::binary_search(record.voxels.begin(), record.voxels.end(), key);
+  });
+  return voxels.empty() ? 0 : static_cast<double>(covered) / static_cast<double>(voxels.size());
 }
 
 /// Share of the smaller of both that lies in the other.
@@ -39,14 +48,15 @@ double ShareIn(const World& world, const std::vector<VoxelKey>& voxels,
   return few == 0 ? 0 : static_cast<double>(inside) / static_cast<double>(few);
 }
 
-/// Verdict of the records on a place: 1 believed, -1 gone, 0 no record.
+/// Verdict of the records on a place: 1 believed, -1 gone, 0 no record. A record that is gone
+/// speaks for its own surface alone: the object may stand beside its old place.
 int OpinionOf(const World& world, const std::vector<VoxelKey>& voxels,
               const std::string& category) {
   int opinion = 0;
   for (const ObjectRecord& record : world.objects.records()) {
     if (record.category != category || ShareIn(world, voxels, record) < kSamePlace) continue;
     if (!world.objects.IsGone(record)) return 1;
-    opinion = -1;
+    if (ShareCovered(voxels, record) >= kStillThere) opinion = -1;
   }
   return opinion;
 }
@@ -60,9 +70,15 @@ HistoryPoi PlaceOf(const ObjectRecord& record, double score) {
   return place;
 }
 
-/// Ground of the room that was not inspected, as share of what was asked.
-std::map<int, double> UnseenShares(const World& world) {
-  std::map<int, std::pair<int, int>> counts;  // unseen, asked
+/// Shares of a room's ground.
+struct Unseen {
+  double by_any = 0;   ///< not inspected for any goal of this run
+  double by_goal = 0;  ///< chance that the goal stands there unnoticed
+};
+
+std::map<int, Unseen> UnseenShares(const World& world, const FullGoal& goal) {
+  std::map<int, Unseen> sums;
+  std::map<int, int> asked;
   const auto& graph = world.revision->graph;
   for (std::size_t floor = 0; floor < graph.plans.size(); ++floor) {
     const auto& plan = graph.plans[floor];
@@ -72,28 +88,37 @@ std::map<int, double> UnseenShares(const World& world) {
       if (plan.cells[i] < 0 || x % kSampled_vox != 0 || y % kSampled_vox != 0) continue;
       const auto standing = world.ground.StandingNear(x, y, z, kSampled_vox);
       if (!standing) continue;
-      auto& [unseen, asked] = counts[plan.cells[i]];
-      ++asked;
-      unseen += !world.coverage.IsInspected({x, y, *standing});
+      const VoxelKey key{x, y, *standing};
+      const bool is_open = !world.coverage.IsInspected(key);
+      Unseen& sum = sums[plan.cells[i]];
+      sum.by_any += is_open;
+      sum.by_goal += is_open ? 1 : goal.inspected.IsInspected(key) ? 0 : kMissed;
+      ++asked[plan.cells[i]];
     }
   }
-  std::map<int, double> shares;
-  for (const auto& [room, count] : counts)
-    shares[room] = static_cast<double>(count.first) / count.second;
-  return shares;
+  for (auto& [room, sum] : sums) {
+    sum.by_any /= asked[room];
+    sum.by_goal /= asked[room];
+  }
+  return sums;
 }
 
 }  // namespace
 
+bool ClearsOldSurfaces(const Config& config) {
+  return config.policy.profile == "full" && !config.policy.planar;
+}
+
 bool IsRevising(const Config& config) {
-  return config.memory.mode == "revise" && config.policy.profile == "full" && !config.policy.planar;
+  return config.memory.mode == "revise" && ClearsOldSurfaces(config);
 }
 
 Result<void> CountEvidence(geometry::VoxelMap* map) {
   geometry::MapConfig config = map->config();
   config.clearing = "evidence";
   auto blocks = geometry::ExportBlocks(*map);
-  for (geometry::MapBlock& block : blocks) geometry::CountAsOld(config, &block);
+  for (geometry::MapBlock& block : blocks)
+    geometry::CountAsOld(config, geometry::TopsOf(*map, block), &block);
   auto counted = geometry::ImportBlocks(blocks, config);
   if (!counted) return tl::unexpected(counted.error());
   *map = std::move(*counted);
@@ -151,12 +176,12 @@ void UpdateSearch(StepState& now) {
   search->step = now.world.step;
   search->mean = search->unseen = 0;
   int open = 0;
-  const auto shares = UnseenShares(now.world);
+  const auto shares = UnseenShares(now.world, now.goal.full);
   for (const auto& [room, odds] : search->odds) {
     const auto it = shares.find(room);
-    const double share = it == shares.end() ? 0 : it->second;
-    search->unseen += odds * share;
-    if (share < kOpenShare) continue;
+    if (it == shares.end()) continue;
+    if (it->second.by_goal >= kOpenShare) search->unseen += odds * it->second.by_goal;
+    if (it->second.by_any < kOpenShare) continue;
     search->mean += odds;
     ++open;
   }

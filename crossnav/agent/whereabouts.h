@@ -10,6 +10,9 @@
 
 namespace crossnav::agent {
 
+/// A loaded map forgets surfaces that frames see through, whatever map.clearing is.
+bool ClearsOldSurfaces(const Config& config);
+
 /// memory.mode = revise, and a profile that follows it.
 bool IsRevising(const Config& config);
 

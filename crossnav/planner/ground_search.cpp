@@ -24,7 +24,7 @@ double GroundEdgeCost(const VoxelKey& from, const VoxelKey& to, Clearance room, 
 
 GroundSearch::GroundSearch(const GroundMap& ground, const PlannerConfig& config,
                            const VoxelKey& start, const GroundRules& rules)
-    : ground_(ground), config_(config), rules_(rules) {
+    : ground_(&ground), config_(&config), rules_(rules) {
   const std::int32_t first = ground.places().IndexOf(start);
   At(first).cost = 0;
   queue_.push_back({0, start, first});
@@ -46,32 +46,32 @@ std::optional<VoxelKey> GroundSearch::Next() {
 }
 
 void GroundSearch::Expand(std::int32_t from_place) {
-  GroundPlaces& places = ground_.places();
-  const GroundPlaces::Steps steps = places.StepsFrom(ground_, from_place);
+  GroundPlaces& places = ground_->places();
+  const GroundPlaces::Steps steps = places.StepsFrom(*ground_, from_place);
   // A start in a pinch may leave it. No other step leads into a pinch: reachability must not depend
   // on the start.
   const From from{from_place, places.KeyAt(from_place), At(from_place).cost,
-                  places.RoomAt(ground_, from_place) == Clearance::kPinch};
+                  places.RoomAt(*ground_, from_place) == Clearance::kPinch};
   for (std::size_t i = 0; i < steps.to.size(); ++i) {
     if (steps.to[i] < 0 || At(steps.to[i]).is_closed) continue;
     const auto has = [i](std::uint8_t bits) { return (bits >> i & 1) != 0; };
     if (has(steps.fronts) && !rules_.may_step_on_seats) continue;
-    const double risk_m =
-        (has(steps.one_way) ? config_.one_way_m : 0) + (has(steps.fronts) ? config_.doubtful_m : 0);
+    const double risk_m = (has(steps.one_way) ? config_->one_way_m : 0) +
+                          (has(steps.fronts) ? config_->doubtful_m : 0);
     Relax(from, steps.to[i],
-          {has(steps.bridges) ? config_.bridge_cost_factor : 1, risk_m / ground_.voxel_m()});
+          {has(steps.bridges) ? config_->bridge_cost_factor : 1, risk_m / ground_->voxel_m()});
   }
 }
 
 void GroundSearch::Relax(const From& from, std::int32_t to, const Price& price) {
-  const VoxelKey key = ground_.places().KeyAt(to);
+  const VoxelKey key = ground_->places().KeyAt(to);
   if (rules_.level && !rules_.level->Contains(key.z - 1)) return;
-  const Clearance room = ground_.places().RoomAt(ground_, to);
+  const Clearance room = ground_->places().RoomAt(*ground_, to);
   const bool is_squeeze = room == Clearance::kPinch && !from.is_in_pinch;
   if (is_squeeze && !rules_.may_squeeze) return;
-  const double edge = GroundEdgeCost(from.key, key, room, ground_.climb(), config_);
+  const double edge = GroundEdgeCost(from.key, key, room, ground_->climb(), *config_);
   const double cost = from.cost + price.factor * edge + price.added +
-                      (is_squeeze ? config_.doubtful_m / ground_.voxel_m() : 0);
+                      (is_squeeze ? config_->doubtful_m / ground_->voxel_m() : 0);
   Node& node = At(to);
   if (cost >= node.cost - 1e-12) return;
   node.cost = cost;
@@ -81,7 +81,7 @@ void GroundSearch::Relax(const From& from, std::int32_t to, const Price& price) 
 }
 
 std::optional<double> GroundSearch::CostOf(const VoxelKey& key) const {
-  const std::int32_t place = ground_.places().Find(key);
+  const std::int32_t place = ground_->places().Find(key);
   if (place < 0 || static_cast<std::size_t>(place) >= nodes_.size()) return std::nullopt;
   const Node& node = nodes_[static_cast<std::size_t>(place)];
   return node.is_closed ? std::optional(node.cost) : std::nullopt;
@@ -90,9 +90,9 @@ std::optional<double> GroundSearch::CostOf(const VoxelKey& key) const {
 std::vector<VoxelKey> GroundSearch::PathTo(const VoxelKey& key) const {
   std::vector<VoxelKey> path;
   if (!CostOf(key)) return path;
-  for (std::int32_t at = ground_.places().Find(key); at >= 0;
+  for (std::int32_t at = ground_->places().Find(key); at >= 0;
        at = nodes_[static_cast<std::size_t>(at)].parent)
-    path.push_back(ground_.places().KeyAt(at));
+    path.push_back(ground_->places().KeyAt(at));
   std::reverse(path.begin(), path.end());
   return path;
 }

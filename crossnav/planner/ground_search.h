@@ -71,14 +71,14 @@ class GroundSearch {
 
   Node& At(std::int32_t place) {
     const auto index = static_cast<std::size_t>(place);
-    if (index >= nodes_.size()) nodes_.resize(std::max(index + 1, ground_.places().size()));
+    if (index >= nodes_.size()) nodes_.resize(std::max(index + 1, ground_->places().size()));
     return nodes_[index];
   }
   void Expand(std::int32_t from_place);
   void Relax(const From& from, std::int32_t to, const Price& price);
 
-  const GroundMap& ground_;
-  const PlannerConfig& config_;
+  const GroundMap* ground_;
+  const PlannerConfig* config_;
   GroundRules rules_;
   std::vector<Node> nodes_;  // by index of the place
   std::vector<Open> queue_;  // heap

@@ -18,20 +18,22 @@ constexpr double kCell_m = 0.05;     // chosen: nearer positions are the same
 constexpr double kBeside_vox = 15;   // chosen: room to turn around in beside the path
 constexpr int kMaxExpansions = 600;  // chosen: a few times those of a turn around in a corridor
 constexpr double kUnseenCost = 3;    // chosen: [steps] onto ground that was not seen
-constexpr int kWindow = 30;          // chosen: places of the path that are searched
+constexpr std::size_t kWindow = 30;  // chosen: places of the path that are searched
 
 /// Cost-to-go [m] to the end of the path's near part, for every position from which that end is
-/// reachable.
+/// reachable. The search goes from that end to the agent. A path steps down where no step up is
+/// known, so that the search may need rises like seats, or a nearer end.
 class CostToGo {
  public:
   CostToGo(const GroundMap& ground, const planner::PlannerConfig& planner,
-           const std::vector<VoxelKey>& path, const planner::GroundRules& rules)
-      : ground_(ground),
-        search_(ground, planner, path[std::min<std::size_t>(path.size(), kWindow) - 1], rules) {
-    // Beyond the agent as well, for positions beside the path.
-    double limit = 1e18;
-    while (search_.Next() && search_.cost() <= limit)
-      if (limit > 1e17 && search_.CostOf(path.front())) limit = search_.cost() + kBeside_vox;
+           const std::vector<VoxelKey>& path, planner::GroundRules rules)
+      : ground_(ground), search_(From(path, kWindow, planner, rules)) {
+    if (search_.CostOf(path.front())) return;
+    rules.may_step_on_seats = true;
+    for (std::size_t places = kWindow; places > 1; places /= 2) {
+      search_ = From(path, places, planner, rules);
+      if (search_.CostOf(path.front())) return;
+    }
   }
   double At(const Eigen::Vector2d& p, int z) const {
     const double voxel_m = ground_.voxel_m();
@@ -50,6 +52,17 @@ class CostToGo {
   }
 
  private:
+  planner::GroundSearch From(const std::vector<VoxelKey>& path, std::size_t places,
+                             const planner::PlannerConfig& planner,
+                             const planner::GroundRules& rules) const {
+    planner::GroundSearch search(ground_, planner, path[std::min(path.size(), places) - 1], rules);
+    // Beyond the agent as well, for positions beside the path.
+    double limit = 1e18;
+    while (search.Next() && search.cost() <= limit)
+      if (limit > 1e17 && search.CostOf(path.front())) limit = search.cost() + kBeside_vox;
+    return search;
+  }
+
   const GroundMap& ground_;
   planner::GroundSearch search_;
 };
@@ -220,7 +233,6 @@ std::vector<Action> MotionAlong(const GroundMap& ground, const std::vector<Voxel
                                 const planner::PlannerConfig& planner, const ActionConfig& action,
                                 const planner::GroundRules& rules) {
   if (path.empty()) return {};
-  // The search goes from the end of the path to the agent: a step up is a step down in it.
   const CostToGo cost_to_go(ground, planner, path, rules);
   return LatticeSearch(ground, cost_to_go, agent, config, action).Run(path.front().z);
 }

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "agent/storeys.h"
 #include "agent/two_rooms.h"
 #include "crossnav/agent/whereabouts.h"
+#include "crossnav/objects/object_book.h"
 
 namespace crossnav::agent {
 namespace {
@@ -157,6 +159,26 @@ TEST(Revise, AfterOneRevisionTheWayLeadsStraightToTheNewPlace) {
   EXPECT_LT(steps[1], steps[0]);
 }
 
+// The record of the old place is gone, and the memory answers beside it.
+TEST(Revise, AnObjectBesideItsOldPlaceIsNoStalePlace) {
+  Night night = FirstDay();
+  ASSERT_EQ(night.objects.size(), 1U);
+  objects::ObjectRecord& record = night.objects[0];
+  record.confidence = 0.001;
+  for (geometry::VoxelKey& key : record.voxels) key.x -= 5;
+  objects::Measure(record, 0.1);
+  record.box_world_m.extend(record.box_world_m.max() + Vector3d(0.8, 0, 0));
+  BoxWalker walker = testing::TwoRooms();
+  Agent second(ConfigOf("revise"), FakeSuite(testing::CouchSight(kCouch)));
+  Wake(night, 1, &second);
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  const Walk walk = RunAgent(second, walker, 400);
+  EXPECT_EQ(walk.last_action, Action::kStop);
+  EXPECT_TRUE(std::any_of(walk.traces.begin(), walk.traces.end(), [](const auto& step) {
+    return step.find("\"visit\"") != std::string::npos;
+  }));
+}
+
 TEST(Revise, WithoutALoadedMemoryEveryStepIsTheSame) {
   std::vector<std::vector<std::string>> traces;
   for (const char* mode : {"keep", "revise"}) {
@@ -189,7 +211,7 @@ TEST(Revise, WhatIsSeenThroughIsClearedInAMapThatNeverForgot) {
   EXPECT_LT(count(), before / 4);
 }
 
-// A shut door of an old map, open today, and the reverse.
+// A shut door of an old map, open today, and the reverse. A map of today clears under either mode.
 TEST(Revise, AnOpenedDoorIsWalkedThrough) {
   BoxWalker shut = testing::TwoRooms();
   shut.rooms.solids.push_back(BoxOf(4, 0.4, 0, 4.12, 1.4, 2.05));
@@ -197,11 +219,33 @@ TEST(Revise, AnOpenedDoorIsWalkedThrough) {
   ASSERT_TRUE(first.SetGoal("couch").has_value());
   ASSERT_TRUE(RunAgent(first, shut, 400).all_explored);
   const Night night = NightAfter(first);
-  BoxWalker open = testing::TwoRooms();
-  Agent second(ConfigOf("revise"), FakeSuite(testing::CouchSight(kCouch)));
-  Wake(night, 1, &second);
-  ASSERT_TRUE(second.SetGoal("couch").has_value());
-  EXPECT_EQ(RunAgent(second, open, 400).last_action, Action::kStop);
+  for (const char* mode : {"keep", "revise"}) {
+    BoxWalker open = testing::TwoRooms();
+    Agent second(ConfigOf(mode), FakeSuite(testing::CouchSight(kCouch)));
+    Wake(night, 1, &second);
+    ASSERT_TRUE(second.SetGoal("couch").has_value());
+    EXPECT_EQ(RunAgent(second, open, 400).last_action, Action::kStop) << mode;
+  }
+}
+
+// The edges of treads fill their voxels in part, so that frames of the second day see through them.
+TEST(Revise, TheTreadsOfAnOldMapAreWalkedDown) {
+  BoxWalker up = testing::OpenRisers();
+  up.rooms.solids.push_back(testing::kUpperCouch);
+  Agent first(SmallConfig(), FakeSuite(testing::CouchSight(testing::kUpperCouch)));
+  ASSERT_TRUE(first.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(first, up, 600).last_action, Action::kStop);
+  const Night night = NightAfter(first);
+  for (const char* mode : {"keep", "revise"}) {
+    BoxWalker down = testing::OpenRisers();
+    down.rooms.solids.push_back(testing::kLowerCouch);
+    down.pose = up.pose;
+    Agent second(ConfigOf(mode), FakeSuite(testing::CouchSight(testing::kLowerCouch)));
+    Wake(night, 1, &second);
+    ASSERT_TRUE(second.SetGoal("couch").has_value());
+    const Walk walk = RunAgent(second, down, 600);
+    EXPECT_EQ(walk.last_action, Action::kStop) << mode;
+  }
 }
 
 TEST(Revise, AShutDoorIsRunIntoNotMoreThanOnce) {

@@ -55,12 +55,31 @@ TEST(MapBlocksTest, EvidenceOfAnOldMapGivesWayToTwoFrames) {
       block.counts.resize(kBlockVoxels);
       block.counts[5] = {static_cast<std::uint16_t>(config.max_hits), 0};
     }
-    CountAsOld(config, &block);
+    block.hit.Set(7);
+    BlockMask tops;
+    tops.Set(7);
+    if (was_counted) block.counts[7] = {4, 1};
+    CountAsOld(config, tops, &block);
     EXPECT_TRUE(ImportBlocks({block}, config).has_value());
     EXPECT_EQ(block.counts[5].hits, config.min_hits + 1);
     EXPECT_EQ(block.counts[5].passes, 0);
     EXPECT_EQ(block.counts[6].passes, was_counted ? 0 : config.max_hits);
+    EXPECT_EQ(block.counts[7].hits, was_counted ? 4 : config.max_hits);
   }
+}
+
+TEST(MapBlocksTest, TopsAreSurfacesUnderTwoVoxelsOfSeenAir) {
+  constexpr int kUp = kBlockSide * kBlockSide;
+  MapBlock block;
+  for (const int cell : {0, 1, 2, 3}) block.hit.Set(cell);
+  for (const int cell : {0, 1, 3}) block.free.Set(cell + kUp);
+  for (const int cell : {0, 2}) block.free.Set(cell + 2 * kUp);
+  block.hit.Set(3 + 2 * kUp);
+  const auto map = ImportBlocks({block}, {});
+  ASSERT_TRUE(map.has_value());
+  BlockMask expected;
+  expected.Set(0);
+  EXPECT_EQ(TopsOf(*map, block), expected);
 }
 
 TEST(MapBlocksTest, BadBlocksAreNamed) {

@@ -62,6 +62,24 @@ TEST(GroundMotion, EndsNoTurnWithoutAStep) {
   EXPECT_EQ(actions.back(), Action::kMoveForward);
 }
 
+// Regression: the step back up is the front of a seat, so that no cost-to-go reached the agent, and
+// it stood still on a flight whose risers a loaded map had lost (house 8106 of
+// crossnav-lifelong-1-val).
+TEST(GroundMotion, StepsDownWhereNoStepUpIsKnown) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 12, 12, 0);
+  AddGround(map, 12, 0, 13, 12, 3);
+  AddGround(map, 13, 0, 24, 12, 4);
+  const auto ground = GroundOf(map);
+  AgentPose agent;
+  agent.p_world = {1.65, 0.55, 0.5};
+  agent.yaw_rad = DegToRad(180);
+  ASSERT_TRUE(PathOver(ground, {4, 5, 1}, {16, 5, 5}).empty());
+  const auto path = PathOver(ground, {16, 5, 5}, {4, 5, 1});
+  ASSERT_FALSE(path.empty());
+  EXPECT_FALSE(MotionAlong(ground, path, agent, {}, {}, {}).empty());
+}
+
 // Regression: a path that doubles back behind a wall came near its own end: with cost-to-go by
 // distance to the path no step helped, and the agent stood still (found in house 8).
 TEST(GroundMotion, LeavesAPocketWithAPathThatDoublesBackBehindAThinWall) {
