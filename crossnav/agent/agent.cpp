@@ -23,6 +23,8 @@ namespace crossnav::agent {
 
 namespace {
 
+constexpr float kOldWeight = 1;  // chosen: yesterday's views count as one view from near
+
 /// CPU time between calls, for StepResult::timing.
 class StageClock {
  public:
@@ -144,6 +146,7 @@ Result<void> Agent::SetGoal(const std::string& wish) {
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
   impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
+  impl_->goal.full.notice_range_m = NoticeRange(impl_->world, impl_->goal, impl_->config);
   impl_->world.paper.bumps.Clear();
   impl_->world.onemap.map.ClearChecked();
   // Inspected ground needs no second look because the memory answers for it. Without History POIs
@@ -169,6 +172,7 @@ Result<void> Agent::Restore(geometry::VoxelMap map, memory::SemanticMemory memor
     if (auto done = CountEvidence(&world.map); !done) return done;
   world.ground.Rebuild(world.map);
   world.memory = std::move(memory);
+  if (ClearsOldSurfaces(impl_->config)) world.memory.LimitWeights(kOldWeight);
   world.flights = std::move(flights);
   world.stairs.Import(seen_stairs);
   if (IsRevising(impl_->config)) world.revision = RevisionOf(world);
@@ -266,9 +270,10 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   const auto lifted = Lift(percept->detections, obs);
   auto sightings = NoteSightings(lifted, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
-  const double inspect_m = goal.full.inspect_range_m, voxel_m = config.map.voxel_m;
-  world.coverage.Add(end_voxels, p_camera_world, inspect_m, voxel_m);
-  if (world.revision) goal.full.inspected.Add(end_voxels, p_camera_world, inspect_m, voxel_m);
+  FullGoal& full = goal.full;
+  const double voxel_m = config.map.voxel_m;
+  world.coverage.Add(end_voxels, p_camera_world, full.inspect_range_m, voxel_m);
+  if (world.revision) full.inspected.Add(end_voxels, p_camera_world, full.notice_range_m, voxel_m);
   if (config.policy.profile == "onemap") world.onemap.map.Add(end_voxels, obs, config.fusion);
   clock.Stop("evidence");
   NoteObjects(lifted, percept->detections, obs, &world, &goal);

@@ -166,6 +166,7 @@ struct FullGoal {
   int relevancy_step = -1;           ///< step of its last refresh
   std::optional<RoomSearch> search;  ///< memory.mode = revise
   policy::Coverage inspected;        ///< for this goal; memory.mode = revise
+  double notice_range_m = 0;         ///< of `inspected`
 };
 
 /// Verification of a stair entrance, while the agent stands there and looks.

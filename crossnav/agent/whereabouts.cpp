@@ -20,6 +20,8 @@ constexpr double kStillThere = 0.5;  // chosen: share of a place's voxels that a
 constexpr double kSamePlace = 0.3;   // chosen: share of a place's voxels in a record's box
 constexpr int kSampled_vox = 4;      // chosen: cells of the plan that are asked, a chair apart
 constexpr double kOpenShare = 0.1;   // chosen: of a room's ground, that is worth going there
+constexpr double kSmall_m = 0.6;     // chosen: largest side of a thing that is noticed late
+constexpr double kSmallShare = 0.6;  // chosen: of the range, for small things; as the last resort's
 constexpr double kMissed = 0.3;      // chosen: chance that the memory misses a thing that was seen
 
 double ShareOfSurfaces(const World& world, const std::vector<VoxelKey>& voxels) {
@@ -105,6 +107,16 @@ std::map<int, Unseen> UnseenShares(const World& world, const FullGoal& goal) {
 
 }  // namespace
 
+double NoticeRange(const World& world, const GoalState& goal, const Config& config) {
+  const std::string category = CanonicalName(goal.goal);
+  double side_m = 0;
+  for (const ObjectRecord& record : world.objects.records())
+    if (record.category == category && record.views > 0)
+      side_m = std::max(side_m, record.box_world_m.sizes().maxCoeff());
+  const double range_m = config.policy.explore.inspect_range_m;
+  return side_m > 0 && side_m < kSmall_m ? kSmallShare * range_m : range_m;
+}
+
 bool ClearsOldSurfaces(const Config& config) {
   return config.policy.profile == "full" && !config.policy.planar;
 }
@@ -117,8 +129,7 @@ Result<void> CountEvidence(geometry::VoxelMap* map) {
   geometry::MapConfig config = map->config();
   config.clearing = "evidence";
   auto blocks = geometry::ExportBlocks(*map);
-  for (geometry::MapBlock& block : blocks)
-    geometry::CountAsOld(config, geometry::TopsOf(*map, block), &block);
+  for (geometry::MapBlock& block : blocks) geometry::CountEvidence(config, &block);
   auto counted = geometry::ImportBlocks(blocks, config);
   if (!counted) return tl::unexpected(counted.error());
   *map = std::move(*counted);

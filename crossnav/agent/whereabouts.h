@@ -16,9 +16,13 @@ bool ClearsOldSurfaces(const Config& config);
 /// memory.mode = revise, and a profile that follows it.
 bool IsRevising(const Config& config);
 
-/// The map's evidence with the counts of an old map, so that what is seen through is cleared soon
+/// Gives the map counts of evidence where it has none, so that what is seen through is cleared
 /// (map.clearing = evidence).
 Result<void> CountEvidence(geometry::VoxelMap* map);
+
+/// Distance up to which a look at a place tells whether the goal is there [m]: shorter for a thing
+/// that records show to be small.
+double NoticeRange(const World& world, const GoalState& goal, const Config& config);
 
 /// The rooms of a loaded map.
 Revision RevisionOf(const World& world);

@@ -28,31 +28,16 @@ std::vector<MapBlock> ExportBlocks(const VoxelMap& map) {
   return blocks;
 }
 
-BlockMask TopsOf(const VoxelMap& map, const MapBlock& block) {
-  const auto is_air = [&](const VoxelKey& key) {
-    const VoxelState state = map.StateAt(key);
-    return state != VoxelState::kUnknown && !IsSurface(state);
-  };
-  BlockMask tops;
-  ForEachCell(block.hit, [&](int cell) {
-    const VoxelKey key = KeyInBlock(block.key, cell);
-    if (is_air(key + VoxelKey{0, 0, 1}) && is_air(key + VoxelKey{0, 0, 2})) tops.Set(cell);
-  });
-  return tops;
-}
-
-void CountAsOld(const MapConfig& config, const BlockMask& tops, MapBlock* block) {
+void CountEvidence(const MapConfig& config, MapBlock* block) {
+  if (!block->counts.empty()) return;
   const auto most = static_cast<std::uint16_t>(std::max(config.max_hits, config.min_hits));
-  const auto old = static_cast<std::uint16_t>(std::min<int>(most, config.min_hits + 1));
-  const bool has_none = block->counts.empty();
+  const auto old = static_cast<std::uint16_t>(std::min<int>(most, config.min_hits + 2));
   block->counts.resize(kBlockVoxels);
   for (int cell = 0; cell < kBlockVoxels; ++cell) {
     HitCount& count = block->counts[static_cast<std::size_t>(cell)];
-    if (block->hit.Test(cell) && tops.Test(cell))
-      count = has_none ? HitCount{most, 0} : count;
-    else if (block->hit.Test(cell))
-      count = {old, 0};
-    else if (has_none && block->free.Test(cell))
+    if (block->hit.Test(cell))
+      count.hits = old;
+    else if (block->free.Test(cell))
       count.passes = most;
   }
 }

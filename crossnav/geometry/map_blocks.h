@@ -25,13 +25,9 @@ struct MapBlock {
 /// All blocks, in order of first observation. Cost O(blocks).
 std::vector<MapBlock> ExportBlocks(const VoxelMap& map);
 
-/// Upward faces of the map in this block: surfaces with two voxels of seen air above. The edge of a
-/// tread fills its voxel in part, so that single frames see through it.
-BlockMask TopsOf(const VoxelMap& map, const MapBlock& block);
-
-/// Counts of evidence that is of yesterday: one frame that looks through a surface does not remove
-/// it, a second one does. `tops` keep their counts. A block of `clearing = never` gets counts.
-void CountAsOld(const MapConfig& config, const BlockMask& tops, MapBlock* block);
+/// Counts of a block that has none, of `clearing = never`: three frames that look through a surface
+/// remove it. Fewer would make holes in walls and treads, whose voxels are filled in part.
+void CountEvidence(const MapConfig& config, MapBlock* block);
 
 /// A map with this evidence and its states up to date. `where` of an error names the block.
 Result<VoxelMap> ImportBlocks(const std::vector<MapBlock>& blocks, const MapConfig& config);

@@ -343,6 +343,10 @@ void SemanticMemory::AppendRow(const MemoryRow& row) {
   m.facts.back() = {row.weight, row.best_confidence, row.p_best_view_world};
 }
 
+void SemanticMemory::LimitWeights(float most) {
+  for (auto& fact : impl_->facts) fact.weight = std::min(fact.weight, most);
+}
+
 void SemanticMemory::ReorderRows(std::span<const std::int64_t> order) {
   Impl& m = *impl_;
   CROSSNAV_CHECK(static_cast<std::int64_t>(order.size()) == Size(), "an order of all rows");

@@ -119,6 +119,9 @@ class SemanticMemory {
   /// must have Dim() finite numbers.
   MemoryRow RowAt(std::int64_t row) const;
   void AppendRow(const MemoryRow& row);
+
+  /// No row weighs more than `most`, so that new observations soon outweigh old ones.
+  void LimitWeights(float most);
   /// Row i becomes the former row order[i]; `order` is a permutation of all rows.
   void ReorderRows(std::span<const std::int64_t> order);
   /// Adds the dropped rows of a saved memory to the counter.

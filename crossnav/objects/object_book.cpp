@@ -242,13 +242,17 @@ void ObjectBook::Refute(const std::string& category, std::span<const VoxelKey> v
 void ObjectBook::Disprove(const std::string& category, std::vector<VoxelKey> voxels,
                           const Moment& when) {
   if (voxels.empty()) return;
+  std::sort(voxels.begin(), voxels.end());
   const Eigen::AlignedBox3d box = BoxOf(voxels, voxel_m_);
   bool is_known = false;
   for (std::size_t i = 0; i < records_.size(); ++i) {
     if (records_[i].category != category || OverlapOf(box, records_[i].box_world_m) < kSameOverlap)
       continue;
     is_known = true;
-    if (watches_[i].noted_step < 0) records_[i].confidence = kLeastBelief;
+    if (watches_[i].noted_step >= 0) continue;
+    records_[i].confidence = kLeastBelief;
+    records_[i].voxels = UnionOf(records_[i].voxels, voxels);
+    Measure(records_[i], voxel_m_);
   }
   if (is_known) return;
   ObjectRecord& record = records_.emplace_back();

@@ -43,43 +43,25 @@ TEST_P(MapBlocksTest, ARestoredMapIsEqualAndStaysEqual) {
   EXPECT_TRUE(ExportBlocks(*restored) == ExportBlocks(map));
 }
 
-// What was built without counts, and long ago, gives way to two frames of today.
-TEST(MapBlocksTest, EvidenceOfAnOldMapGivesWayToTwoFrames) {
+// A map of `clearing = never` goes on under `evidence`; counts that are there stay.
+TEST(MapBlocksTest, BlocksWithoutCountsGetSettledCounts) {
   MapConfig config;
   config.clearing = "evidence";
-  for (const bool was_counted : {false, true}) {
-    MapBlock block;
-    block.hit.Set(5);
-    block.free.Set(6);
-    if (was_counted) {
-      block.counts.resize(kBlockVoxels);
-      block.counts[5] = {static_cast<std::uint16_t>(config.max_hits), 0};
-    }
-    block.hit.Set(7);
-    BlockMask tops;
-    tops.Set(7);
-    if (was_counted) block.counts[7] = {4, 1};
-    CountAsOld(config, tops, &block);
-    EXPECT_TRUE(ImportBlocks({block}, config).has_value());
-    EXPECT_EQ(block.counts[5].hits, config.min_hits + 1);
-    EXPECT_EQ(block.counts[5].passes, 0);
-    EXPECT_EQ(block.counts[6].passes, was_counted ? 0 : config.max_hits);
-    EXPECT_EQ(block.counts[7].hits, was_counted ? 4 : config.max_hits);
-  }
-}
-
-TEST(MapBlocksTest, TopsAreSurfacesUnderTwoVoxelsOfSeenAir) {
-  constexpr int kUp = kBlockSide * kBlockSide;
   MapBlock block;
-  for (const int cell : {0, 1, 2, 3}) block.hit.Set(cell);
-  for (const int cell : {0, 1, 3}) block.free.Set(cell + kUp);
-  for (const int cell : {0, 2}) block.free.Set(cell + 2 * kUp);
-  block.hit.Set(3 + 2 * kUp);
-  const auto map = ImportBlocks({block}, {});
-  ASSERT_TRUE(map.has_value());
-  BlockMask expected;
-  expected.Set(0);
-  EXPECT_EQ(TopsOf(*map, block), expected);
+  block.hit.Set(5);
+  block.free.Set(6);
+  MapBlock counted = block;
+  counted.counts.resize(kBlockVoxels);
+  counted.counts[5] = {3, 1};
+  const MapBlock before = counted;
+  CountEvidence(config, &counted);
+  EXPECT_EQ(counted, before);
+  CountEvidence(config, &block);
+  EXPECT_TRUE(ImportBlocks({block}, config).has_value());
+  EXPECT_EQ(block.counts[5].hits, config.min_hits + 2);
+  EXPECT_EQ(block.counts[5].passes, 0);
+  EXPECT_EQ(block.counts[6].passes, config.max_hits);
+  EXPECT_EQ(block.counts[7].passes, 0);
 }
 
 TEST(MapBlocksTest, BadBlocksAreNamed) {

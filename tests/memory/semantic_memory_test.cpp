@@ -252,5 +252,19 @@ TEST(SemanticMemoryTest, RowsTakenOutAndPutBackAreTheSame) {
   }
 }
 
+TEST(SemanticMemoryTest, LimitedWeightsLetNewViewsOutweighOldViews) {
+  SemanticMemory memory({}, 0.1);
+  MemoryRow heavy, light;
+  heavy.weight = 40;
+  light.weight = 0.25F;
+  light.key = {1, 0, 0};
+  heavy.half = light.half = {0x3c00, 0};
+  memory.AppendRow(heavy);
+  memory.AppendRow(light);
+  memory.LimitWeights(1);
+  EXPECT_EQ(memory.WeightAt(0), 1);
+  EXPECT_EQ(memory.WeightAt(1), 0.25F);
+}
+
 }  // namespace
 }  // namespace crossnav::memory
