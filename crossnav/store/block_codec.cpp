@@ -74,7 +74,7 @@ void PutHalves(const std::vector<std::uint16_t>& halves, Bytes& out) {
   }
 }
 
-bool IsSound(const PlacedRow& row) {
+bool IsSoundRow(const PlacedRow& row) {
   const memory::MemoryRow& r = row.data;
   return std::isfinite(r.weight) && r.weight > 0 && std::isfinite(r.best_confidence) &&
          r.p_best_view_world.allFinite() && row.row >= 0 &&
@@ -212,7 +212,7 @@ std::optional<std::vector<PlacedRow>> DecodeFeatureBlock(const VoxelKey& key, in
   const auto numbers = static_cast<std::size_t>(dim);
   if (!ReadScales(numbers, r, rows, parts) || r.left() != parts.Bytes()) return std::nullopt;
   ReadNumbers(numbers, raw, parts, rows);
-  if (!std::all_of(rows.begin(), rows.end(), IsSound)) return std::nullopt;
+  if (!std::all_of(rows.begin(), rows.end(), IsSoundRow)) return std::nullopt;
   return rows;
 }
 
