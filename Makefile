@@ -89,11 +89,12 @@ format:  ## clang-format, in place
 	@scripts/setup.sh lint
 	@clang-format -i $(FILES)
 
-lint: $(BUILD)/build.ninja  ## clang-format and clang-tidy, without changing anything
+lint: setup  ## clang-format and clang-tidy, without changing anything
 	@scripts/setup.sh lint
 	@clang-format --dry-run -Werror $(FILES)
-	@cmake --build --preset $(PRESET) -j $(JOBS)  # generated headers
-	@PATH="$(TIDY):$$PATH" run-clang-tidy.py -quiet -p $(BUILD) -j $(JOBS) $(addprefix $(CURDIR)/,$(filter %.cpp,$(FILES)))
+	@cmake --preset lint >/dev/null
+	@cmake --build --preset lint -j $(JOBS)  # generated headers
+	@PATH="$(TIDY):$$PATH" run-clang-tidy.py -quiet -p build/lint -j $(JOBS) $(addprefix $(CURDIR)/,$(filter %.cpp,$(FILES)))
 
 # Or TBB opens libraries in a way that sanitizers end the process for.
 asan tsan: export TBB_ENABLE_SANITIZERS := 1

@@ -10,6 +10,7 @@
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/language/answer.h"
 #include "crossnav/language/map_home.h"
+#include "json_parts.h"
 #include "map_texts.h"
 
 namespace crossnav::app {
@@ -17,11 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using language::KnownHome;
-
-template <class T>
-Json OrNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json RoomJson(int room, const KnownHome& home) {
   return {{"id", room},

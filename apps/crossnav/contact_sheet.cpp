@@ -17,7 +17,7 @@ constexpr int kViewWidth_px = 320, kHeight_px = 240, kCaption_px = 14, kGap_px =
 constexpr int kColumns = 2;
 constexpr int kSamples = 100;            // chosen: places that are tried for the view
 constexpr double kCameraHeight_m = 1.1;  // chosen: between the robot's eye and a person's
-constexpr Rgb8 kPaper{250, 250, 250}, kInk{20, 20, 24};
+constexpr Rgb8 kPaper{250, 250, 250}, kSheetInk{20, 20, 24};
 
 CameraIntrinsics Camera(int width_px, int height_px) {
   return IntrinsicsFromHfov(width_px, height_px, DegToRad(85));
@@ -117,7 +117,7 @@ Result<void> ContactSheet::Add(const world::HouseReport& house, std::uint64_t se
     u += part.width + kGap_px;
   }
   Canvas canvas(std::move(tile));
-  canvas.Text({2, 3}, Caption(house, seed), 1, kInk);
+  canvas.Text({2, 3}, Caption(house, seed), 1, kSheetInk);
   tiles_.push_back(canvas.image());
   return {};
 }

@@ -26,7 +26,7 @@ constexpr std::array<Rgb8, 6> kGoalColours = {
 constexpr Rgb8 kFrontierColour{240, 200, 0};
 constexpr Rgb8 kStairColour{240, 130, 10};  // the replay page's
 constexpr Rgb8 kBlack{0, 0, 0};
-constexpr Rgb8 kWhite{255, 255, 255};
+constexpr Rgb8 kPaleInk{255, 255, 255};
 
 Rgb8 ColourOf(int goal) {
   return kGoalColours[static_cast<std::size_t>(goal) % kGoalColours.size()];
@@ -35,14 +35,15 @@ Rgb8 ColourOf(int goal) {
 /// A label on a light ground, centred at `at`.
 void Label(FloorCanvas& floor, PixelPoint at, const std::string& text, Rgb8 colour) {
   const double half = TextWidth(text, 2) / 2.0;
-  floor.canvas.Fill({at.u - half - 3, at.v - 9}, {at.u + half + 1, at.v + 9}, kWhite, 0.8);
+  floor.canvas.Fill({at.u - half - 3, at.v - 9}, {at.u + half + 1, at.v + 9}, kPaleInk, 0.8);
   floor.canvas.Text({at.u - half, at.v - 7}, text, 2, colour);
 }
 
 void DrawLegend(FloorCanvas& floor, const evaluation::Episode& episode) {
   double v = 6;
   const auto row = [&](Rgb8 colour, const std::string& text) {
-    floor.canvas.Fill({6, v}, {static_cast<double>(28 + TextWidth(text, 2)), v + 18}, kWhite, 0.8);
+    floor.canvas.Fill({6, v}, {static_cast<double>(28 + TextWidth(text, 2)), v + 18}, kPaleInk,
+                      0.8);
     floor.canvas.Disc({16, v + 9}, 5, colour);
     floor.canvas.Text({26, v + 2}, text, 2, kBlack);
     v += 20;
@@ -124,7 +125,7 @@ void EpisodePicture::DrawTrajectory(FloorCanvas& floor, int id) const {
     if (!is_here(stages_[k].end_world)) continue;
     const PixelPoint at = floor.At(stages_[k].end_world);
     floor.canvas.Disc(at, 7, ColourOf(static_cast<int>(k)));
-    floor.canvas.Ring(at, 8, 2, stages_[k].success ? kWhite : kBlack);
+    floor.canvas.Ring(at, 8, 2, stages_[k].success ? kPaleInk : kBlack);
   }
 }
 

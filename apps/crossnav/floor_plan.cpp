@@ -11,7 +11,7 @@
 namespace crossnav::app {
 namespace {
 
-constexpr Rgb8 kWhite{255, 255, 255}, kBlack{20, 20, 24};
+constexpr Rgb8 kWhite{255, 255, 255}, kWordInk{20, 20, 24};
 constexpr double kFoot_m = 0.3;  // chosen: an object belongs to a floor at most this far below it
 // chosen: fewer pixels a metre leave no room for labels of objects
 constexpr double kDetail_px = 30;
@@ -76,7 +76,7 @@ void DrawRooms(const std::vector<world::HouseRoom>& rooms, const sim::NavMesh& n
     if (TextWidth(word, 1) > width_px) word = word.substr(0, word.find(' '));
     if (TextWidth(word, 1) > width_px + 12) continue;
     const Vector3d top(r.x1, r.Center().y(), 0);
-    Word(canvas, {view.U(top), view.V(top) + 12}, word, kBlack, 0.85, taken);
+    Word(canvas, {view.U(top), view.V(top) + 12}, word, kWordInk, 0.85, taken);
   }
 }
 

@@ -21,7 +21,7 @@ constexpr std::array<Rgb8, 8> kColours = {{{166, 206, 227},
                                            {255, 237, 140},
                                            {160, 220, 210},
                                            {225, 190, 160}}};
-constexpr Rgb8 kInk{30, 30, 30}, kPassage{200, 30, 30}, kObject{20, 80, 170};
+constexpr Rgb8 kInk{30, 30, 30}, kPassageInk{200, 30, 30}, kObjectInk{20, 80, 170};
 
 std::string Capitals(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -62,11 +62,11 @@ RgbImage DrawGraphFloor(const scenegraph::SceneGraph& graph, int floor, int px_p
     return graph.rooms[static_cast<std::size_t>(room)].floor == floor;
   };
   for (const auto& passage : graph.passages)
-    if (is_here(passage.room_a)) canvas.Disc(view(passage.p_world), 4, kPassage);
+    if (is_here(passage.room_a)) canvas.Disc(view(passage.p_world), 4, kPassageInk);
   for (const auto& object : graph.objects) {
     if (object.floor != floor) continue;
-    canvas.Box(view(object.box.min), view(object.box.max), 1.5, kObject);
-    canvas.Text(view(object.p_center_world), Capitals(object.category), 1, kObject);
+    canvas.Box(view(object.box.min), view(object.box.max), 1.5, kObjectInk);
+    canvas.Text(view(object.p_center_world), Capitals(object.category), 1, kObjectInk);
   }
   for (const auto& room : graph.rooms)
     if (room.floor == floor)

@@ -6,19 +6,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "json_parts.h"
+
 namespace crossnav::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json PointJson(const Vector3d& p) {
-  return Json::array({p.x(), p.y(), p.z()});
-}
-
-template <class T>
-Json OrNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json ObjectJson(const scenegraph::GraphObject& object) {
   return {{"id", object.id},

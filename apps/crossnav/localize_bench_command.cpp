@@ -59,7 +59,7 @@ std::string FailureLine(const LostTrial& trial) {
       trial.actions);
 }
 
-struct Summary {
+struct PlaceCounts {
   int trials = 0, right = 0, wrong = 0;
   std::vector<double> actions, cpu_s;
   std::string failures;
@@ -76,7 +76,7 @@ struct Summary {
   }
 };
 
-void Report(const Summary& s, const LocalizeBenchOptions& options, Console& console) {
+void Report(const PlaceCounts& s, const LocalizeBenchOptions& options, Console& console) {
   const int unknown = s.trials - s.right - s.wrong;
   const double actions = evaluation::PercentileOf(s.actions, 0.5);
   const double cpu_s = evaluation::PercentileOf(s.cpu_s, 0.5);
@@ -100,7 +100,7 @@ void Report(const Summary& s, const LocalizeBenchOptions& options, Console& cons
 
 /// `count` trials in one house; numbers go on over houses, so that no two are alike.
 Result<void> TryHouse(const evaluation::SceneContext& context, const evaluation::RunConfig& config,
-                      const LocalizeBenchOptions& options, int count, Summary& summary) {
+                      const LocalizeBenchOptions& options, int count, PlaceCounts& summary) {
   const auto map = evaluation::SurveyedMap(context, config);
   if (!map) return tl::unexpected(map.error());
   for (int i = 0; i < count; ++i) {
@@ -113,7 +113,7 @@ Result<void> TryHouse(const evaluation::SceneContext& context, const evaluation:
 }
 
 Result<void> TryScenes(const LocalizeBenchOptions& options, const evaluation::RunConfig& config,
-                       Console& console, Summary& summary) {
+                       Console& console, PlaceCounts& summary) {
   const auto ids = evaluation::ListScenes(options.scenes);
   if (!ids) return tl::unexpected(ids.error());
   const int houses = static_cast<int>(ids->size());
@@ -130,7 +130,7 @@ Result<void> TryScenes(const LocalizeBenchOptions& options, const evaluation::Ru
 
 /// Houses of which no twin can be made are named and left out.
 Result<void> TryTwins(const LocalizeBenchOptions& options, const evaluation::RunConfig& config,
-                      Console& console, Summary& summary) {
+                      Console& console, PlaceCounts& summary) {
   const auto furniture =
       options.twins == "same" ? world::TwinFurniture::kSame : world::TwinFurniture::kOwn;
   for (int i = 0; i < options.houses; ++i) {
@@ -157,7 +157,7 @@ Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOpti
   if (!config) return tl::unexpected(config.error());
   if (options.scenes.empty() == options.twins.empty())
     return Fail(ErrorCode::kInvalid, "give the one or the other", "--scenes, --twins");
-  Summary summary;
+  PlaceCounts summary;
   auto ok = options.twins.empty() ? TryScenes(options, *config, console, summary)
                                   : TryTwins(options, *config, console, summary);
   if (!ok) return ok;

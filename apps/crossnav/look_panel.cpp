@@ -16,14 +16,14 @@ namespace crossnav::app {
 namespace {
 
 constexpr int kMost_px = 640;  // chosen: of a field's longer side
-constexpr Rgb8 kInk{255, 255, 255}, kStairInk{255, 160, 0};
+constexpr Rgb8 kLookInk{255, 255, 255}, kStairInk{255, 160, 0};
 constexpr std::array<Rgb8, 6> kGoalInk = {Rgb8{255, 80, 80},   Rgb8{80, 160, 255},
                                           Rgb8{80, 220, 80},   Rgb8{240, 240, 80},
                                           Rgb8{220, 100, 255}, Rgb8{80, 230, 230}};
 
 Rgb8 InkOf(const std::string& goal) {
   const auto it = std::find(kCategories.begin(), kCategories.end(), goal);
-  return it == kCategories.end() ? kInk
+  return it == kCategories.end() ? kLookInk
                                  : kGoalInk[static_cast<std::size_t>(it - kCategories.begin())];
 }
 
@@ -38,7 +38,7 @@ Rgb8 Heat(double t) {
   return t < 0.5 ? Mix(low, middle, 2 * t) : Mix(middle, high, 2 * t - 1);
 }
 
-std::string Capitals(std::string text) {
+std::string SpacedCapitals(std::string text) {
   for (char& c : text)
     c = c == '_' ? ' ' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return text;
@@ -68,7 +68,7 @@ Canvas Objects(const Observation& obs, const Look& look, double scale) {
     const auto& box = detection.box;
     canvas.Box({box.u0 * scale, box.v0 * scale}, {box.u1 * scale, box.v1 * scale}, 2, InkOf(goal));
     canvas.Text({box.u0 * scale + 4, box.v0 * scale + 4},
-                fmt::format("{} {:.2f}", Capitals(goal), detection.confidence), 1, kInk);
+                fmt::format("{} {:.2f}", SpacedCapitals(goal), detection.confidence), 1, kLookInk);
   }
   return canvas;
 }
@@ -82,7 +82,8 @@ Canvas Similarity(const RgbImage& rgb, const Look& look, double scale) {
     const float x = map.At(u * map.width / rgb.width, v * map.height / rgb.height);
     return Mix(rgb.At(u, v), Heat((x - low) / span), 0.7);
   });
-  canvas.Text({6, 6}, fmt::format("{} {:.2f} TO {:.2f}", Capitals(look.text), low, high), 1, kInk);
+  canvas.Text({6, 6}, fmt::format("{} {:.2f} TO {:.2f}", SpacedCapitals(look.text), low, high), 1,
+              kLookInk);
   return canvas;
 }
 

@@ -19,6 +19,7 @@
 #include "graph_file.h"
 #include "graph_picture.h"
 #include "graph_text.h"
+#include "json_parts.h"
 #include "map_build.h"
 #include "map_texts.h"
 
@@ -26,10 +27,6 @@ namespace crossnav::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json PointJson(const Vector3d& p) {
-  return Json::array({p.x(), p.y(), p.z()});
-}
 
 Result<store::LoadedMemory> Load(const MapOptions& options, const evaluation::RunConfig& config,
                                  Console& console) {

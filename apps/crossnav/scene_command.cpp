@@ -27,18 +27,18 @@ double Millimetres(double value) {
   return std::round(value * 1e3) / 1e3;
 }
 
-Json PointJson(const Vector3d& p) {
+Json MillimetresJson(const Vector3d& p) {
   return Json::array({Millimetres(p.x()), Millimetres(p.y()), Millimetres(p.z())});
 }
 
 Json InstanceJson(const sim::InstanceInfo& instance) {
   Json viewpoints = Json::array();
-  for (const Vector3d& p : instance.viewpoints) viewpoints.push_back(PointJson(p));
+  for (const Vector3d& p : instance.viewpoints) viewpoints.push_back(MillimetresJson(p));
   return {{"id", instance.id},
           {"name", instance.name},
           {"floor", instance.floor},
-          {"box_min", PointJson(instance.box.min)},
-          {"box_max", PointJson(instance.box.max)},
+          {"box_min", MillimetresJson(instance.box.min)},
+          {"box_max", MillimetresJson(instance.box.max)},
           {"viewpoints", std::move(viewpoints)}};
 }
 

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A row of either table.
-struct Row {
+struct KindRow {
   std::string kind, way;
   int attempts = 0, reached = 0, found = 0;  ///< reached: at false entrances, started
   std::vector<double> actions;
@@ -31,7 +31,7 @@ struct Row {
 };
 
 struct Tables {
-  std::vector<Row> stairs, false_entrances;
+  std::vector<KindRow> stairs, false_entrances;
 };
 
 Json IntervalJson(int hits, int attempts) {
@@ -53,7 +53,7 @@ std::string Text(const Tables& tables) {
     text += "|---|---|--:|--:|--:|\n";
   }
   int attempts = 0, reached = 0;
-  for (const Row& row : tables.stairs) {
+  for (const KindRow& row : tables.stairs) {
     text += fmt::format("| {} | {} | {} | {}/{} | {:.0f} |\n", row.kind, row.way,
                         ShareText(row.reached, row.attempts), row.found, row.attempts,
                         evaluation::PercentileOf(row.actions, 0.5));
@@ -65,7 +65,7 @@ std::string Text(const Tables& tables) {
     text += "| no stair | began to climb, % | median actions |\n|---|--:|--:|\n";
   }
   int false_attempts = 0, started = 0;
-  for (const Row& row : tables.false_entrances) {
+  for (const KindRow& row : tables.false_entrances) {
     text += fmt::format("| {} | {} | {:.0f} |\n", row.kind, ShareText(row.reached, row.attempts),
                         evaluation::PercentileOf(row.actions, 0.5));
     false_attempts += row.attempts;
@@ -74,7 +74,7 @@ std::string Text(const Tables& tables) {
   if (false_attempts > 0)
     text += fmt::format("| all | {} | |\n", ShareText(started, false_attempts));
   for (const auto* rows : {&tables.stairs, &tables.false_entrances}) {
-    for (const Row& row : *rows) {
+    for (const KindRow& row : *rows) {
       for (const std::string& note : row.notes) text += "\n" + note;
     }
   }
@@ -83,7 +83,7 @@ std::string Text(const Tables& tables) {
 
 Json Document(const Tables& tables, const StairsOptions& options) {
   Json stairs = Json::array(), others = Json::array();
-  for (const Row& row : tables.stairs) {
+  for (const KindRow& row : tables.stairs) {
     stairs.push_back({{"kind", row.kind},
                       {"way", row.way},
                       {"attempts", row.attempts},
@@ -93,7 +93,7 @@ Json Document(const Tables& tables, const StairsOptions& options) {
                       {"median_actions", evaluation::PercentileOf(row.actions, 0.5)},
                       {"failures", row.notes}});
   }
-  for (const Row& row : tables.false_entrances) {
+  for (const KindRow& row : tables.false_entrances) {
     others.push_back({{"kind", row.kind},
                       {"attempts", row.attempts},
                       {"started", row.reached},
@@ -110,7 +110,7 @@ Json Document(const Tables& tables, const StairsOptions& options) {
 
 /// The world and the episode of an attempt, for `crossnav run`.
 Result<void> Keep(const StairsOptions& options, const evaluation::StairSite& site,
-                  const evaluation::StairAttempt& attempt, Row& row) {
+                  const evaluation::StairAttempt& attempt, KindRow& row) {
   if (options.keep.empty()) return {};
   const auto folder =
       world::WriteScene(world::BuildHouse(site.world.plan), std::filesystem::path(options.keep));
@@ -120,7 +120,7 @@ Result<void> Keep(const StairsOptions& options, const evaluation::StairSite& sit
 }
 
 Result<void> TryOnce(const StairsOptions& options, const evaluation::RunConfig& config,
-                     const evaluation::StairSite& site, std::uint64_t seed, Row& row) {
+                     const evaluation::StairSite& site, std::uint64_t seed, KindRow& row) {
   const auto attempt = evaluation::TryStair(site, row.way == "up", seed, config);
   if (!attempt) return tl::unexpected(attempt.error());
   ++row.attempts;
@@ -138,7 +138,7 @@ Result<void> TryOnce(const StairsOptions& options, const evaluation::RunConfig& 
 }
 
 Result<void> TryFalse(const evaluation::RunConfig& config, evaluation::FalseEntrance kind,
-                      std::uint64_t seed, Row& row) {
+                      std::uint64_t seed, KindRow& row) {
   const auto attempt = evaluation::TryFalseEntrance(kind, seed, config);
   if (!attempt) return tl::unexpected(attempt.error());
   ++row.attempts;
@@ -182,14 +182,15 @@ std::vector<StairMaker> StairMakers() {
 }
 
 /// Both directions of one kind, in the same worlds.
-Result<std::vector<Row>> TryKind(const StairsOptions& options, const evaluation::RunConfig& config,
-                                 const StairMaker& maker, Console& console) {
+Result<std::vector<KindRow>> TryKind(const StairsOptions& options,
+                                     const evaluation::RunConfig& config, const StairMaker& maker,
+                                     Console& console) {
   const std::string& name = maker.name;
-  std::vector<Row> rows(2);
+  std::vector<KindRow> rows(2);
   rows[0].way = "up";
   rows[1].way = "down";
-  for (Row& row : rows) row.kind = name;
-  const auto is_short = [&](const Row& row) { return row.attempts < options.count; };
+  for (KindRow& row : rows) row.kind = name;
+  const auto is_short = [&](const KindRow& row) { return row.attempts < options.count; };
   Error last;
   for (int i = 0; std::any_of(rows.begin(), rows.end(), is_short); ++i) {
     if (i == kSeedsPerAttempt * options.count) return tl::unexpected(last);
@@ -197,7 +198,7 @@ Result<std::vector<Row>> TryKind(const StairsOptions& options, const evaluation:
     console.Progress(fmt::format("{}: {} of {}", name, rows[1].attempts + 1, options.count));
     const auto site = evaluation::BuildStairSite(maker.make(seed), config);
     if (!site) return tl::unexpected(site.error());
-    for (Row& row : rows) {
+    for (KindRow& row : rows) {
       if (!is_short(row)) continue;
       const auto ok = TryOnce(options, config, *site, seed, row);
       if (ok) continue;
@@ -205,15 +206,15 @@ Result<std::vector<Row>> TryKind(const StairsOptions& options, const evaluation:
       last = ok.error();
     }
   }
-  for (const Row& row : rows)
+  for (const KindRow& row : rows)
     console.Log(fmt::format("{} {}: the other floor reached in {}, goal found in {}", row.kind,
                             row.way, ShareText(row.reached, row.attempts), row.found));
   return rows;
 }
 
-Result<Row> TryFalseKind(const StairsOptions& options, const evaluation::RunConfig& config,
-                         evaluation::FalseEntrance kind, Console& console) {
-  Row row;
+Result<KindRow> TryFalseKind(const StairsOptions& options, const evaluation::RunConfig& config,
+                             evaluation::FalseEntrance kind, Console& console) {
+  KindRow row;
   row.kind = evaluation::NameOf(kind);
   for (int i = 0; row.attempts < options.count; ++i) {
     console.Progress(fmt::format("{}: {} of {}", row.kind, row.attempts + 1, options.count));
@@ -252,7 +253,7 @@ Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& comm
     if (!IsWanted(options, maker.name)) continue;
     auto rows = TryKind(options, *config, maker, console);
     if (!rows) return tl::unexpected(rows.error());
-    for (Row& row : *rows) tables.stairs.push_back(std::move(row));
+    for (KindRow& row : *rows) tables.stairs.push_back(std::move(row));
   }
   for (const auto kind : evaluation::kFalseEntrances) {
     if (!IsWanted(options, evaluation::NameOf(kind))) continue;
@@ -261,7 +262,7 @@ Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& comm
     tables.false_entrances.push_back(std::move(*row));
   }
   evaluation::EpisodeFile kept;
-  for (const Row& row : tables.stairs) {
+  for (const KindRow& row : tables.stairs) {
     kept.episodes.insert(kept.episodes.end(), row.kept.begin(), row.kept.end());
   }
   if (!options.keep.empty() && !kept.episodes.empty()) {

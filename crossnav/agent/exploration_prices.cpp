@@ -15,10 +15,9 @@ using policy::Candidate;
 
 namespace {
 
-constexpr std::size_t kHeading = 5;    // chosen: places of a path that give its direction
-constexpr double kRoom_m2 = 4;         // chosen: unseen area that may be a room
-constexpr double kFromAfar_m = 4;      // chosen: the path around a table to a nearer view
-constexpr double kSplitLevel_m = 1.0;  // chosen: flat ground this near in height is the same floor
+constexpr std::size_t kHeading = 5;  // chosen: places of a path that give its direction
+constexpr double kRoom_m2 = 4;       // chosen: unseen area that may be a room
+constexpr double kFromAfar_m = 4;    // chosen: the path around a table to a nearer view
 
 }  // namespace
 

@@ -11,6 +11,9 @@
 
 namespace crossnav::agent {
 
+// chosen: flat ground this near in height is the same floor
+inline constexpr double kSplitLevel_m = 1.0;
+
 /// A candidate with its path and price.
 struct PricedCandidate {
   GroundTarget target;

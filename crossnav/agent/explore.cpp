@@ -21,8 +21,6 @@ using policy::CandidateKind;
 
 namespace {
 
-constexpr double kSplitLevel_m = 1.0;  // chosen: flat ground this near in height is the same floor
-
 /// Candidates in order of path cost with their prices, until none ahead can be cheaper.
 std::vector<PricedCandidate> PriceCandidates(const Situation& now, const VoxelKey& start,
                                              ExplorationPrices* prices) {

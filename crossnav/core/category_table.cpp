@@ -22,7 +22,7 @@ Result<CategoryTable> ParseCategoryTable(std::string_view text, const std::strin
       return Fail(ErrorCode::kMalformed, "expected \"raw name<TAB>category\"", at);
     }
     const std::string category(line.substr(tab + 1));
-    if (std::find(kCategories.begin(), kCategories.end(), category) == kCategories.end()) {
+    if (!IsCategory(category)) {
       return Fail(ErrorCode::kInvalid, "\"" + category + "\" is not one of the six categories", at);
     }
     if (!table.emplace(line.substr(0, tab), category).second) {

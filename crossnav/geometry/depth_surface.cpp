@@ -8,12 +8,13 @@
 namespace crossnav::geometry {
 namespace {
 
-constexpr float kNearest_m = 0.2F, kFarthest_m = 5.0F;  // chosen: beyond, risers are noise
+// chosen: beyond, risers are noise
+constexpr float kNearestRiser_m = 0.2F, kFarthestRiser_m = 5.0F;
 constexpr double kStep_m = 0.15;         // chosen: neighbours farther apart lie on two things
 constexpr double kLeastLevel_m2 = 0.15;  // chosen: smaller than two treads, the pose knows better
 
 bool IsMeasured(float depth_m) {
-  return depth_m >= kNearest_m && depth_m <= kFarthest_m;
+  return depth_m >= kNearestRiser_m && depth_m <= kFarthestRiser_m;
 }
 
 }  // namespace

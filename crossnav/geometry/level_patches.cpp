@@ -11,7 +11,7 @@ namespace {
 constexpr double kLevel = 0.94;         // chosen: cosine, 20 degrees: noise and a tilted camera
 constexpr double kSmooth_m = 0.01;      // chosen: between neighbours of one tread
 constexpr double kLeastArea_m2 = 0.02;  // chosen: a foot is 0.02 m2
-constexpr double kSameHeight_m = 0.03;  // chosen: parts of one tread
+constexpr double kSamePatch_m = 0.03;   // chosen: parts of one tread
 constexpr double kApart_m = 1.0;        // chosen: two lengths of a long tread
 
 bool IsLevel(const DepthSurface& s, int i) {
@@ -67,7 +67,7 @@ std::vector<LevelPatch> LevelPatchesOf(const DepthSurface& s) {
     if (patch.area_m2 < kLeastArea_m2) continue;
     const auto same = std::find_if(patches.begin(), patches.end(), [&](const LevelPatch& other) {
       const Vector3d d = other.p_center_world - patch.p_center_world;
-      return std::abs(other.height_m - patch.height_m) < kSameHeight_m && d.norm() < kApart_m;
+      return std::abs(other.height_m - patch.height_m) < kSamePatch_m && d.norm() < kApart_m;
     });
     if (same == patches.end()) {
       patches.push_back(std::move(patch));

@@ -8,12 +8,12 @@
 namespace crossnav::geometry {
 namespace {
 
-constexpr double kUpright = 0.42;       // chosen: cosine to the vertical, 25 degrees
-constexpr double kOneFace = 0.85;       // chosen: cosine between normals of one face
-constexpr double kPlane_m = 0.02;       // chosen: noise about a face
-constexpr double kStep_m = 0.05;        // chosen: neighbours farther apart lie on two things
-constexpr double kEdgeShare = 0.02;     // chosen: stray points beyond an edge
-constexpr std::size_t kLeastSeed = 40;  // chosen: pixels, of a face of 4 by 10
+constexpr double kUpright = 0.42;         // chosen: cosine to the vertical, 25 degrees
+constexpr double kOneFace = 0.85;         // chosen: cosine between normals of one face
+constexpr double kPlane_m = 0.02;         // chosen: noise about a face
+constexpr double kRiserStep_m = 0.05;     // chosen: neighbours farther apart lie on two things
+constexpr double kRiserEdgeShare = 0.02;  // chosen: stray points beyond an edge
+constexpr std::size_t kLeastSeed = 40;    // chosen: pixels, of a face of 4 by 10
 constexpr double kLowFace_m = 0.05, kHighFace_m = 0.26;  // chosen: what people build
 constexpr double kLeastWidth_m = 0.25;                   // chosen: of a foot and its place
 constexpr double kLeastVertical = 0.5;  // chosen: share of a face's rectangle that is seen
@@ -35,7 +35,8 @@ std::vector<int> TakeFace(const DepthSurface& s, int first, std::vector<bool>& i
       if (is_taken[other] || !IsUpright(s, other)) continue;
       const Vector3d step = s.p_world[other] - s.p_world[at];
       const bool has_bend = s.normal_world[at].dot(s.normal_world[other]) < kOneFace;
-      if (has_bend || step.norm() > kStep_m || std::abs(step.dot(s.normal_world[at])) > kPlane_m)
+      if (has_bend || step.norm() > kRiserStep_m ||
+          std::abs(step.dot(s.normal_world[at])) > kPlane_m)
         continue;
       is_taken[other] = true;
       pixels.push_back(other);
@@ -93,10 +94,10 @@ bool Measure(const DepthSurface& s, RiserFace* face) {
     aside_m.push_back(s.p_world[i].dot(aside));
     area_m2 += s.area_m2[i];
   }
-  face->low_m = QuantileOf(height_m, kEdgeShare);
-  face->high_m = QuantileOf(height_m, 1 - kEdgeShare);
-  face->left_m = QuantileOf(aside_m, kEdgeShare);
-  face->right_m = QuantileOf(aside_m, 1 - kEdgeShare);
+  face->low_m = QuantileOf(height_m, kRiserEdgeShare);
+  face->high_m = QuantileOf(height_m, 1 - kRiserEdgeShare);
+  face->left_m = QuantileOf(aside_m, kRiserEdgeShare);
+  face->right_m = QuantileOf(aside_m, 1 - kRiserEdgeShare);
   const double high_m = face->high_m - face->low_m, wide_m = face->right_m - face->left_m;
   return high_m >= kLowFace_m && high_m <= kHighFace_m && wide_m >= kLeastWidth_m &&
          area_m2 >= kLeastVertical * high_m * wide_m;

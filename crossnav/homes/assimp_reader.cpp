@@ -18,7 +18,7 @@ namespace crossnav::homes {
 #if CROSSNAV_WITH_ASSIMP
 namespace {
 
-constexpr int kMaxPicture_px = 256;  // chosen: furniture fills a part of a 640 px picture
+constexpr int kMaxFurniturePicture_px = 256;  // chosen: furniture fills a part of a 640 px picture
 
 std::uint8_t ToByte(float unit) {
   return static_cast<std::uint8_t>(std::lround(std::min(1.0F, std::max(0.0F, unit)) * 255));
@@ -35,7 +35,7 @@ int TextureOf(const aiMaterial& material, const world::FileLookup& lookup, world
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes->data());
   auto picture = sim::DecodeImage({data, bytes->size()}, path.C_Str());
   if (!picture) return -1;
-  out.model.textures.push_back(world::Reduced(*picture, kMaxPicture_px));
+  out.model.textures.push_back(world::Reduced(*picture, kMaxFurniturePicture_px));
   return it->second = static_cast<int>(out.model.textures.size()) - 1;
 }
 

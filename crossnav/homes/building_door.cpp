@@ -19,7 +19,6 @@ constexpr double kWeld_m = 1e-4;    // chosen: corners of one solid
 constexpr double kHandle_m = 0.15;  // chosen: reach of parts attached to a leaf
 constexpr double kEdge_m = 0.01;    // chosen: of the lining, which ends at the door's edge
 constexpr double kPin_m = 0.01;     // chosen: a hinge, half its width
-constexpr double kOpen_rad = std::numbers::pi / 2;
 
 struct Part {
   Box3 box;

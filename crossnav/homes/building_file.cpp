@@ -15,15 +15,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kMaxNumber = 1e4;              // chosen: metres; a building has up to 500
-constexpr std::size_t kMaxStoreys = 64;         // chosen: a tower
-constexpr std::size_t kMaxSpaces = 500;         // chosen: as rooms of a home
-constexpr std::size_t kMaxCorners = 500;        // chosen: of one space
-constexpr std::size_t kMaxAllCorners = 5000;    // chosen: of all spaces
-constexpr std::size_t kMaxElements = 50'000;    // chosen: large buildings have 10,000
-constexpr std::size_t kMaxOpenings = 1000;      // chosen: doors and windows, as of a home
-constexpr std::size_t kMaxStairs = 100;         // chosen: as of a home
-constexpr std::size_t kMaxTriangles = 1 << 20;  // chosen: of all elements
+constexpr double kMaxBuildingNumber = 1e4;              // chosen: metres; a building has up to 500
+constexpr std::size_t kMaxStoreys = 64;                 // chosen: a tower
+constexpr std::size_t kMaxSpaces = 500;                 // chosen: as rooms of a home
+constexpr std::size_t kMaxBuildingCorners = 500;        // chosen: of one space
+constexpr std::size_t kMaxBuildingAllCorners = 5000;    // chosen: of all spaces
+constexpr std::size_t kMaxElements = 50'000;            // chosen: large buildings have 10,000
+constexpr std::size_t kMaxBuildingOpenings = 1000;      // chosen: doors and windows, as of a home
+constexpr std::size_t kMaxBuildingStairs = 100;         // chosen: as of a home
+constexpr std::size_t kMaxBuildingTriangles = 1 << 20;  // chosen: of all elements
 constexpr std::size_t kMaxNames = 8;
 constexpr std::size_t kMaxName = 1000;
 constexpr std::size_t kMaxNotes = 1000;
@@ -34,9 +34,9 @@ constexpr const char* kKindNames[] = {"wall", "floor",     "roof",   "ceiling", 
                                       "beam", "furniture", "other"};
 
 /// Reads with the path of the key, for errors. The first error stops the reading.
-class Reader {
+class BuildingReader {
  public:
-  explicit Reader(std::string where) : where_(std::move(where)) {}
+  explicit BuildingReader(std::string where) : where_(std::move(where)) {}
 
   Result<Building> Read(const Json& root) {
     if (!root.is_object() || !root.contains("format") || root["format"] != 1) {
@@ -94,7 +94,7 @@ class Reader {
 
   double ToNumber(const Json& json, const char* key) {
     const double value = json.is_number() ? json.get<double>() : NAN;
-    if (std::isfinite(value) && std::abs(value) <= kMaxNumber) return value;
+    if (std::isfinite(value) && std::abs(value) <= kMaxBuildingNumber) return value;
     Bad(key, "is no number up to 10,000");
     return 0;
   }
@@ -161,11 +161,11 @@ class Reader {
     space.height_m = Number(json, "height_m");
     if (space.height_m < 0) Bad("height_m", "is below 0");
     space.is_outside = IsTrue(json, "outside");
-    for (const Json* corner : List(json, "outline", kMaxCorners)) {
+    for (const Json* corner : List(json, "outline", kMaxBuildingCorners)) {
       const auto [x, y] = Pair(*corner, "outline");
       space.outline.emplace_back(x, y);
     }
-    if ((corners_ += space.outline.size()) > kMaxAllCorners) {
+    if ((corners_ += space.outline.size()) > kMaxBuildingAllCorners) {
       Bad("outline", "makes more than 5000 corners of spaces");
     }
     building_.spaces.push_back(std::move(space));
@@ -203,18 +203,18 @@ class Reader {
     if (error_) return ElementKind::kOther;
     const auto kind = static_cast<ElementKind>(found - std::begin(kKindNames));
     const bool is_opening = kind == ElementKind::kDoor || kind == ElementKind::kWindow;
-    if ((openings_ += is_opening ? 1 : 0) > kMaxOpenings) {
+    if ((openings_ += is_opening ? 1 : 0) > kMaxBuildingOpenings) {
       Bad("kind", "is the 1001st door or window");
     }
-    if ((stairs_ += kind == ElementKind::kStairs ? 1 : 0) > kMaxStairs) {
+    if ((stairs_ += kind == ElementKind::kStairs ? 1 : 0) > kMaxBuildingStairs) {
       Bad("kind", "is the 101st staircase");
     }
     return kind;
   }
 
   void ReadMesh(const Json& json, BuildingElement& element) {
-    const auto numbers = List(json, "vertices", 9 * kMaxTriangles);
-    const auto corners = List(json, "triangles", 3 * kMaxTriangles);
+    const auto numbers = List(json, "vertices", 9 * kMaxBuildingTriangles);
+    const auto corners = List(json, "triangles", 3 * kMaxBuildingTriangles);
     if (error_) return;
     if (numbers.size() % 3 != 0) return Bad("vertices", "are not three numbers each");
     if (corners.size() % 3 != 0) return Bad("triangles", "are not three numbers each");
@@ -232,8 +232,8 @@ class Reader {
       }
       element.triangles.push_back(triangle);
     }
-    if ((triangles_ += element.triangles.size()) > kMaxTriangles) {
-      return Bad("triangles", fmt::format("make more than {} in all", kMaxTriangles));
+    if ((triangles_ += element.triangles.size()) > kMaxBuildingTriangles) {
+      return Bad("triangles", fmt::format("make more than {} in all", kMaxBuildingTriangles));
     }
     ReadColoursOf(json, element);
   }
@@ -266,7 +266,7 @@ class Reader {
 Result<Building> ParseBuilding(const std::string& text, const std::string& where) {
   if (auto ok = CheckJsonShape(text, where); !ok) return tl::unexpected(ok.error());
   try {
-    return Reader(where).Read(Json::parse(text));
+    return BuildingReader(where).Read(Json::parse(text));
   } catch (const std::exception& e) {
     return Fail(ErrorCode::kMalformed, "is not readable JSON: " + PlainReason(e.what()), where);
   }

@@ -13,10 +13,11 @@
 namespace crossnav::homes {
 namespace {
 
-constexpr double kBelow_m = 0.35, kAbove_m = 0.12;  // chosen: of a slab's top to a space's ground
-constexpr int kSamples = 16;                        // chosen: along each side of a room
-constexpr double kStoreyShare = 0.3;                // chosen: below this share a storey has no slab
-constexpr double kRoomShare = 0.05;                 // chosen: below this share a room has no slab
+constexpr double kBelowSlab_m = 0.35,
+                 kAboveSlab_m = 0.12;  // chosen: of a slab's top to a space's ground
+constexpr int kSamples = 16;           // chosen: along each side of a room
+constexpr double kStoreyShare = 0.3;   // chosen: below this share a storey has no slab
+constexpr double kRoomShare = 0.05;    // chosen: below this share a room has no slab
 constexpr double kStorey_m = 0.3;
 
 /// Near-level, walkable triangles of a scene.
@@ -37,7 +38,8 @@ class Ground {
     Ground near;
     for (const auto& p : triangles_) {
       const auto [low, high] = std::minmax({p[0].z(), p[1].z(), p[2].z()});
-      if (high >= floor_m - kBelow_m && low <= floor_m + kAbove_m) near.triangles_.push_back(p);
+      if (high >= floor_m - kBelowSlab_m && low <= floor_m + kAboveSlab_m)
+        near.triangles_.push_back(p);
     }
     return near;
   }

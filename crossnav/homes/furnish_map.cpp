@@ -15,24 +15,11 @@ constexpr double kWalkTo_m = 1.6;
 constexpr double kWallFrom_m = 0.9, kWallTo_m = 1.3;
 constexpr double kStairsFrom_m = -1.5, kStairsTo_m = 2.3;
 
-/// Part of a polygon on one side of a plane across `axis`.
-std::vector<Vector3d> Side(const std::vector<Vector3d>& polygon, Eigen::Index axis, double at,
-                           double sign) {
-  std::vector<Vector3d> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector3d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double a = sign * (p[axis] - at), b = sign * (q[axis] - at);
-    if (a >= 0) out.push_back(p);
-    if ((a > 0 && b < 0) || (a < 0 && b > 0)) out.emplace_back(p + (q - p) * (a / (a - b)));
-  }
-  return out;
-}
-
 std::vector<Vector3d> Clipped(std::vector<Vector3d> polygon, const Vector3d& low,
                               const Vector3d& high) {
   for (Eigen::Index axis = 0; axis < 3 && !polygon.empty(); ++axis) {
-    polygon = Side(polygon, axis, low[axis], 1);
-    polygon = Side(polygon, axis, high[axis], -1);
+    polygon = SideOf(polygon, axis, low[axis], 1);
+    polygon = SideOf(polygon, axis, high[axis], -1);
   }
   return polygon;
 }

@@ -13,12 +13,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMaxObjects = 100'000;  // chosen: far above any house
-constexpr double kMaxNumber = 1e6;
+constexpr double kMaxObjectNumber = 1e6;
 
 /// Reads with the path of the key, for errors.
-class Reader {
+class ObjectsReader {
  public:
-  explicit Reader(std::string where) : where_(std::move(where)) {}
+  explicit ObjectsReader(std::string where) : where_(std::move(where)) {}
 
   Result<ObjectsFile> Read(const Json& root) {
     ObjectsFile file;
@@ -70,7 +70,8 @@ class Reader {
 
   double Number(const Json& json, const std::string& at) {
     const double value = json.is_number() ? json.get<double>() : NAN;
-    if (!std::isfinite(value) || std::abs(value) > kMaxNumber) Bad(at, "is no number up to 1e6");
+    if (!std::isfinite(value) || std::abs(value) > kMaxObjectNumber)
+      Bad(at, "is no number up to 1e6");
     return error_ ? 0 : value;
   }
 
@@ -143,7 +144,7 @@ class Reader {
 Result<ObjectsFile> ParseObjectsFile(const std::string& text, const std::string& where) {
   if (auto ok = CheckJsonShape(text, where); !ok) return tl::unexpected(ok.error());
   try {
-    return Reader(where).Read(Json::parse(text));
+    return ObjectsReader(where).Read(Json::parse(text));
   } catch (const std::exception& e) {
     return Fail(ErrorCode::kMalformed, "is not readable JSON: " + PlainReason(e.what()), where);
   }

@@ -9,6 +9,7 @@
 
 #include "crossnav/core/box.h"
 #include "crossnav/homes/piece_model.h"
+#include "crossnav/homes/polygon.h"
 
 namespace crossnav::homes {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 constexpr std::string_view kOwn = "sweethome3d_";
 constexpr std::string_view kLeaf = "_on_hinge_", kSlider = "_on_rail_",
                            kHinge = "sweethome3d_hinge_";
-constexpr double kOpen_rad = std::numbers::pi / 2;
 constexpr double kFrame_m = 0.05;  // chosen: a usual door
 
 /// The number that follows `mark` in a group's name.
@@ -29,21 +29,21 @@ std::optional<int> NumberAfter(const std::string& name, std::string_view mark) {
   return digit >= '0' && digit <= '9' ? std::optional(digit - '0') : std::nullopt;
 }
 
-struct Parts {
+struct DoorParts {
   Box3 box;
   std::vector<std::size_t> triangles;
 };
 
 /// Moving parts by their number.
-std::map<int, Parts> PartsNamed(const world::NamedObj& obj, std::string_view mark) {
-  std::map<int, Parts> parts;
+std::map<int, DoorParts> PartsNamed(const world::NamedObj& obj, std::string_view mark) {
+  std::map<int, DoorParts> parts;
   const auto& mesh = obj.model.mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const int group = obj.triangle_group[t];
     if (group < 0) continue;
     const auto number = NumberAfter(obj.group_names[static_cast<std::size_t>(group)], mark);
     if (!number) continue;
-    Parts& part = parts[*number];
+    DoorParts& part = parts[*number];
     part.triangles.push_back(t);
     for (const auto v : mesh.triangles[t]) part.box.Add(mesh.vertices[v].cast<double>());
   }
@@ -161,19 +161,6 @@ void UsePlainFrame(world::NamedObj& obj, const HomePiece& piece) {
   obj.triangle_group.assign(obj.model.mesh.triangles.size(), -1);
 }
 
-/// Part of a polygon on one side of a plane across `axis`.
-std::vector<Vector3d> Side(const std::vector<Vector3d>& polygon, Eigen::Index axis, double at,
-                           double sign) {
-  std::vector<Vector3d> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector3d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double a = sign * (p[axis] - at), b = sign * (q[axis] - at);
-    if (a >= 0) out.push_back(p);
-    if ((a > 0 && b < 0) || (a < 0 && b > 0)) out.emplace_back(p + (q - p) * (a / (a - b)));
-  }
-  return out;
-}
-
 }  // namespace
 
 bool IsFree(const world::ObjectModel& model, const Pose& T_door_model, const HomePiece& door,
@@ -189,8 +176,8 @@ bool IsFree(const world::ObjectModel& model, const Pose& T_door_model, const Hom
       polygon.emplace_back(T_door_model * model.mesh.vertices[v].cast<double>());
     }
     for (Eigen::Index axis = 0; axis < 3 && !polygon.empty(); ++axis) {
-      polygon = Side(polygon, axis, low[axis], 1);
-      polygon = Side(polygon, axis, high[axis], -1);
+      polygon = SideOf(polygon, axis, low[axis], 1);
+      polygon = SideOf(polygon, axis, high[axis], -1);
     }
     if (!polygon.empty()) return false;
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "crossnav/world/models/obj_reader.h"
 
 namespace crossnav::homes {
+
+inline constexpr double kOpen_rad = std::numbers::pi / 2;  ///< swing of an open leaf
 
 /// `obj` with the piece's size and colours.
 world::NamedObj Fitted(const world::NamedObj& obj, const HomePiece& piece);

@@ -96,6 +96,18 @@ Polygon LeftOf(const Polygon& piece, const Vector2d& a, const Vector2d& b) {
   return out.size() < 3 || SignedArea(out) < kMinPiece_m2 ? Polygon{} : out;
 }
 
+std::vector<Eigen::Vector3d> SideOf(const std::vector<Eigen::Vector3d>& polygon, Eigen::Index axis,
+                                    double at, double sign) {
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double a = sign * (p[axis] - at), b = sign * (q[axis] - at);
+    if (a >= 0) out.push_back(p);
+    if ((a > 0 && b < 0) || (a < 0 && b > 0)) out.emplace_back(p + (q - p) * (a / (a - b)));
+  }
+  return out;
+}
+
 Polygon Shared(const Polygon& a, const Polygon& b) {
   Polygon out = a;
   for (std::size_t i = 0; i < b.size() && !out.empty(); ++i) {

@@ -27,6 +27,11 @@ std::vector<Polygon> Triangulate(const Polygon& polygon);
 /// The part of the convex `piece` on the left of the line from `a` to `b`.
 Polygon LeftOf(const Polygon& piece, const Vector2d& a, const Vector2d& b);
 
+/// Part of a polygon in space on one side of a plane across `axis`: above `at` for `sign` 1, below
+/// it for -1.
+std::vector<Eigen::Vector3d> SideOf(const std::vector<Eigen::Vector3d>& polygon, Eigen::Index axis,
+                                    double at, double sign);
+
 /// Intersection of two convex polygons; may be empty.
 Polygon Shared(const Polygon& a, const Polygon& b);
 

@@ -119,7 +119,7 @@ std::vector<Hole> HolesIn(const HomePlan& plan, const Vector2d& a, const Vector2
 }
 
 /// A straight part of a wall, with its four corners.
-struct Part {
+struct WallPart {
   Vector2d a, b;  // centre line
   Vector2d left_a, left_b, right_a, right_b;
   double bottom = 0, top_a = 0, top_b = 0;  // heights
@@ -127,7 +127,7 @@ struct Part {
 
 class PartBuilder {
  public:
-  PartBuilder(const HomeWall& wall, const Part& part, const UseFinish& use,
+  PartBuilder(const HomeWall& wall, const WallPart& part, const UseFinish& use,
               world::SceneBuilder& scene)
       : wall_(wall), part_(part), use_(use), scene_(scene) {}
 
@@ -159,7 +159,7 @@ class PartBuilder {
     const double length = (part_.b - part_.a).norm();
     const Vector2d d = (part_.b - part_.a) / length;
     const Vector2d left = Vector2d(-d.y(), d.x()) * (0.5 * wall_.thickness_m);
-    Part column = part_;
+    WallPart column = part_;
     const auto top = [&](double s) {
       return part_.top_a + (part_.top_b - part_.top_a) * std::clamp(s / length, 0.0, 1.0);
     };
@@ -188,7 +188,7 @@ class PartBuilder {
   }
 
   /// Adds a solid from `low` to `high` or to the sloping top, whichever is lower.
-  void Solid(const Part& c, double low, double high) {
+  void Solid(const WallPart& c, double low, double high) {
     const double za = std::min(high, c.top_a), zb = std::min(high, c.top_b);
     if (std::max(za, zb) - low < 1e-3) return;
     const auto at = [&](const Vector2d& p, double z) {
@@ -206,7 +206,7 @@ class PartBuilder {
   }
 
   const HomeWall& wall_;
-  const Part& part_;
+  const WallPart& part_;
   const UseFinish& use_;
   world::SceneBuilder& scene_;
 };
@@ -229,15 +229,15 @@ void BuildWall(const HomePlan& plan, const HomeWall& wall, const UseFinish& use,
   const auto parts = static_cast<double>(o.centre.size() - 1);
   for (std::size_t i = 0; i + 1 < o.centre.size(); ++i) {
     const auto k = static_cast<double>(i);
-    const Part part{o.centre[i],
-                    o.centre[i + 1],
-                    o.left[i],
-                    o.left[i + 1],
-                    o.right[i],
-                    o.right[i + 1],
-                    level.floor_m - kFloorShare * level.slab_m,
-                    z0 + (z1 - z0) * k / parts,
-                    z0 + (z1 - z0) * (k + 1) / parts};
+    const WallPart part{o.centre[i],
+                        o.centre[i + 1],
+                        o.left[i],
+                        o.left[i + 1],
+                        o.right[i],
+                        o.right[i + 1],
+                        level.floor_m - kFloorShare * level.slab_m,
+                        z0 + (z1 - z0) * k / parts,
+                        z0 + (z1 - z0) * (k + 1) / parts};
     const bool is_arc = o.centre.size() > 2;
     PartBuilder(wall, part, use, scene)
         .Build(HolesIn(plan, part.a, part.b, wall.thickness_m, is_arc));

@@ -13,7 +13,7 @@
 namespace crossnav::inference {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 64U << 20U;
+constexpr std::uintmax_t kMostClipBytes = 64U << 20U;
 constexpr std::size_t kMerges = 49152 - 256 - 2;  // number of merges that CLIP uses of its file
 constexpr const char* kWordEnd = "</w>";
 
@@ -134,7 +134,7 @@ class ClipTokenizer : public Tokenizer {
 }  // namespace
 
 Result<std::unique_ptr<Tokenizer>> ReadClipTokenizer(const std::filesystem::path& merges) {
-  const auto text = ReadFile(merges, kMostBytes);
+  const auto text = ReadFile(merges, kMostClipBytes);
   if (!text) return tl::unexpected(text.error());
   auto tokenizer = std::make_unique<ClipTokenizer>();
   std::istringstream lines(*text);

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "crossnav/inference/frame_input.h"
+
 namespace crossnav::inference {
 namespace {
 
@@ -15,29 +17,25 @@ constexpr double kGap = 0.06;      // chosen: of the depth, gap between surfaces
 constexpr double kMinGap_m = 0.1;  // chosen: a voxel
 constexpr double kStep = 0.03;     // chosen: of the depth, between neighbours of one surface
 constexpr double kMinShare = 0.3;  // chosen: minimum share of the middle for the object's cluster
-constexpr int kStride = 2;         // chosen: sampling of depths
+constexpr int kDepthStride = 2;    // chosen: sampling of depths
 constexpr std::array<std::pair<int, int>, 4> kNeighbours = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
-bool IsMeasured(float d) {
-  return std::isfinite(d) && d > 0;
-}
-
-struct Range {
+struct DepthRange {
   float near_m = 0, far_m = 0;
   double share = 0;  // of the depths in the middle
 };
 
 /// The nearest cluster of the middle's depths that is large enough, or else the largest cluster.
-Range ClusterOf(std::vector<float> depths, std::size_t places) {
+DepthRange ClusterOf(std::vector<float> depths, std::size_t places) {
   std::sort(depths.begin(), depths.end());
-  Range best;
+  DepthRange best;
   std::size_t first = 0;
   for (std::size_t i = 1; i <= depths.size(); ++i) {
     const bool ends =
         i == depths.size() || depths[i] - depths[i - 1] > std::max(kMinGap_m, kGap * depths[i - 1]);
     if (!ends) continue;
-    const Range range{depths[first], depths[i - 1],
-                      static_cast<double>(i - first) / static_cast<double>(places)};
+    const DepthRange range{depths[first], depths[i - 1],
+                           static_cast<double>(i - first) / static_cast<double>(places)};
     if (best.share < kMinShare && range.share > best.share) best = range;
     first = i;
   }
@@ -68,12 +66,12 @@ perception::Detection DepthMask(const DepthImage& depth_m, perception::Detection
   detection.mask_quality = 0;
   std::vector<float> depths;
   std::size_t places = 0;
-  ForEachInMiddle(box, kStride, [&](int u, int v) {
+  ForEachInMiddle(box, kDepthStride, [&](int u, int v) {
     ++places;
     if (IsMeasured(depth_m.At(u, v))) depths.push_back(depth_m.At(u, v));
   });
   if (depths.empty()) return detection;
-  const Range range = ClusterOf(std::move(depths), places);
+  const DepthRange range = ClusterOf(std::move(depths), places);
 
   // Grows from the cluster's pixels in the middle outwards, over depth steps within a surface.
   std::vector<std::pair<int, int>> open;

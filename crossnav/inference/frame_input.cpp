@@ -79,10 +79,6 @@ std::vector<float> Resized(const RgbImage& rgb, int width, int height, bool anti
   return out;
 }
 
-bool IsMeasured(float depth_m) {
-  return std::isfinite(depth_m) && depth_m > 0;
-}
-
 /// Calls use(index in the tensor, u, v) for the nearest frame pixel of every input pixel.
 template <class Use>
 void ForNearest(int width, int height, const ModelCard::Input& input, const Use& use) {

@@ -3,6 +3,7 @@
 // All resizing is here. Pixel centres are at half positions in both, edges are clamped.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "crossnav/core/image.h"
@@ -12,6 +13,10 @@
 #include "crossnav/perception/perception.h"
 
 namespace crossnav::inference {
+
+inline bool IsMeasured(float depth_m) {
+  return std::isfinite(depth_m) && depth_m > 0;
+}
 
 /// Place of the frame in the network's input: input px = frame px * scale + offset.
 struct Placement {

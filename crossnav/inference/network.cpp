@@ -11,7 +11,7 @@
 namespace crossnav::inference {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;  // protobuf's own limit
+constexpr std::uintmax_t kMostNetworkBytes = std::uintmax_t{2} << 30;  // protobuf's own limit
 
 /// Whether a tensor of shape `is` can match `wanted`; an unknown rank (no sides) can.
 bool Fits(const Shape& is, const Shape& wanted) {
@@ -51,7 +51,7 @@ Result<std::size_t> Find(const Port& wanted, const std::vector<Port>& ports, con
 
 Result<Network> Network::Open(const std::filesystem::path& path, const Signature& signature,
                               SessionOptions options) {
-  const auto bytes = ReadFile(path, kMostBytes);
+  const auto bytes = ReadFile(path, kMostNetworkBytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return FromBytes(*bytes, signature, std::move(options), path.string());
 }

@@ -27,7 +27,7 @@ bool HasApi() {
 
 /// Messages can begin with source locations, which "[ONNXRuntimeError] : 1 : FAIL : " ends, and
 /// continue with a page of addresses: keeps the rest of the first line.
-std::string Reason(const std::exception& error) {
+std::string OrtReason(const std::exception& error) {
   constexpr std::size_t kMost = 300;
   const std::string text = error.what();
   std::size_t begin = text.rfind("[ONNXRuntimeError]");
@@ -90,7 +90,7 @@ Result<void> AppendProvider(const std::string& provider, Ort::SessionOptions& op
     return {};
   } catch (const std::exception& error) {
     return Fail(ErrorCode::kUnsupported,
-                "\"" + provider + "\" cannot be loaded (" + Reason(error) +
+                "\"" + provider + "\" cannot be loaded (" + OrtReason(error) +
                     "); install its requirements, or set networks.provider = cpu",
                 "networks.provider");
   }
@@ -199,7 +199,7 @@ class OnnxRuntimeSession : public Session {
         out.push_back(FromOnnxRuntime(outputs_[i].name, results[i]));
       return out;
     } catch (const std::exception& error) {
-      return Fail(ErrorCode::kInvalid, "the network failed: " + Reason(error), where_);
+      return Fail(ErrorCode::kInvalid, "the network failed: " + OrtReason(error), where_);
     }
   }
 
@@ -247,7 +247,7 @@ Result<std::unique_ptr<Session>> OpenWithOnnxRuntime(const std::string& onnx,
     return std::make_unique<OnnxRuntimeSession>(onnx, own, where);
   } catch (const std::exception& error) {
     return Fail(ErrorCode::kMalformed,
-                "cannot be read as an ONNX network that ONNX Runtime runs: " + Reason(error),
+                "cannot be read as an ONNX network that ONNX Runtime runs: " + OrtReason(error),
                 where);
   }
 }

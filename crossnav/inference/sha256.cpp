@@ -10,7 +10,7 @@
 namespace crossnav::inference {
 namespace {
 
-using Words = std::array<std::uint32_t, 8>;
+using HashWords = std::array<std::uint32_t, 8>;
 constexpr int kRounds = 64, kBlock = 64;
 
 /// The first 32 bits of the fractional part.
@@ -21,7 +21,7 @@ std::uint32_t Fraction(long double x) {
 /// The standard's constants: of the cube roots of the first 64 primes, of the square roots of 8.
 struct Constants {
   std::array<std::uint32_t, kRounds> k{};
-  Words start{};
+  HashWords start{};
   Constants() {
     int n = 0;
     for (int p = 2; n < kRounds; ++p) {
@@ -34,7 +34,7 @@ struct Constants {
   }
 };
 
-void Absorb(const unsigned char* block, const Constants& c, Words& state) {
+void Absorb(const unsigned char* block, const Constants& c, HashWords& state) {
   std::array<std::uint32_t, kRounds> w{};
   for (int i = 0; i < 16; ++i)
     w[i] = static_cast<std::uint32_t>(block[4 * i]) << 24 | block[4 * i + 1] << 16 |
@@ -44,7 +44,7 @@ void Absorb(const unsigned char* block, const Constants& c, Words& state) {
     w[i] = w[i - 16] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ a >> 3) + w[i - 7] +
            (std::rotr(b, 17) ^ std::rotr(b, 19) ^ b >> 10);
   }
-  Words s = state;
+  HashWords s = state;
   for (int i = 0; i < kRounds; ++i) {
     const std::uint32_t choice = (s[4] & s[5]) ^ (~s[4] & s[6]);
     const std::uint32_t majority = (s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]);
@@ -61,7 +61,7 @@ void Absorb(const unsigned char* block, const Constants& c, Words& state) {
 
 std::string Sha256(std::string_view bytes) {
   static const Constants constants;
-  Words state = constants.start;
+  HashWords state = constants.start;
   const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
   std::size_t left = bytes.size();
   for (; left >= kBlock; left -= kBlock, p += kBlock) Absorb(p, constants, state);

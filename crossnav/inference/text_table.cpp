@@ -9,7 +9,7 @@ namespace crossnav::inference {
 namespace {
 
 /// False for a zero vector.
-bool Normalize(std::vector<float>& v) {
+bool NormalizeRow(std::vector<float>& v) {
   double squared = 0;
   for (const float x : v) squared += static_cast<double>(x) * x;
   if (squared < 1e-20) return false;
@@ -36,7 +36,7 @@ Result<TextTable> TextTable::Read(const ModelCard& card, int dim) {
                       "features have " +
                       std::to_string(dim),
                   card.text.table.string());
-    if (!Normalize(vector))
+    if (!NormalizeRow(vector))
       return Fail(ErrorCode::kInvalid, "the vector of \"" + name + "\" is zero",
                   card.text.table.string());
   }
@@ -53,7 +53,7 @@ Result<std::vector<float>> TextTable::Of(std::string_view text) const {
     if (CanonicalName(name) != wanted) continue;
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += vector[i];
   }
-  if (Normalize(mean)) return mean;
+  if (NormalizeRow(mean)) return mean;
   return Fail(ErrorCode::kUnsupported, "has no vector for \"" + std::string(text) + "\"", where_);
 }
 

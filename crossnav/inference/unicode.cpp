@@ -20,13 +20,13 @@ constexpr char32_t kReplacement = 0xFFFD;
 constexpr char32_t kSBase = 0xAC00, kLBase = 0x1100, kVBase = 0x1161, kTBase = 0x11A7;
 constexpr char32_t kLCount = 19, kVCount = 21, kTCount = 28, kSCount = kLCount * kVCount * kTCount;
 
-struct Range {
+struct CodeRange {
   char32_t first = 0, last = 0;
   std::vector<char32_t> to;  ///< image of `first`, or the class of the range
 };
 
 struct Tables {
-  std::map<std::string, std::vector<Range>, std::less<>> rows;
+  std::map<std::string, std::vector<CodeRange>, std::less<>> rows;
   std::map<std::pair<char32_t, char32_t>, char32_t> composed;
 };
 
@@ -35,11 +35,11 @@ char32_t Hex(const std::string& text) {
 }
 
 /// "a-b=c+d", with optional "-b" and "=c+d".
-Range ParseRange(const std::string& item) {
+CodeRange ParseRange(const std::string& item) {
   const auto equals = item.find('=');
   const std::string from = item.substr(0, equals);
   const auto dash = from.find('-');
-  Range range{Hex(from.substr(0, dash)), 0, {}};
+  CodeRange range{Hex(from.substr(0, dash)), 0, {}};
   range.last = dash == std::string::npos ? range.first : Hex(from.substr(dash + 1));
   if (equals == std::string::npos) return range;
   std::istringstream parts(item.substr(equals + 1));
@@ -47,9 +47,9 @@ Range ParseRange(const std::string& item) {
   return range;
 }
 
-const Range* Find(const std::vector<Range>& ranges, char32_t c) {
+const CodeRange* Find(const std::vector<CodeRange>& ranges, char32_t c) {
   const auto after = std::upper_bound(ranges.begin(), ranges.end(), c,
-                                      [](char32_t x, const Range& r) { return x < r.first; });
+                                      [](char32_t x, const CodeRange& r) { return x < r.first; });
   if (after == ranges.begin() || std::prev(after)->last < c) return nullptr;
   return &*std::prev(after);
 }
@@ -65,9 +65,9 @@ Tables ReadTables() {
     auto& row = tables.rows[name];
     while (words >> item) row.push_back(ParseRange(item));
     std::sort(row.begin(), row.end(),
-              [](const Range& a, const Range& b) { return a.first < b.first; });
+              [](const CodeRange& a, const CodeRange& b) { return a.first < b.first; });
   }
-  for (const Range& range : tables.rows["decompose"])
+  for (const CodeRange& range : tables.rows["decompose"])
     if (range.to.size() == 2 && Find(tables.rows["never_composed"], range.first) == nullptr)
       tables.composed[{range.to[0], range.to[1]}] = range.first;
   return tables;
@@ -78,15 +78,15 @@ const Tables& All() {
   return tables;
 }
 
-const std::vector<Range>& Row(std::string_view name) {
+const std::vector<CodeRange>& Row(std::string_view name) {
   const auto row = All().rows.find(name);
   CROSSNAV_CHECK(row != All().rows.end(), "config/unicode.txt has every property");
   return row->second;
 }
 
 /// Image of `c` in a row of mappings; empty = itself.
-std::u32string Mapped(const std::vector<Range>& row, char32_t c) {
-  const Range* range = Find(row, c);
+std::u32string Mapped(const std::vector<CodeRange>& row, char32_t c) {
+  const CodeRange* range = Find(row, c);
   if (range == nullptr) return {};
   if (range->to.size() > 1) return {range->to.begin(), range->to.end()};
   return {static_cast<char32_t>(range->to[0] + (c - range->first))};
@@ -100,15 +100,15 @@ void Decompose(char32_t c, std::u32string& out) {
     if (s % kTCount != 0) out.push_back(kTBase + s % kTCount);
     return;
   }
-  static const std::vector<Range>& row = Row("decompose");
+  static const std::vector<CodeRange>& row = Row("decompose");
   const std::u32string parts = Mapped(row, c);
   if (parts.empty()) out += c;
   for (const char32_t part : parts) Decompose(part, out);
 }
 
 int ClassOf(char32_t c) {
-  static const std::vector<Range>& row = Row("class");
-  const Range* range = Find(row, c);
+  static const std::vector<CodeRange>& row = Row("class");
+  const CodeRange* range = Find(row, c);
   return range == nullptr ? 0 : static_cast<int>(range->to[0]);
 }
 
@@ -183,7 +183,7 @@ bool Is(CharClass what, char32_t c) {
 }
 
 std::u32string Lower(std::u32string_view text) {
-  static const std::vector<Range>& row = Row("lower");
+  static const std::vector<CodeRange>& row = Row("lower");
   std::u32string out;
   for (const char32_t c : text) {
     const std::u32string mapped = Mapped(row, c);

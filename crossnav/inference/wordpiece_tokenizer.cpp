@@ -11,7 +11,7 @@
 namespace crossnav::inference {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 64U << 20U;
+constexpr std::uintmax_t kMostWordPieceBytes = 64U << 20U;
 constexpr std::size_t kLongestWord = 100;  // characters; BERT's
 
 bool IsCjk(char32_t c) {
@@ -106,7 +106,7 @@ class WordPieceTokenizer : public Tokenizer {
 }  // namespace
 
 Result<std::unique_ptr<Tokenizer>> ReadWordPieceTokenizer(const std::filesystem::path& vocabulary) {
-  const auto text = ReadFile(vocabulary, kMostBytes);
+  const auto text = ReadFile(vocabulary, kMostWordPieceBytes);
   if (!text) return tl::unexpected(text.error());
   auto tokenizer = std::make_unique<WordPieceTokenizer>();
   std::istringstream lines(*text);

@@ -16,10 +16,10 @@ namespace {
 
 using geometry::StairFlight;
 
-constexpr int kCell_vox = 3;          // chosen: a tread; nearer evidence is the same flight
-constexpr double kMinRise_m = 0.45;   // chosen: two to three risers
-constexpr int kMinConfirmed_vox = 5;  // chosen: as the smallest frontier
-constexpr double kEnd_m = 0.35;       // chosen: the level band, in which a flight begins and ends
+constexpr int kCell_vox = 3;               // chosen: a tread; nearer evidence is the same flight
+constexpr double kMinFlightRise_m = 0.45;  // chosen: two to three risers
+constexpr int kMinConfirmed_vox = 5;       // chosen: as the smallest frontier
+constexpr double kEnd_m = 0.35;  // chosen: the level band, in which a flight begins and ends
 
 VoxelKey CellOf(const VoxelKey& key) {
   const auto down = [](int i) { return (i >= 0 ? i : i - kCell_vox + 1) / kCell_vox; };
@@ -88,7 +88,7 @@ StairFlight FlightOf(Layers::const_iterator from, Layers::const_iterator to, dou
     confirmed += layer.confirmed;
   }
   if (confirmed < kMinConfirmed_vox ||
-      flight.steps_world.back().z() - flight.steps_world.front().z() < kMinRise_m) {
+      flight.steps_world.back().z() - flight.steps_world.front().z() < kMinFlightRise_m) {
     flight.steps_world.clear();
     return flight;
   }

@@ -14,7 +14,7 @@ using geometry::VoxelKey;
 namespace {
 
 constexpr double kSector_rad = 2 * M_PI / kGlanceSectors;
-constexpr int kRays = 4;           // chosen: of a sector, half a metre apart at the end
+constexpr int kSectorRays = 4;     // chosen: of a sector, half a metre apart at the end
 constexpr double kPlace_m = 1.0;   // chosen: four steps
 constexpr double kTurn_m2 = 0.05;  // chosen: of two headings with equal area, the nearer
 
@@ -71,10 +71,10 @@ std::optional<double> GlanceHeading(const planner::GroundMap& ground, const Voxe
   PerSector unseen_m2{};
   for (int sector = 0; sector < kGlanceSectors; ++sector) {
     if (looked.Has(agent.p_world, sector)) continue;
-    for (int ray = 0; ray < kRays; ++ray) {
-      const double angle_rad = (sector + (ray + 0.5) / kRays - 0.5) * kSector_rad;
+    for (int ray = 0; ray < kSectorRays; ++ray) {
+      const double angle_rad = (sector + (ray + 0.5) / kSectorRays - 0.5) * kSector_rad;
       unseen_m2[static_cast<std::size_t>(sector)] +=
-          UnseenAlong(ground, place, angle_rad, kSector_rad / kRays, reach);
+          UnseenAlong(ground, place, angle_rad, kSector_rad / kSectorRays, reach);
     }
   }
   const int own = SectorOf(agent.yaw_rad);

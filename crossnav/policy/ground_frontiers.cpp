@@ -10,7 +10,7 @@
 namespace crossnav::policy {
 namespace {
 
-constexpr std::array<std::size_t, 4> kSides = {6, 1, 4, 3};  // of kStepSides: +x, -x, +y, -y
+constexpr std::array<std::size_t, 4> kStraight = {6, 1, 4, 3};  // of kStepSides: +x, -x, +y, -y
 static_assert(planner::kStepSides[6][0] == 1 && planner::kStepSides[1][0] == -1 &&
               planner::kStepSides[4][1] == 1 && planner::kStepSides[3][1] == -1);
 
@@ -19,7 +19,7 @@ static_assert(planner::kStepSides[6][0] == 1 && planner::kStepSides[1][0] == -1 
 bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, VoxelKey* beyond) {
   planner::GroundPlaces& places = ground.places();
   const unsigned unseen = places.StepsFrom(ground, places.IndexOf(key)).unseen;
-  for (const std::size_t side : kSides) {
+  for (const std::size_t side : kStraight) {
     if ((unseen >> side & 1) == 0) continue;
     const auto& [dx, dy] = planner::kStepSides[side];
     *beyond = {key.x + dx, key.y + dy, key.z};

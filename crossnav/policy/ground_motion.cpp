@@ -14,8 +14,8 @@ namespace {
 using geometry::VoxelKey;
 using planner::GroundMap;
 
-constexpr double kCell_m = 0.05;     // chosen: nearer positions are the same
-constexpr double kBeside_vox = 15;   // chosen: room to turn around in beside the path
+constexpr double kSamePosition_m = 0.05;  // chosen: nearer positions are the same
+constexpr double kRoomToTurn_vox = 15;    // chosen: room to turn around in beside the path
 constexpr int kMaxExpansions = 600;  // chosen: a few times those of a turn around in a corridor
 constexpr double kUnseenCost = 3;    // chosen: [steps] onto ground that was not seen
 constexpr std::size_t kWindow = 30;  // chosen: places of the path that are searched
@@ -59,7 +59,7 @@ class CostToGo {
     // Beyond the agent as well, for positions beside the path.
     double limit = 1e18;
     while (search.Next() && search.cost() <= limit)
-      if (limit > 1e17 && search.CostOf(path.front())) limit = search.cost() + kBeside_vox;
+      if (limit > 1e17 && search.CostOf(path.front())) limit = search.cost() + kRoomToTurn_vox;
     return search;
   }
 
@@ -163,8 +163,8 @@ class LatticeSearch {
 
  private:
   VoxelKey CellOf(const Node& node) const {
-    return {static_cast<int>(std::floor(node.p.x() / kCell_m)),
-            static_cast<int>(std::floor(node.p.y() / kCell_m)), node.turn};
+    return {static_cast<int>(std::floor(node.p.x() / kSamePosition_m)),
+            static_cast<int>(std::floor(node.p.y() / kSamePosition_m)), node.turn};
   }
   int Wrapped(int turn) const {
     turn = (turn % turns_ + turns_) % turns_;

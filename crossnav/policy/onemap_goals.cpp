@@ -11,7 +11,7 @@
 namespace crossnav::policy {
 namespace {
 
-constexpr Column kSides[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+constexpr Column kColumnSides[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
 Column operator+(const Column& a, const Column& b) {
   return {a.x + b.x, a.y + b.y};
@@ -39,7 +39,7 @@ void Flood(const std::vector<Column>& seeds, int max_steps, const Enter& may_ent
     queue.pop_front();
     if (!visit(column)) return;
     if (steps == max_steps) continue;
-    for (const Column& side : kSides) {
+    for (const Column& side : kColumnSides) {
       const Column next = column + side;
       if (may_enter(next) && seen.insert(next).second) queue.emplace_back(next, steps + 1);
     }
@@ -86,7 +86,7 @@ std::set<Column> FrontierColumns(const OneMapView& view) {
   std::set<Column> border;
   for (const auto& [column, standing] : view.standing) {
     if (!IsExplored(view, column)) continue;
-    for (const Column& side : kSides)
+    for (const Column& side : kColumnSides)
       if (IsOpen(view, column + side)) border.insert(column + side);
   }
   return border;

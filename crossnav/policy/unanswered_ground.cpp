@@ -13,7 +13,7 @@ namespace {
 using geometry::VoxelKey;
 using geometry::VoxelMap;
 
-constexpr int kRays = 80;        // chosen: across the image; a voxel at three metres takes two
+constexpr int kImageRays = 80;   // chosen: across the image; a voxel at three metres takes two
 constexpr double kNear_m = 3.0;  // chosen: within it a depth camera answers for a floor
 constexpr double kEdge_m = 0.6;  // chosen: last part of a ray, over ground that was not seen
 constexpr double kSteep = 0.2;   // chosen: a flatter ray meets the floor too far away
@@ -50,7 +50,7 @@ std::vector<VoxelKey> UnansweredGround::Look(const Observation& obs, const Vecto
                                              const VoxelMap& map) {
   const double voxel_m = map.config().voxel_m;
   const Vector3d p_camera_world = obs.T_world_camera.translation();
-  const int stride = std::max(1, obs.depth_m.width / kRays);
+  const int stride = std::max(1, obs.depth_m.width / kImageRays);
   std::set<VoxelKey> seen;
   VoxelMap::Cursor cursor(map);
   for (int v = stride / 2; v < obs.depth_m.height; v += stride)

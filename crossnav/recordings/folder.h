@@ -11,6 +11,9 @@
 
 namespace crossnav::recordings {
 
+// chosen: frames without times lie far apart
+inline constexpr std::int64_t kUntimedFrame_ns = 1'000'000'000;
+
 struct FolderFrame {
   std::int64_t time_ns = 0;             ///< of the depth image
   std::filesystem::path colour, depth;  ///< colour empty: none near in time

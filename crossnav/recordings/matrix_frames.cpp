@@ -10,8 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kFrame_ns = 1'000'000'000;  // chosen: frames without times lie far apart
-
 /// Depth images, sorted by name.
 Result<std::vector<fs::path>> DepthFilesIn(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -75,7 +73,7 @@ Result<Folder> OpenMatrixFrames(const fs::path& path, const RecordingOptions& op
     if (!n)
       return Fail(ErrorCode::kMalformed, "must hold the 16 numbers of a 4 x 4 matrix",
                   file.string() + ", line " + std::to_string(rows[i].line));
-    const std::int64_t time_ns = static_cast<std::int64_t>(i) * kFrame_ns;
+    const std::int64_t time_ns = static_cast<std::int64_t>(i) * kUntimedFrame_ns;
     AddPose(*n, time_ns, folder.poses);  // lost poses are counted when used
     folder.frames.push_back({time_ns, path / "images" / (*depth)[i].filename(), (*depth)[i]});
   }

@@ -8,8 +8,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kFrame_ns = 1'000'000'000;  // chosen: frames without times lie far apart
-
 fs::path DepthFile(const fs::path& folder, const std::string& number) {
   std::error_code error;
   const fs::path pgm = folder / (number + ".pgm");
@@ -36,7 +34,7 @@ Result<Folder> OpenNumbered(const fs::path& path, const RecordingOptions& option
     }
     const auto& x = *n;
     const std::string number = std::to_string(folder.frames.size() + 1);
-    const std::int64_t time_ns = static_cast<std::int64_t>(folder.frames.size()) * kFrame_ns;
+    const std::int64_t time_ns = static_cast<std::int64_t>(folder.frames.size()) * kUntimedFrame_ns;
     folder.poses.Add(time_ns, {x[0], x[1], x[2]}, Eigen::Quaterniond(x[6], x[3], x[4], x[5]));
     folder.frames.push_back(
         {time_ns, path / "color" / (number + ".png"), DepthFile(path / "depth", number)});

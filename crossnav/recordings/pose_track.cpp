@@ -7,9 +7,9 @@
 namespace crossnav::recordings {
 namespace {
 
-constexpr double kFarthest_m = 1e5;   // as the agent's: far beyond any house
-constexpr double kNoise_m = 0.05;     // chosen: momentary error of a tracker's pose
-constexpr double kNoise_rad = 0.087;  // chosen: likewise
+constexpr double kFarthestPose_m = 1e5;  // as the agent's: far beyond any house
+constexpr double kNoise_m = 0.05;        // chosen: momentary error of a tracker's pose
+constexpr double kNoise_rad = 0.087;     // chosen: likewise
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Pose PoseOf(const Vector3d& p, const Eigen::Quaterniond& q) {
 
 bool PoseTrack::Add(std::int64_t time_ns, const Vector3d& p, const Eigen::Quaterniond& q) {
   const double norm = q.norm();
-  const bool is_good = p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest_m &&
+  const bool is_good = p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthestPose_m &&
                        std::isfinite(norm) && std::abs(norm - 1) < 0.1;
   // A unit quaternion keeps its bytes.
   if (is_good) samples_.push_back({time_ns, p, std::abs(norm - 1) < 1e-12 ? q : q.normalized()});

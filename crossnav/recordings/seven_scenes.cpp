@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kFrame_ns = 33'333'333;  // the Kinect's 30 frames a second
+constexpr std::int64_t kKinectFrame_ns = 33'333'333;  // the Kinect's 30 frames a second
 
 /// Numbers of the frames with a pose, sorted.
 Result<std::vector<int>> FramesIn(const fs::path& path) {
@@ -73,7 +73,7 @@ Result<Folder> OpenSevenScenes(const fs::path& path, const RecordingOptions& opt
   folder.depth = Pinhole{585.0, 585.0, 320.0, 240.0};
   folder.up = "-y";
   for (const int frame : *frames) {
-    const std::int64_t time_ns = frame * kFrame_ns;
+    const std::int64_t time_ns = frame * kKinectFrame_ns;
     auto ok = AddPose(path / NameOf(frame, ".pose.txt"), time_ns, folder.poses);
     if (!ok) return tl::unexpected(ok.error());
     folder.frames.push_back(

@@ -21,7 +21,7 @@ constexpr std::uint8_t kInflated = 8;                  // bit of a state byte
 constexpr std::size_t kRowFacts = 2 + 4 + 4 + 4 + 12;  // cell, row, weight, confidence, view
 constexpr std::uint16_t kHasCompact = 0x8000;          // bit of the number of rows
 
-class Writer {
+class RowWriter {
  public:
   template <class T>
   void Put(const T& value) {
@@ -36,9 +36,9 @@ class Writer {
 };
 
 // Reads past the end give zeros and make `ok` false.
-class Reader {
+class RowReader {
  public:
-  explicit Reader(ByteView bytes) : bytes_(bytes) {}
+  explicit RowReader(ByteView bytes) : bytes_(bytes) {}
   template <class T>
   T Get() {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -74,7 +74,7 @@ void PutHalves(const std::vector<std::uint16_t>& halves, Bytes& out) {
   }
 }
 
-bool IsSound(const PlacedRow& row) {
+bool IsSoundRow(const PlacedRow& row) {
   const memory::MemoryRow& r = row.data;
   return std::isfinite(r.weight) && r.weight > 0 && std::isfinite(r.best_confidence) &&
          r.p_best_view_world.allFinite() && row.row >= 0 &&
@@ -91,7 +91,7 @@ struct FeatureParts {
 };
 
 // Reads a scale for each row, 0 for half-precision rows. False if a scale is invalid.
-bool ReadScales(std::size_t dim, Reader r, std::vector<PlacedRow>& rows, FeatureParts& parts) {
+bool ReadScales(std::size_t dim, RowReader r, std::vector<PlacedRow>& rows, FeatureParts& parts) {
   for (PlacedRow& row : rows) {
     const float scale = parts.has_compact ? r.Get<float>() : 0.0f;
     if (!std::isfinite(scale) || scale < 0) return false;
@@ -124,7 +124,7 @@ void ReadNumbers(std::size_t dim, ByteView raw, const FeatureParts& parts,
 }  // namespace
 
 Bytes EncodeMapBlock(const geometry::MapBlock& block, geometry::VoxelMap::Cursor& states) {
-  Writer w;
+  RowWriter w;
   for (const BlockMask* mask :
        {&block.hit, &block.free, &block.agent_support, &block.stair_low, &block.stair_high})
     w.Put(mask->slices);
@@ -142,7 +142,7 @@ Bytes EncodeMapBlock(const geometry::MapBlock& block, geometry::VoxelMap::Cursor
 }
 
 std::optional<geometry::MapBlock> DecodeMapBlock(const VoxelKey& key, ByteView raw) {
-  Reader r(raw);
+  RowReader r(raw);
   geometry::MapBlock block;
   block.key = key;
   for (BlockMask* mask :
@@ -162,7 +162,7 @@ std::optional<geometry::MapBlock> DecodeMapBlock(const VoxelKey& key, ByteView r
 
 Bytes EncodeFeatureBlock(const memory::SemanticMemory& memory,
                          const std::vector<std::int64_t>& rows) {
-  Writer w;
+  RowWriter w;
   std::vector<std::uint16_t> halves;
   std::vector<std::int8_t> compact;
   std::vector<float> scales;
@@ -190,7 +190,7 @@ Bytes EncodeFeatureBlock(const memory::SemanticMemory& memory,
 
 std::optional<std::vector<PlacedRow>> DecodeFeatureBlock(const VoxelKey& key, int dim,
                                                          ByteView raw) {
-  Reader r(raw);
+  RowReader r(raw);
   const auto flagged = r.Get<std::uint16_t>();
   FeatureParts parts;
   parts.rows = flagged & ~kHasCompact;
@@ -212,7 +212,7 @@ std::optional<std::vector<PlacedRow>> DecodeFeatureBlock(const VoxelKey& key, in
   const auto numbers = static_cast<std::size_t>(dim);
   if (!ReadScales(numbers, r, rows, parts) || r.left() != parts.Bytes()) return std::nullopt;
   ReadNumbers(numbers, raw, parts, rows);
-  if (!std::all_of(rows.begin(), rows.end(), IsSound)) return std::nullopt;
+  if (!std::all_of(rows.begin(), rows.end(), IsSoundRow)) return std::nullopt;
   return rows;
 }
 

@@ -17,10 +17,10 @@ using objects::ObjectRecord;
 namespace {
 
 constexpr const char* kObjectTable = "object";
-constexpr std::size_t kMaxBytes = 1 << 24;    // chosen: a million voxels
-constexpr std::size_t kMaxName = 1000;        // chosen: of a category [bytes]
-constexpr std::size_t kMaxPicture = 1 << 17;  // chosen: 64 x 64 pixels need a tenth of it
-constexpr double kFarthest_m = 1e6;           // chosen: of a coordinate
+constexpr std::size_t kMaxObjectBytes = 1 << 24;  // chosen: a million voxels
+constexpr std::size_t kMaxName = 1000;            // chosen: of a category [bytes]
+constexpr std::size_t kMaxPicture = 1 << 17;      // chosen: 64 x 64 pixels need a tenth of it
+constexpr double kFarthest_m = 1e6;               // chosen: of a coordinate
 
 class Writer {
  public:
@@ -158,7 +158,7 @@ Result<void> WriteObjects(Database& db, const std::vector<ObjectRecord>& records
 std::vector<ObjectRecord> ReadObjects(Database& db, std::vector<std::string>& damaged) {
   std::vector<ObjectRecord> records;
   std::set<int> ids;
-  ForEachRow(db, kObjectTable, kMaxBytes, damaged, [&](std::int64_t, const Bytes& bytes) {
+  ForEachRow(db, kObjectTable, kMaxObjectBytes, damaged, [&](std::int64_t, const Bytes& bytes) {
     auto record = DecodeObject(bytes);
     if (!record || !ids.insert(record->id).second) return false;
     records.push_back(std::move(*record));

@@ -15,10 +15,10 @@ namespace {
 
 constexpr const char* kFlightTable = "flight";
 constexpr const char* kSeenTable = "seen_stair";
-constexpr std::size_t kMaxBytes = 1 << 20;      // chosen: forty thousand steps
-constexpr std::size_t kMaxSeenBytes = 1 << 26;  // chosen: three million voxels
-constexpr std::size_t kSeenBytes = 21;          // of one voxel
-constexpr std::size_t kFixed = 9;               // numbers before the steps
+constexpr std::size_t kMaxStairBytes = 1 << 20;  // chosen: forty thousand steps
+constexpr std::size_t kMaxSeenBytes = 1 << 26;   // chosen: three million voxels
+constexpr std::size_t kSeenBytes = 21;           // of one voxel
+constexpr std::size_t kFixed = 9;                // numbers before the steps
 
 constexpr const char* kPlacesTable = "flight_places";
 
@@ -164,14 +164,14 @@ Result<void> WriteFlights(Database& db, const std::vector<geometry::StairFlight>
 
 std::vector<geometry::StairFlight> ReadFlights(Database& db, std::vector<std::string>& damaged) {
   std::map<std::int64_t, geometry::StairFlight> flights;
-  ForEachRow(db, kFlightTable, kMaxBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
+  ForEachRow(db, kFlightTable, kMaxStairBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
     auto flight = DecodeFlight(bytes);
     if (!flight) return false;
     flight->id = static_cast<int>(row);  // older files lack ids
     flights.emplace(row, std::move(*flight));
     return true;
   });
-  ForEachRow(db, kPlacesTable, kMaxBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
+  ForEachRow(db, kPlacesTable, kMaxStairBytes, damaged, [&](std::int64_t row, const Bytes& bytes) {
     const auto it = flights.find(row);
     return it == flights.end() || DecodePlaces(bytes, &it->second);
   });

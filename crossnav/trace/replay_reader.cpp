@@ -80,7 +80,7 @@ Result<void> ReadChanges(std::string_view data, ReplayStep& step) {
   return {};
 }
 
-Result<void> ReadStep(std::string_view data, ReplayStep& step) {
+Result<void> ReadStepText(std::string_view data, ReplayStep& step) {
   auto trace = StepTraceFromJson(data);
   if (!trace) return tl::unexpected(trace.error());
   if (trace->step != step.trace.step) return Malformed("the step's number and time disagree");
@@ -102,7 +102,7 @@ Result<void> Take(Replay& replay, const std::string& topic, const McapMessage& m
                     : topic == "/perception/boxes"  ? ReadBoxes
                     : topic == "/perception/maps"   ? ReadMaps
                     : topic == "/map/voxel_changes" ? ReadChanges
-                    : topic == "/agent/step"        ? ReadStep
+                    : topic == "/agent/step"        ? ReadStepText
                                                     : nullptr;
   if (read == nullptr) return {};
   return read(message.data, StepAt(replay.steps, message.log_time_ns));

@@ -13,6 +13,7 @@ using crossnav::testing::BoxOf;
 using test::BoxWalker;
 using test::FakeSight;
 using test::FakeSuite;
+using testing::IsOn;
 using testing::RunAgent;
 using testing::SmallConfig;
 using testing::Walk;
@@ -22,17 +23,13 @@ const Box3 kBed = BoxOf(6.4, 2.2, 0, 7.8, 3.8, 0.6);
 const Vector3d kSofaCentre(3.0, 2.0, 0.35);
 
 /// One long room; the couch stands between the agent and the bed.
-BoxWalker LongRoom() {
+BoxWalker SofaAndBed() {
   BoxWalker walker;
   walker.sensor = SmallConfig().sensor;
   walker.rooms.shell = BoxOf(0, 0, 0, 8, 4, 2.6);
   walker.rooms.solids = {kSofa, kBed};
   walker.pose.p_world = Vector3d(0.8, 2.0, 0);
   return walker;
-}
-
-bool IsOn(const Box3& box, const Vector3d& p) {
-  return box.HorizontalDistance(p) < 0.05 && p.z() < box.max.z() + 0.05 && p.z() > 0.05;
 }
 
 /// Seen from within `lie_deg` of the direction to -x, the couch is a bed with confidence .75.
@@ -85,7 +82,7 @@ Outcome SearchForBed(const FakeSight& sight, const std::string& memory) {
   config.verify.memory = memory;
   Agent agent(config, FakeSuite(sight));
   EXPECT_TRUE(agent.SetGoal("bed").has_value());
-  BoxWalker walker = LongRoom();
+  BoxWalker walker = SofaAndBed();
   Outcome outcome{RunAgent(agent, walker, 600)};
   const auto& p = outcome.walk.p_claimed_world;
   outcome.at_bed = p && kBed.HorizontalDistance(*p) < 0.1;

@@ -11,6 +11,7 @@ using crossnav::testing::BoxOf;
 using test::BoxWalker;
 using test::FakeSight;
 using test::FakeSuite;
+using testing::IsOn;
 using testing::SmallConfig;
 
 const Box3 kGrey = BoxOf(2.6, 1.6, 0, 3.4, 2.4, 0.7);
@@ -23,10 +24,6 @@ BoxWalker LongRoom() {
   walker.rooms.solids = {kGrey, kRed};
   walker.pose.p_world = Vector3d(0.8, 2.0, 0);
   return walker;
-}
-
-bool IsOn(const Box3& box, const Vector3d& p) {
-  return box.HorizontalDistance(p) < 0.05 && p.z() < box.max.z() + 0.05 && p.z() > 0.05;
 }
 
 template <class F>

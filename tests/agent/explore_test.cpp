@@ -51,13 +51,13 @@ void AddTreads(VoxelMap& map, int count, int rise_vox) {
   }
 }
 
-struct Choice {
+struct Chosen {
   GroundTarget target;
   bool is_flight = false;
 };
 
 /// Choice of an agent at `start` that looks west, pursues `committed` and saw `hints`.
-Choice Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart,
+Chosen Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart,
               const policy::Candidate* committed = nullptr,
               const std::vector<policy::Sighting>& hints = {}) {
   Config config;
@@ -127,14 +127,14 @@ TEST(Explore, APathToALikelierFloorIsContinued) {
   VoxelMap map = Room();
   AddTreads(map, 6, 2);
   const VoxelKey at_door{3, 15, 1};
-  const Choice first = Choose(map, "bed", at_door);
+  const Chosen first = Choose(map, "bed", at_door);
   ASSERT_TRUE(first.is_flight);
   EXPECT_TRUE(Choose(map, "bed", at_door, &first.target.candidate).is_flight);
 }
 
 TEST(Explore, AHintIsGoneToPastANearerDoor) {
   const VoxelMap map = Room();
-  const Choice choice = Choose(map, "chair", {5, 15, 1}, nullptr, {HintAt(24, 4)});
+  const Chosen choice = Choose(map, "chair", {5, 15, 1}, nullptr, {HintAt(24, 4)});
   EXPECT_EQ(choice.target.candidate.kind, policy::CandidateKind::kSighting);
 }
 
@@ -143,7 +143,7 @@ TEST(Explore, AHintIsGoneToPastANearerDoor) {
 TEST(Explore, AHintBehindAWallIsGoneToThroughTheDoorThatLeadsThere) {
   const VoxelMap map = Room();
   for (const int x : {kSide + 3, -6}) {
-    const Choice choice = Choose(map, "chair", kStart, nullptr, {HintAt(x, 0)});
+    const Chosen choice = Choose(map, "chair", kStart, nullptr, {HintAt(x, 0)});
     EXPECT_EQ(choice.target.candidate.kind, policy::CandidateKind::kTraversableFrontier);
     EXPECT_EQ(choice.target.candidate.p_focus_world.x() > 1.5, x > 0);
   }
@@ -173,7 +173,7 @@ TEST(Explore, TheFirstTreadsDownLeadToAnotherFloor) {
   AddTreads(map, 2, -2);
   for (int y = 11; y <= 18; ++y) Wall(map, kSide + 6, y);  // little unseen ground beyond
   for (int y = 12; y < 18; ++y) Wall(map, -1, y);          // no door
-  const Choice choice = Choose(map, "chair");
+  const Chosen choice = Choose(map, "chair");
   EXPECT_TRUE(choice.is_flight);
   EXPECT_LT(choice.target.score_m, choice.target.cost_m + 15);
 }
@@ -197,7 +197,7 @@ TEST(Explore, AnIntermediateFloorIsExploredBeforeTheNextFlight) {
       SetState(map, {kWest + 4, y, z}, VoxelState::kOccupied);
     }
   }
-  const Choice choice = Choose(map, "chair", {kWest + 3, 15, kFloor + 1});
+  const Chosen choice = Choose(map, "chair", {kWest + 3, 15, kFloor + 1});
   EXPECT_NEAR(choice.target.candidate.p_focus_world.x(), 0.1 * kEast, 0.2)
       << choice.target.candidate.p_focus_world.transpose();
 }

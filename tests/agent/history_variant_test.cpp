@@ -34,7 +34,7 @@ Config WithHistory(bool use_history) {
 }
 
 /// One observation, and the goal that was set just before it.
-struct Moment {
+struct ErrandMoment {
   std::string new_goal;
   Observation obs;
 };
@@ -45,10 +45,10 @@ struct Errand {
 };
 
 /// Observations of an agent with or without history during the errands.
-std::vector<Moment> Record(bool use_history, const std::vector<Errand>& errands) {
+std::vector<ErrandMoment> Record(bool use_history, const std::vector<Errand>& errands) {
   Agent agent(WithHistory(use_history), FakeSuite(CouchSight()));
   BoxWalker walker = TwoRooms();
-  std::vector<Moment> moments;
+  std::vector<ErrandMoment> moments;
   for (const Errand& errand : errands) {
     EXPECT_TRUE(agent.SetGoal(errand.goal).has_value());
     for (int i = 0; i < errand.steps; ++i) {
@@ -105,7 +105,7 @@ struct Differences {
 };
 
 /// Both variants on the same moments, held against each other after every goal and step.
-Differences Compare(const std::vector<Moment>& moments) {
+Differences Compare(const std::vector<ErrandMoment>& moments) {
   Agent with(WithHistory(true), FakeSuite(CouchSight()));
   Agent without(WithHistory(false), FakeSuite(CouchSight()));
   Differences seen;
@@ -141,7 +141,7 @@ Differences Compare(const std::vector<Moment>& moments) {
 TEST(HistoryVariant, ChangesNothingButHistoryPoisOnEqualObservations) {
   const std::vector<Errand> errands = {{"toilet", 130}, {"couch", 80}, {"bed", 25}, {"couch", 40}};
   for (const bool driven_by_history : {true, false}) {
-    const std::vector<Moment> moments = Record(driven_by_history, errands);
+    const std::vector<ErrandMoment> moments = Record(driven_by_history, errands);
     ASSERT_GT(moments.size(), 90u);
     const Differences seen = Compare(moments);
     // The comparison saw all that it is about.

@@ -39,16 +39,16 @@ BoxWalker RandomHouse(std::uint64_t seed) {
 
 using Moment = std::tuple<int, int, int, int, int>;  // voxel x, y; heading; target x, y
 
-struct Outcome {
+struct WalkOutcome {
   int steps = 0, most_repeats = 0;
   bool all_explored = false;
 };
 
-Outcome Explore(std::uint64_t seed, int budget) {
+WalkOutcome Explore(std::uint64_t seed, int budget) {
   Agent agent(SmallConfig(), FakeSuite({}));
   EXPECT_TRUE(agent.SetGoal("unicorn").has_value());
   BoxWalker walker = RandomHouse(seed);
-  Outcome outcome;
+  WalkOutcome outcome;
   std::map<Moment, int> moments;
   std::int64_t known = 0;
   for (; outcome.steps < budget; ++outcome.steps) {
@@ -137,7 +137,7 @@ TEST(Progress, ASlidingStepMarksTheObstacleBesideIt) {
 TEST(Progress, NoStateRecursAndEverySearchEnds) {
   constexpr int kBudget = 3000, kRepeats = 8;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const Outcome outcome = Explore(seed, kBudget);
+    const WalkOutcome outcome = Explore(seed, kBudget);
     EXPECT_TRUE(outcome.all_explored) << "house " << seed << " after " << outcome.steps;
     EXPECT_LE(outcome.most_repeats, kRepeats) << "house " << seed;
   }

@@ -119,4 +119,9 @@ inline WorldBytes BytesOf(const Agent& agent) {
   return bytes;
 }
 
+/// Whether a claimed point lies on the object in the box.
+inline bool IsOn(const Box3& box, const Vector3d& p) {
+  return box.HorizontalDistance(p) < 0.05 && p.z() < box.max.z() + 0.05 && p.z() > 0.05;
+}
+
 }  // namespace crossnav::agent::testing

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
@@ -55,8 +56,8 @@ class Cli : public ::testing::Test {
   static Outcome RunIn(const TempFolder& folder, const std::string& arguments,
                        const std::string& before = {}) {
     const fs::path out = folder.path() / "stdout", err = folder.path() / "stderr";
-    const std::string command = "cd '" + folder.path().string() + "' && " + before +
-                                " '" CROSSNAV_PROGRAM "' " + arguments + " >'" + out.string() +
+    const std::string command = "cd '" + folder.path().string() + "' && " + before + " '" +
+                                test::ProgramPath() + "' " + arguments + " >'" + out.string() +
                                 "' 2>'" + err.string() + "'";
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadText(out), ReadText(err)};

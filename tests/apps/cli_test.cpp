@@ -10,6 +10,7 @@
 
 #include "apps/cli_fixture.h"
 #include "crossnav/core/png_image.h"
+#include "support/places.h"
 #include "support/zip_archive.h"
 
 namespace crossnav {
@@ -102,7 +103,8 @@ TEST_F(Cli, TwoBenchesRunAtOnce) {
   const std::string bench = std::string("bench --quiet") + kSmall;
   for (int round = 0; round < 3; ++round) {
     const Outcome outcome =
-        RunIn(folder_, bench, "('" CROSSNAV_PROGRAM "' " + bench + " >beside 2>&1; touch ended) &");
+        RunIn(folder_, bench,
+              "('" + test::ProgramPath() + "' " + bench + " >beside 2>&1; touch ended) &");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     for (int i = 0; i < 300 && !std::filesystem::exists(At("ended")); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));

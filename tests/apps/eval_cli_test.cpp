@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/cli_fixture.h"
+#include "support/places.h"
 
 namespace crossnav {
 namespace {
@@ -62,8 +63,8 @@ TEST_F(EvalCli, AnObjectNavFileIsJudgedAsTheFieldDoes) {
   WriteText(At("objectnav.json"), file.dump());
   const Outcome outcome =
       Run("eval --quiet --json --scenes scenes --episodes objectnav.json --out run --config "
-          "'" CROSSNAV_SOURCE_DIR "/config/objectnav.toml'" +
-          std::string(kSmall));
+          "'" +
+          test::SourcePath("config/objectnav.toml") + "'" + std::string(kSmall));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json document = Json::parse(outcome.out);
   EXPECT_EQ(document["episodes"], 4);
@@ -117,7 +118,7 @@ TEST_F(EvalCli, AKilledEvalResumesToTheSameRecords) {
       std::string("eval --quiet --scenes scenes --episodes e.json --jobs 2") + kSmall;
   ASSERT_EQ(Run(eval + " --out whole").exit_code, 0);
   const std::string killed =
-      "cd '" + folder_.path().string() + "'; '" CROSSNAV_PROGRAM "' " + eval +
+      "cd '" + folder_.path().string() + "'; '" + test::ProgramPath() + "' " + eval +
       " --out killed & pid=$!; until [ \"$(cat killed/results.jsonl 2>/dev/null | wc -l)\" -ge 2 "
       "]; "
       "do kill -0 $pid || exit 1; sleep 0.02; done; kill -9 $pid; wait $pid 2>/dev/null; true";

@@ -4,11 +4,12 @@
 #include <chrono>
 
 #include "cli_fixture.h"
+#include "support/places.h"
 
 namespace crossnav::test {
 namespace {
 
-const fs::path kDuplex = fs::path(CROSSNAV_SOURCE_DIR).parent_path() / "shared/data/ifc/Duplex.ifc";
+const fs::path kDuplex = test::SharedPath("data/ifc/Duplex.ifc");
 
 class IfcCli : public Cli {
  protected:

@@ -12,6 +12,7 @@
 #include "apps/cli_fixture.h"
 #include "crossnav/core/rng.h"
 #include "homes/home_maker.h"
+#include "support/places.h"
 
 namespace crossnav {
 namespace {
@@ -26,7 +27,8 @@ class Killed : public test::Cli {
  protected:
   /// Starts the program in the folder and ends it after `delay`; true if it was still running.
   bool KillAfter(const std::string& arguments, std::chrono::microseconds delay) {
-    const std::string command = "exec '" CROSSNAV_PROGRAM "' " + arguments + " >/dev/null 2>&1";
+    const std::string command =
+        "exec '" + test::ProgramPath() + "' " + arguments + " >/dev/null 2>&1";
     const pid_t child = fork();
     if (child == 0) {
       if (chdir(folder_.path().c_str()) != 0) _exit(127);

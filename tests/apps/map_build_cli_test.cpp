@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/cli_fixture.h"
+#include "support/places.h"
 
 namespace crossnav {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using test::Json;
 using test::Outcome;
 
-const std::string kBags = CROSSNAV_SOURCE_DIR "/tests/recordings/data/";
+const std::string kBags = test::SourcePath("tests/recordings/data/");
 
 class MapBuildCli : public test::Cli {
  protected:
@@ -82,7 +83,7 @@ TEST_F(MapBuildCli, ErrorsExitWith1AndWriteNothing) {
 }
 
 TEST_F(MapBuildCli, FiveRealFramesAreMappedAndAnswerAQuestion) {
-  const std::string frames = std::string(CROSSNAV_SHARED_DIR) + "/data/rgbd";
+  const std::string frames = test::SharedPath("data/rgbd");
   if (!std::filesystem::exists(frames)) GTEST_SKIP() << "no real frames beside the project";
   const std::string command = "map build --quiet --json --from '" + frames +
                               "' --intrinsics 518,519,325.5,253.5 --out five.map";
@@ -102,7 +103,7 @@ TEST_F(MapBuildCli, FiveRealFramesAreMappedAndAnswerAQuestion) {
 TEST_F(MapBuildCli, TheFileThatAPresetLacksIsNamedWithItsRemedy) {
   std::filesystem::create_directory(At("nets"));
   for (const char* card : {"crossnav_small.toml", "deimv2_femto_coco.toml"})
-    std::filesystem::copy(CROSSNAV_SOURCE_DIR "/networks/" + std::string(card), At("nets"));
+    std::filesystem::copy(test::SourcePath("networks/" + std::string(card)), At("nets"));
   const Outcome outcome = RunIn(folder_,
                                 "map build --quiet --from " + kBags +
                                     "raw --out a.map --networks real --set networks.dir=nets",
@@ -115,7 +116,7 @@ TEST_F(MapBuildCli, TheFileThatAPresetLacksIsNamedWithItsRemedy) {
 }
 
 TEST_F(MapBuildCli, ADetectorForPhotographsIsTheDefaultWhereItsFileIs) {
-  const std::string data = std::string(CROSSNAV_SHARED_DIR) + "/data";
+  const std::string data = test::SharedPath("data");
   if (!std::filesystem::exists(data + "/models")) GTEST_SKIP() << "no detector beside the project";
   const std::string command = "map build --json --from '" + data +
                               "/rgbd' --intrinsics 518,519,325.5,253.5 --out five.map --goal ";

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "apps/cli_fixture.h"
+#include "support/places.h"
 
 namespace crossnav {
 namespace {
@@ -137,7 +138,7 @@ TEST_F(MapCli, ALimitOfRowsIsKeptAndReportedEverywhere) {
 }
 
 TEST_F(MapCli, RealClipVectorsFindASofaByAnyOfItsNames) {
-  const std::string clip = std::string(CROSSNAV_SHARED_DIR) + "/data/clip";
+  const std::string clip = test::SharedPath("data/clip");
   if (!std::filesystem::exists(clip)) GTEST_SKIP() << "no CLIP vectors beside the project";
   const std::string set = " --set ground_truth.clip_dir='" + clip + "'";
   const std::string look = "run --quiet --json --scenes scenes --episodes e.json --episode " +

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "apps/cli_fixture.h"
+#include "support/places.h"
 #include "support/zip_archive.h"
 
 namespace crossnav {
@@ -20,7 +21,7 @@ using test::WriteText;
 
 constexpr const char* kScene = " scenes/00001-CrossnavHouse";
 constexpr const char* kEpisodes = " --scenes scenes --episodes e.json";
-constexpr const char* kOneRoom =
+constexpr const char* kOneRoomHome =
     "world generate --seed 5 --floors 1 --area 60 --furniture none --out houses";
 
 /// The program in a folder that also has a run, a replay, a map and small inputs of other kinds.
@@ -77,7 +78,7 @@ class Paths : public test::Cli {
 
   /// Commands with one output file: the text before the path, and the option.
   std::vector<std::pair<std::string, std::string>> FileOutputs() {
-    return {{std::string(kOneRoom), "--contact-sheet"},
+    return {{std::string(kOneRoomHome), "--contact-sheet"},
             {std::string("scene render --top-down") + kScene, "--out"},
             {"episodes generate --scenes scenes --count 1", "--out"},
             {RunOf() + " --out new", "--replay"},
@@ -199,9 +200,8 @@ TEST_F(Paths, AFullDiskLeavesNoHalfWrittenFileAndNoFalseSuccess) {
 }
 
 TEST_F(Paths, StdoutThatTakesNothingIsAFailure) {
-  const std::string command = "cd '" + folder_.path().string() +
-                              "' && '" CROSSNAV_PROGRAM "' scene info --json" + kScene +
-                              " >/dev/full 2>seen";
+  const std::string command = "cd '" + folder_.path().string() + "' && '" + test::ProgramPath() +
+                              "' scene info --json" + kScene + " >/dev/full 2>seen";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
   EXPECT_NE(ReadText(At("seen")).find("stdout: cannot be written"), std::string::npos);
 }

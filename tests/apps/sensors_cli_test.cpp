@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/cli_fixture.h"
+#include "support/places.h"
 
 namespace crossnav {
 namespace {
@@ -15,7 +16,7 @@ class RealFrames : public SensorsCli {
  protected:
   /// What `bench sensors` says of the real frames; null where they are not here.
   Json Trials() {
-    const std::string data = CROSSNAV_SHARED_DIR "/data";
+    const std::string data = test::SharedPath("data");
     if (!std::filesystem::exists(data + "/hololens")) return nullptr;
     const Outcome outcome =
         Run("bench sensors " + data + " --quiet --json --set map.clearing=evidence");
@@ -26,7 +27,7 @@ class RealFrames : public SensorsCli {
 
 TEST_F(RealFrames, AMapOfRealFramesHoldsInFramesThatWereLeftOut) {
   const Json trials = Trials();
-  if (trials.is_null()) GTEST_SKIP() << "no real frames: " CROSSNAV_SHARED_DIR "/data/hololens";
+  if (trials.is_null()) GTEST_SKIP() << "no real frames: " << test::SharedPath("data/hololens");
   const Json& room = trials["hololens"];
   EXPECT_EQ(room["frames"], 94);
   EXPECT_EQ(room["held_out"], 23);

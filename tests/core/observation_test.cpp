@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/core/observation.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "crossnav/core/rng.h"
@@ -8,11 +10,11 @@
 namespace crossnav {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
+using std::numbers::pi;
 
 AgentPose AnyPose(Rng& rng) {
   return {{rng.Uniform(-9, 9), rng.Uniform(-9, 9), rng.Uniform(-3, 3)},
-          rng.Uniform(-kPi, kPi),
+          rng.Uniform(-pi, pi),
           rng.Uniform(-1.2, 1.2)};
 }
 

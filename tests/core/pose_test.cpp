@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@
 namespace crossnav {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
+using std::numbers::pi;
 
 /// The camera's rotation as two elementary turns of a camera that looks along world +x: the oracle.
 Eigen::Matrix3d RotationFromTurns(double yaw_rad, double pitch_rad) {
@@ -32,7 +33,7 @@ TEST(CameraPose, EqualsYawThenPitchOfALevelCamera) {
   for (int i = 0; i < 200; ++i) {
     AgentPose agent;
     agent.p_world = {rng.Uniform(-9, 9), rng.Uniform(-9, 9), rng.Uniform(-3, 3)};
-    agent.yaw_rad = rng.Uniform(-kPi, kPi);
+    agent.yaw_rad = rng.Uniform(-pi, pi);
     agent.pitch_rad = rng.Uniform(-1.5, 1.5);
     const Pose T = CameraPose(agent, 0.88);
     EXPECT_TRUE(T.linear().isApprox(RotationFromTurns(agent.yaw_rad, agent.pitch_rad), 1e-12));
@@ -46,7 +47,7 @@ TEST(CameraPose, ComesBackFromItsTransform) {
   for (int i = 0; i < 200; ++i) {
     AgentPose agent;
     agent.p_world = {rng.Uniform(-9, 9), rng.Uniform(-9, 9), rng.Uniform(-3, 3)};
-    agent.yaw_rad = rng.Uniform(-kPi, kPi);
+    agent.yaw_rad = rng.Uniform(-pi, pi);
     agent.pitch_rad = rng.Uniform(-1.5, 1.5);
     const double height_m = rng.Uniform(0.1, 2);
     const AgentPose back = AgentPoseOf(CameraPose(agent, height_m), height_m);
@@ -59,18 +60,18 @@ TEST(CameraPose, ComesBackFromItsTransform) {
 TEST(CameraPose, YawSurvivesLookingStraightDown) {
   AgentPose agent;
   agent.yaw_rad = 0.7;
-  agent.pitch_rad = -kPi / 2;
+  agent.pitch_rad = -pi / 2;
   EXPECT_NEAR(AgentPoseOf(CameraPose(agent, 1), 1).yaw_rad, 0.7, 1e-9);
 }
 
 TEST(WrapAngle, KeepsTheDirectionAndStaysInTheHalfOpenCircle) {
-  EXPECT_DOUBLE_EQ(WrapAngle(kPi), kPi);
-  EXPECT_DOUBLE_EQ(WrapAngle(-kPi), kPi);
+  EXPECT_DOUBLE_EQ(WrapAngle(pi), pi);
+  EXPECT_DOUBLE_EQ(WrapAngle(-pi), pi);
   Rng rng(3);
   for (int i = 0; i < 500; ++i) {
     const double angle = rng.Uniform(-40, 40), wrapped = WrapAngle(angle);
-    EXPECT_GT(wrapped, -kPi);
-    EXPECT_LE(wrapped, kPi);
+    EXPECT_GT(wrapped, -pi);
+    EXPECT_LE(wrapped, pi);
     EXPECT_NEAR(std::cos(wrapped), std::cos(angle), 1e-9);
     EXPECT_NEAR(std::sin(wrapped), std::sin(angle), 1e-9);
   }
@@ -118,7 +119,7 @@ TEST(Camera, BackProjectionUndoesThePinholeProjection) {
 TEST(Camera, ThePixelBelowTheCentreSeesTheFloorInFront) {
   const CameraIntrinsics K = IntrinsicsFromHfov(64, 64, DegToRad(90));
   AgentPose agent;
-  agent.yaw_rad = kPi / 2;  // looks along world +y
+  agent.yaw_rad = pi / 2;  // looks along world +y
   const Vector3d p = CameraPose(agent, 1.0) * BackProjectPixel(K, K.cx, K.cy + K.fy / 2, 2.0);
   EXPECT_NEAR((p - Vector3d(0, 2, 0)).norm(), 0, 1e-9);
 }

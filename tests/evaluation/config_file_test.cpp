@@ -7,6 +7,7 @@
 #include <set>
 
 #include "crossnav/core/config_visitor.h"
+#include "support/places.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -226,7 +227,7 @@ TEST(ConfigFile, AMistakeInAnOldKeysValueNamesTheKeyAsGiven) {
 // The paper's single-object protocol is its frozen configuration: one goal, and nothing else.
 TEST(ConfigFile, TheSingleObjectProtocolOfThePaperChangesTheNumberOfGoalsOnly) {
   RunConfig config;
-  ASSERT_TRUE(ApplyConfigFile(CROSSNAV_SOURCE_DIR "/config/objectnav_paper.toml", config));
+  ASSERT_TRUE(ApplyConfigFile(crossnav::test::SourcePath("config/objectnav_paper.toml"), config));
   EXPECT_EQ(config.dataset.goals, 1);
   config.dataset.goals = 3;
   EXPECT_EQ(DumpJson(config), DumpJson(RunConfig{}));

@@ -20,10 +20,10 @@ namespace {
 
 using sim::test::MicroScene;
 
-const RunConfig kConfig;
+const RunConfig kWorldConfig;
 
 sim::NavMesh MeshOf(const sim::Scene& scene) {
-  auto mesh = sim::NavMesh::Build(scene, kConfig.navmesh);
+  auto mesh = sim::NavMesh::Build(scene, kWorldConfig.navmesh);
   EXPECT_TRUE(mesh.has_value());
   return std::move(*mesh);
 }
@@ -79,7 +79,8 @@ TEST(ConfigPaperWorld, ForwardStepAndIncrements) {
   const sim::Scene scene = m.Finish();
   const sim::NavMesh mesh = MeshOf(scene);
   const sim::RayCaster caster(scene);
-  sim::Simulator simulator(scene, mesh, caster, kConfig.agent.sensor, kConfig.agent.action);
+  sim::Simulator simulator(scene, mesh, caster, kWorldConfig.agent.sensor,
+                           kWorldConfig.agent.action);
   ASSERT_TRUE(simulator.Reset({{2, 2, 0}, 0, 0}).has_value());
   EXPECT_NEAR(simulator.Step(Action::kMoveForward), 0.25, 1e-4);
   simulator.Step(Action::kTurnLeft);
@@ -92,8 +93,8 @@ TEST(ConfigPaperWorld, SuccessRadius) {
   Target target;
   target.box = {Vector3d(0, 0, 0), Vector3d(1, 1, 1)};
   target.floors = {0};
-  EXPECT_TRUE(IsWithinBoxRadius(target, {2.49, 0.5, 0}, 0, kConfig.eval));
-  EXPECT_FALSE(IsWithinBoxRadius(target, {2.51, 0.5, 0}, 0, kConfig.eval));
+  EXPECT_TRUE(IsWithinBoxRadius(target, {2.49, 0.5, 0}, 0, kWorldConfig.eval));
+  EXPECT_FALSE(IsWithinBoxRadius(target, {2.51, 0.5, 0}, 0, kWorldConfig.eval));
 }
 
 class ConfigPaperHouse : public test::EmbeddedHouseTest {};
@@ -102,7 +103,7 @@ TEST_F(ConfigPaperHouse, EpisodesHaveThreeGoalsOfSixCategories) {
   const GeneratorScene scene{scene_id_, context_.get()};
   GeneratorOptions options;
   options.count = 12;
-  const auto file = GenerateEpisodes({&scene, 1}, kConfig, options);
+  const auto file = GenerateEpisodes({&scene, 1}, kWorldConfig, options);
   ASSERT_TRUE(file) << file.error().Message();
   for (const Episode& episode : file->episodes) EXPECT_EQ(episode.goals.size(), 3u);
   EXPECT_EQ((std::set<std::string_view>(kCategories.begin(), kCategories.end())),

@@ -10,6 +10,7 @@
 
 #include "crossnav/evaluation/episodes/habitat_frame.h"
 #include "crossnav/evaluation/files/gzip_file.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
@@ -110,7 +111,7 @@ TEST(Episodes, OneMapFileGetsIdsFromContent) {
 
 TEST(Episodes, RealObjectNavFilesAreRead) {
   const std::filesystem::path path =
-      std::filesystem::path(CROSSNAV_SHARED_DIR) / "data/objectnav_mini/v2/val_mini.json.gz";
+      crossnav::test::SharedPath("data/objectnav_mini/v2/val_mini.json.gz");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const auto file = ReadEpisodes(path);
   ASSERT_TRUE(file) << file.error().Message();
@@ -184,7 +185,7 @@ TEST(Episodes, GoalsInsideTheEpisodesOfAnObjectNavFileAreRead) {
 
 TEST(Episodes, EveryGoalOfTheRealFilesHasViewpointsOfItsScene) {
   const std::filesystem::path path =
-      std::filesystem::path(CROSSNAV_SHARED_DIR) / "data/objectnav_mini/v2/val_mini.json.gz";
+      crossnav::test::SharedPath("data/objectnav_mini/v2/val_mini.json.gz");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const auto file = ReadEpisodes(path);
   ASSERT_TRUE(file) << file.error().Message();

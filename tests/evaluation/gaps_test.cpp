@@ -18,7 +18,7 @@ StageRecord Stage(double shortest_m, double length_m, StageReach reach) {
   return stage;
 }
 
-EpisodeRecord Episode(const std::string& id, std::vector<StageRecord> stages) {
+EpisodeRecord EpisodeWith(const std::string& id, std::vector<StageRecord> stages) {
   EpisodeRecord episode;
   episode.episode_id = id;
   episode.scene_id = "a/A.glb";
@@ -31,7 +31,7 @@ EpisodeRecord Failed(const std::string& id) {
   StageRecord stage = Stage(4, 20, {});
   stage.success = false;
   stage.outcome = Outcome::kOutOfTime;
-  return Episode(id, {stage});
+  return EpisodeWith(id, {stage});
 }
 
 ReportRun RunOf(const std::string& variant, std::vector<EpisodeRecord> episodes) {
@@ -43,18 +43,18 @@ ReportRun RunOf(const std::string& variant, std::vector<EpisodeRecord> episodes)
 
 TEST(Gaps, PartsOfAnEpisodeAddUpToItsMissingSpl) {
   // 10 m where 6 would do: 3 m of detour to the place of reach, .5 of approach, .5 by the place.
-  const EpisodeRecord episode = Episode("e", {Stage(6, 10, {8, 5, 6.5})});
+  const EpisodeRecord episode = EpisodeWith("e", {Stage(6, 10, {8, 5, 6.5})});
   const GapParts parts = PartsOf(episode);
   EXPECT_DOUBLE_EQ(parts.detour, 0.3);
   EXPECT_DOUBLE_EQ(parts.approach, 0.05);
   EXPECT_DOUBLE_EQ(parts.place, 0.05);
   EXPECT_DOUBLE_EQ(parts.Sum(), 1 - ComputeMetrics({&episode, 1}).spl);
   EXPECT_DOUBLE_EQ(PartsOf(Failed("f")).Sum(), 1);
-  EXPECT_DOUBLE_EQ(PartsOf(Episode("g", {Stage(6, 5.5, {5, 5, 5})})).Sum(), 0);
+  EXPECT_DOUBLE_EQ(PartsOf(EpisodeWith("g", {Stage(6, 5.5, {5, 5, 5})})).Sum(), 0);
 }
 
 TEST(Gaps, RecordsWithoutPartsAreNotAttributed) {
-  EpisodeRecord old = Episode("e", {Stage(5, 10, {})});
+  EpisodeRecord old = EpisodeWith("e", {Stage(5, 10, {})});
   old.stages[0].extra.walk.reset();
   EXPECT_DOUBLE_EQ(PartsOf(old).unknown, 0.5);
   EXPECT_DOUBLE_EQ(PartsOf(old).Sum(), 0.5);
@@ -62,9 +62,11 @@ TEST(Gaps, RecordsWithoutPartsAreNotAttributed) {
 
 TEST(Gaps, VariantsGiveThePriceOfGeometryAndSearch) {
   const std::vector<ReportRun> runs = {
-      RunOf("full", {Episode("a", {Stage(5, 20, {})}), Failed("b"), Failed("only here")}),
-      RunOf("known-map", {Episode("a", {Stage(5, 10, {})}), Episode("b", {Stage(5, 10, {})})}),
-      RunOf("known-objects", {Episode("a", {Stage(5, 5, {})}), Episode("b", {Stage(5, 10, {})})})};
+      RunOf("full", {EpisodeWith("a", {Stage(5, 20, {})}), Failed("b"), Failed("only here")}),
+      RunOf("known-map",
+            {EpisodeWith("a", {Stage(5, 10, {})}), EpisodeWith("b", {Stage(5, 10, {})})}),
+      RunOf("known-objects",
+            {EpisodeWith("a", {Stage(5, 5, {})}), EpisodeWith("b", {Stage(5, 10, {})})})};
   const auto gaps = AttributeGaps(runs, {});
   ASSERT_TRUE(gaps) << gaps.error().Message();
   ASSERT_EQ(gaps->size(), 1U);
@@ -79,7 +81,7 @@ TEST(Gaps, VariantsGiveThePriceOfGeometryAndSearch) {
 }
 
 TEST(Gaps, TracksAreNeverPooled) {
-  EpisodeRecord drawn = Episode("a", {Stage(5, 10, {})}), bim = Failed("b");
+  EpisodeRecord drawn = EpisodeWith("a", {Stage(5, 10, {})}), bim = Failed("b");
   drawn.track = "drawn";
   bim.track = "bim";
   const auto gaps = AttributeGaps({RunOf("full", {drawn, bim})}, {});

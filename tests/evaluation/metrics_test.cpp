@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/record_builder.h"
+#include "support/places.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -97,8 +98,7 @@ TEST(Metrics, GroupsSplitByFirstTransition) {
 }
 
 TEST(Metrics, EqualTheReferenceVectors) {
-  const std::filesystem::path path =
-      std::filesystem::path(CROSSNAV_SHARED_DIR) / "vectors" / "metrics.json";
+  const std::filesystem::path path = crossnav::test::SharedPath("vectors/metrics.json");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   std::ifstream stream(path);
   const auto json = nlohmann::json::parse(stream);

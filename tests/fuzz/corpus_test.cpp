@@ -7,6 +7,7 @@
 
 #include "fuzz/harness.h"
 #include "fuzz/seeds.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kCorpus = CROSSNAV_SOURCE_DIR "/tests/fuzz/corpus";
+const fs::path kCorpus = crossnav::test::SourcePath("tests/fuzz/corpus");
 constexpr auto kMost = std::chrono::seconds(10);  // chosen: 2 s, five times for sanitizers
 
 void RunAll(const fs::path& folder) {

@@ -33,8 +33,6 @@ namespace fs = std::filesystem;
 using crossnav::test::ReadText;
 using crossnav::test::WriteText;
 
-constexpr const char* kSource = CROSSNAV_SOURCE_DIR;
-
 class Seeds {
  public:
   explicit Seeds(fs::path folder) : folder_(std::move(folder)) {}
@@ -222,7 +220,7 @@ void AddReplays(const Seeds& seeds) {
 }
 
 void AddRecordings(const Seeds& seeds) {
-  const fs::path data = fs::path(kSource) / "tests/recordings/data";
+  const fs::path data = crossnav::test::SourcePath("tests/recordings/data");
   seeds.Put("recording", "packed.mcap", PlainMcap(data / "packed/packed.mcap"));
   seeds.Put("recording", "raw.mcap", ReadText(data / "raw/raw.mcap"));
   seeds.Put(
@@ -262,7 +260,7 @@ void AddTexts(const Seeds& seeds) {
   seeds.Put("setting", "lines",
             "map.voxel_m=0.1\npolicy.poi.use_history=false\nmap.clearing=\"never\"");
   for (const char* name : {"crossnav_small", "deimv2_atto_coco"}) {
-    const fs::path card = fs::path(kSource) / "networks" / (std::string(name) + ".toml");
+    const fs::path card = crossnav::test::SourcePath("networks/") + (std::string(name) + ".toml");
     seeds.Put("card", name, ReadText(card));
   }
   seeds.Put("card", "text",

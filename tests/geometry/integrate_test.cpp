@@ -7,6 +7,7 @@
 #include "crossnav/geometry/frame.h"
 #include "crossnav/geometry/integrate.h"
 #include "crossnav/geometry/ray_walk.h"
+#include "support/places.h"
 #include "tests/geometry/depth_files.h"
 #include "tests/geometry/evidence_sets.h"
 #include "tests/support/box_rooms.h"
@@ -127,7 +128,7 @@ TEST(IntegrateTest, FastRaysKeepTheContract) {
 }
 
 TEST(IntegrateTest, RealDepthFramesGiveTheLiteralSets) {
-  const std::vector<TestFrame> frames = ReadRgbdFrames(CROSSNAV_SHARED_DIR, 2);
+  const std::vector<TestFrame> frames = ReadRgbdFrames(test::SharedPath(""), 2);
   if (frames.empty()) GTEST_SKIP() << "no shared/data/rgbd";
   VoxelMap exact(ConfigOf("exact")), fast(ConfigOf("fast"));
   ReferenceEvidence reference;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "support/places.h"
 #include "tests/geometry/map_of_evidence.h"
 
 namespace crossnav::geometry::testing {
@@ -17,7 +18,7 @@ StairMark MarkOf(const std::string& name) {
 }
 
 TEST(SupportVectorsTest, AirStatesEqualTheGoldenVectors) {
-  std::ifstream in(std::string(CROSSNAV_SHARED_DIR) + "/vectors/support.json");
+  std::ifstream in(test::SharedPath("vectors/support.json"));
   if (!in) GTEST_SKIP() << "no shared/vectors/support.json";
   const nlohmann::json golden = nlohmann::json::parse(in);
   MapConfig config;

@@ -57,7 +57,7 @@ TEST(Treads, OfAFlightAreCountedAndMeasured) {
     for (const double yaw_deg : {0.0, 12.0}) {
       const Pose T_world_camera = CameraPose(25, yaw_deg);
       const TreadFlight flight = FindTreads(Draw(T_world_camera, stairs), kCamera, T_world_camera);
-      SCOPED_TRACE(testing::Message() << stairs.treads << " treads, yaw " << yaw_deg);
+      SCOPED_TRACE(::testing::Message() << stairs.treads << " treads, yaw " << yaw_deg);
       EXPECT_EQ(flight.treads.size(), static_cast<std::size_t>(stairs.treads));
       EXPECT_NEAR(flight.riser_m, stairs.riser_m, 0.15 * stairs.riser_m);
       EXPECT_NEAR(flight.tread_m, stairs.tread_m, 0.15 * stairs.tread_m);

@@ -9,6 +9,7 @@
 
 #include "crossnav/world/house/house_generator.h"
 #include "hm3d/stand_in.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
@@ -51,7 +52,8 @@ class Hm3dPage : public testing::Test {
               "--set ground_truth.min_visible_px=20 --set ground_truth.feature_dim=64;;\n"
               "esac\n"
               "if [[ $1 = eval ]]; then set -- \"$@\" --set eval.action_budget=20; fi\n"
-              "exec '" CROSSNAV_PROGRAM "' \"$@\"\n");
+              "exec '" +
+                  ProgramPath() + "' \"$@\"\n");
     fs::permissions(At("bin/crossnav"), fs::perms::owner_all);
   }
 
@@ -91,10 +93,10 @@ TEST_F(Hm3dPage, EveryCommandRunsOnAStandIn) {
   }
   MakeWrapper();
   MakeArchives();
-  const auto blocks = BlocksOf(ReadText(fs::path(CROSSNAV_SOURCE_DIR) / "docs/hm3d.md"));
+  const auto blocks = BlocksOf(ReadText(SourcePath("docs/hm3d.md")));
   ASSERT_GE(blocks.size(), 6U);
   EXPECT_NE(blocks[0].find("EPISODES=927 FIRST=102,101,85"), std::string::npos) << blocks[0];
-  std::string script = "CROSSNAV='" CROSSNAV_SOURCE_DIR
+  std::string script = "CROSSNAV='" + SourcePath("") +
                        "'\nPATH=$PWD/bin:$PATH\n"
                        "EPISODES=3 FIRST=1,1,0 JOBS=1 PARTS=2\n";
   const bool has_networks = Bash("bin/crossnav networks check") == 0;

@@ -5,6 +5,7 @@
 #include "crossnav/inference/parts.h"
 #include "crossnav/sim/scene/image_codec.h"
 #include "inference/model_files.h"
+#include "support/places.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -46,19 +47,19 @@ TEST_F(DetrFamily, GivesTheGoalsBoxesInTheFrameOncePerObject) {
 }
 
 /// Result of the Python reference (Pillow, ONNX Runtime) for a goal in docs/images/home.png.
-struct Golden {
+struct DetrGolden {
   const char *network, *goal;
   double score, left, top, right, bottom;
 };
 
-class SharedDetector : public WithBackend, public ::testing::WithParamInterface<Golden> {};
+class SharedDetector : public WithBackend, public ::testing::WithParamInterface<DetrGolden> {};
 
 TEST_P(SharedDetector, GivesTheBoxesOfThePythonReference) {
-  const Golden golden = GetParam();
-  const fs::path root = CROSSNAV_SOURCE_DIR;
+  const DetrGolden golden = GetParam();
+  const fs::path root = crossnav::test::SourcePath("");
   auto card = ReadModelCard(root / "networks" / (std::string(golden.network) + ".toml"));
   ASSERT_TRUE(card) << card.error().Message();
-  card->file = fs::path(CROSSNAV_SHARED_DIR) / "data/models" / card->file.filename();
+  card->file = fs::path(crossnav::test::SharedPath("data/models")) / card->file.filename();
   if (!fs::exists(card->file)) GTEST_SKIP() << card->file << " is not here";
   const auto bytes = *ReadFile(root / "docs/images/home.png");
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
@@ -85,10 +86,10 @@ TEST_P(SharedDetector, GivesTheBoxesOfThePythonReference) {
 
 INSTANTIATE_TEST_SUITE_P(
     Deim, SharedDetector,
-    ::testing::Values(Golden{"deimv2_atto_coco", "plant", 0.690, 276.7, 295.6, 325.1, 375.4},
-                      Golden{"deimv2_atto_coco", "sofa", 0.504, 373.8, 321.4, 541.3, 392.9},
-                      Golden{"deimv2_femto_coco", "sofa", 0.758, 373.2, 319.1, 542.6, 394.3},
-                      Golden{"deimv2_femto_coco", "plant", 0.604, 279.4, 297.2, 324.7, 375.8}));
+    ::testing::Values(DetrGolden{"deimv2_atto_coco", "plant", 0.690, 276.7, 295.6, 325.1, 375.4},
+                      DetrGolden{"deimv2_atto_coco", "sofa", 0.504, 373.8, 321.4, 541.3, 392.9},
+                      DetrGolden{"deimv2_femto_coco", "sofa", 0.758, 373.2, 319.1, 542.6, 394.3},
+                      DetrGolden{"deimv2_femto_coco", "plant", 0.604, 279.4, 297.2, 324.7, 375.8}));
 
 }  // namespace
 }  // namespace crossnav::inference::test

@@ -12,13 +12,14 @@
 #include "crossnav/inference/backend.h"
 #include "crossnav/inference/model_card.h"
 #include "crossnav/inference/parts.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 #include "support/text_file.h"
 
 namespace crossnav::inference::test {
 
 inline std::filesystem::path DataFile(const std::string& name) {
-  return std::filesystem::path(CROSSNAV_SOURCE_DIR) / "tests/inference/data" / name;
+  return crossnav::test::SourcePath("tests/inference/data/" + name);
 }
 
 /// Names of the inference libraries that are built in; "none" where there are none.

@@ -7,6 +7,7 @@
 #include "crossnav/core/camera.h"
 #include "crossnav/inference/parts.h"
 #include "inference/model_files.h"
+#include "support/places.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -71,7 +72,7 @@ class OwnNetwork : public EachBackend {
   void SetUp() override {
     WithBackend::SetUp();
     if (IsSkipped()) return;
-    const auto root = std::filesystem::path(CROSSNAV_SOURCE_DIR);
+    const auto root = std::filesystem::path(crossnav::test::SourcePath(""));
     const auto card = ReadModelCard(root / "networks/crossnav_small.toml");
     ASSERT_TRUE(card) << card.error().Message();
     const auto model = Open(*card, ModelsOptions());
@@ -127,8 +128,7 @@ TEST_P(OwnNetwork, MasksFollowTheFramesSize) {
 TEST_P(OwnNetwork, TheSameFrameGivesTheSameBits) {
   std::vector<float> first;
   for (int again = 0; again < 2; ++again) {
-    const auto card =
-        ReadModelCard(std::filesystem::path(CROSSNAV_SOURCE_DIR) / "networks/crossnav_small.toml");
+    const auto card = ReadModelCard(crossnav::test::SourcePath("networks/crossnav_small.toml"));
     ASSERT_TRUE(card);
     const auto model = Open(*card, ModelsOptions());
     ASSERT_TRUE(model);

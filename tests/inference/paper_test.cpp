@@ -15,7 +15,7 @@ namespace crossnav::inference::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kClose = 1e-3;
+constexpr double kClosePaper = 1e-3;
 
 fs::path Folder() {
   const char* own = std::getenv("CROSSNAV_PAPER_NETWORKS");
@@ -93,7 +93,7 @@ void ExpectBoxes(perception::Detector& detector, const std::string& network, int
                               static_cast<double>(d.box.u1), static_cast<double>(d.box.v1)};
       for (std::size_t i = 0; i < 4; ++i)
         if (std::abs(edges[i] - wanted.numbers[i + 1]) > 1) return false;  // whole pixels
-      return std::abs(d.confidence - wanted.numbers[0]) < kClose;
+      return std::abs(d.confidence - wanted.numbers[0]) < kClosePaper;
     };
     EXPECT_TRUE(std::any_of(found->begin(), found->end(), is_it))
         << network << " " << wanted.name << " " << wanted.numbers[0] << " of " << found->size();
@@ -124,7 +124,7 @@ TEST_P(PaperNetworks, SegFormersStairsEqualPyTorchs) {
   for (const Golden& wanted : golden)
     EXPECT_NEAR(
         stairs->At(static_cast<int>(wanted.numbers[0]), static_cast<int>(wanted.numbers[1])),
-        wanted.numbers[2], kClose);
+        wanted.numbers[2], kClosePaper);
 }
 
 TEST_P(PaperNetworks, SedsFeaturesAndTextsAreThoseOfPyTorch) {
@@ -144,7 +144,7 @@ TEST_P(PaperNetworks, SedsFeaturesAndTextsAreThoseOfPyTorch) {
     ASSERT_EQ(dim, static_cast<std::size_t>(grid->dim));
     for (std::size_t i = 0; i < dim; ++i)
       EXPECT_NEAR(is_text ? text[i] : grid->data[place * dim + i],
-                  wanted.numbers[is_text ? i : i + 2], kClose)
+                  wanted.numbers[is_text ? i : i + 2], kClosePaper)
           << wanted.kind << " " << wanted.name << " " << i;
   }
 }
@@ -164,7 +164,7 @@ TEST_P(PaperNetworks, MobileSamsMaskIsThatOfPyTorchAndThePictureIsEncodedOnce) {
   for (int again = 0; again < 2; ++again) {
     const auto ok = segmenter->Segment(obs, detection);
     ASSERT_TRUE(ok) << ok.error().Message();
-    EXPECT_NEAR(detection.mask_quality, n[4], kClose);
+    EXPECT_NEAR(detection.mask_quality, n[4], kClosePaper);
     const auto filled = std::count(detection.mask.data.begin(), detection.mask.data.end(), 1);
     EXPECT_NEAR(static_cast<double>(filled), golden[1].numbers[4], 0.002 * size_ * size_);
   }
@@ -185,7 +185,7 @@ TEST_P(PaperNetworks, ClipsTextVectorsEqualPyTorchs) {
     const auto vector = encoder->Of(wanted.name);
     ASSERT_TRUE(vector) << vector.error().Message();
     for (std::size_t i = 0; i < vector->size(); ++i)
-      EXPECT_NEAR((*vector)[i], wanted.numbers[i], kClose) << wanted.name;
+      EXPECT_NEAR((*vector)[i], wanted.numbers[i], kClosePaper) << wanted.name;
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "crossnav/inference/unicode.h"
 #include "inference/model_files.h"
+#include "support/places.h"
 
 namespace crossnav::inference::test {
 namespace {
@@ -73,7 +74,7 @@ TEST(Tokenizers, BytePairsEqualTransformers) {
 }
 
 TEST(Tokenizers, ClipsOwnVocabularyToo) {
-  const fs::path packed = fs::path(CROSSNAV_SHARED_DIR) / "data/clip/bpe_simple_vocab_16e6.txt.gz";
+  const fs::path packed = crossnav::test::SharedPath("data/clip/bpe_simple_vocab_16e6.txt.gz");
   if (!fs::exists(packed)) GTEST_SKIP() << packed << " is not here";
   const crossnav::test::TempFolder folder;
   const fs::path merges = folder.path() / "merges.txt";

@@ -10,11 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "crossnav/core/image.h"
+#include "support/places.h"
 
 namespace crossnav::memory::testing {
 
 inline std::optional<nlohmann::json> ReadGolden(const std::string& name) {
-  std::ifstream in(std::string(CROSSNAV_SHARED_DIR) + "/vectors/" + name);
+  std::ifstream in(test::SharedPath("vectors/" + name));
   if (!in) return std::nullopt;
   return nlohmann::json::parse(in);
 }

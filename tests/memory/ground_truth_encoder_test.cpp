@@ -11,6 +11,7 @@
 #include <set>
 
 #include "crossnav/core/categories.h"
+#include "support/places.h"
 
 namespace crossnav::sim {
 namespace {
@@ -164,7 +165,7 @@ TEST_F(GroundTruthEncoderTest, ObservationOfAnotherSizeIsRefused) {
 }
 
 TEST_F(GroundTruthEncoderTest, RealClipVectorsMakeSynonymsWork) {
-  const std::filesystem::path dir = std::string(CROSSNAV_SHARED_DIR) + "/data/clip";
+  const std::filesystem::path dir = test::SharedPath("data/clip");
   if (!std::filesystem::exists(dir)) GTEST_SKIP() << "no CLIP vectors beside the project";
   const auto encoder = MakeGroundTruthEncoder(simulator_, WithClip(dir));
   ASSERT_TRUE(encoder) << encoder.error().Message();

@@ -11,10 +11,10 @@
 namespace crossnav::memory {
 namespace {
 
-constexpr int kDim = 256;
+constexpr int kMatchDim = 256;
 
 std::vector<float> Unit(Rng& rng) {
-  std::vector<float> v(kDim);
+  std::vector<float> v(kMatchDim);
   double squared = 0;
   for (float& x : v) {
     x = static_cast<float>(rng.Normal());
@@ -34,7 +34,7 @@ struct Words {
   explicit Words(double share) : common_share(share) {}
   std::vector<float> Word() {
     std::vector<float> v = Unit(rng);
-    for (int i = 0; i < kDim; ++i) {
+    for (int i = 0; i < kMatchDim; ++i) {
       v[i] = static_cast<float>(std::sqrt(common_share) * common[i] +
                                 std::sqrt(1 - common_share) * v[i]);
     }
@@ -44,9 +44,9 @@ struct Words {
   void Show(const std::vector<float>& word, const VoxelKey& at, int side) {
     for (int i = 0; i < side * side * side; ++i) {
       std::vector<float> noise = Unit(rng), f = word;
-      for (int k = 0; k < kDim; ++k) f[k] += 0.2F * noise[k];
+      for (int k = 0; k < kMatchDim; ++k) f[k] += 0.2F * noise[k];
       MemoryRow row{at + VoxelKey{i % side, i / side % side, i / side / side}, 1.0F, 1.0F,
-                    Vector3f::Zero(), std::vector<std::uint16_t>(kDim)};
+                    Vector3f::Zero(), std::vector<std::uint16_t>(kMatchDim)};
       ToHalf(f, row.half.data());
       memory.AppendRow(row);
     }
@@ -85,7 +85,7 @@ TEST(QueryMatch, SurfacesThatFillTheMapArePresentWithoutAnOutstandingPlace) {
 
 TEST(QueryMatch, AnEmptyMemoryHoldsNothingAndAnUnmeasuredEncoderIsNotJudged) {
   const SemanticMemory nothing;
-  const QueryMatch match = MatchOf(nothing, std::vector<float>(kDim, 1.0F), {});
+  const QueryMatch match = MatchOf(nothing, std::vector<float>(kMatchDim, 1.0F), {});
   EXPECT_EQ(match.best, 0);
   EXPECT_EQ(Judge(match, PresentFrom("ground-truth")), Verdict::kAbsent);
   EXPECT_EQ(Judge(match, PresentFrom("somebody-elses")), Verdict::kUnknown);

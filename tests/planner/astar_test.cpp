@@ -12,6 +12,7 @@
 
 #include "crossnav/core/rng.h"
 #include "support/map_of_states.h"
+#include "support/places.h"
 
 namespace crossnav::planner {
 namespace {
@@ -136,7 +137,7 @@ TEST(FindPath, SeveralGoalsGiveTheCheapestOfThem) {
 }
 
 TEST(FindPath, MatchesTheGoldenVectors) {
-  std::ifstream file(CROSSNAV_SHARED_DIR "/vectors/paths.json");
+  std::ifstream file(test::SharedPath("vectors/paths.json"));
   if (!file) GTEST_SKIP() << "no golden vectors beside the project";
   const auto golden = nlohmann::json::parse(file);
   std::map<std::string, VoxelState> states;

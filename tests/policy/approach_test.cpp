@@ -28,17 +28,17 @@ std::vector<VoxelKey> Block(int x, int y, int z, int side) {
 }
 
 /// Ground of 4 x 4 m with its top at 0 and an object of 0.4 m in its middle.
-struct Room {
+struct ApproachRoom {
   VoxelMap map;
   std::vector<VoxelKey> object = Block(18, 18, 0, 4);
-  Room() {
+  ApproachRoom() {
     AddGround(map, 0, 0, 40, 40, -1);
     for (const VoxelKey& key : object) SetState(map, key, VoxelState::kOccupied);
   }
 };
 
 TEST(Viewpoints, AreAllFreeStandingPlacesInRangeWhereSightIsNotAsked) {
-  Room room;
+  ApproachRoom room;
   ApproachConfig config;
   config.min_visibility = 0;
   const auto viewpoints = Viewpoints(room.map, room.object, 1.23, config, kCamera_m);
@@ -61,7 +61,7 @@ TEST(Viewpoints, AreAllFreeStandingPlacesInRangeWhereSightIsNotAsked) {
 }
 
 TEST(Viewpoints, AreNoneBehindAWall) {
-  Room room;
+  ApproachRoom room;
   for (int y = 0; y < 40; ++y)
     for (int z = 0; z < 25; ++z) SetState(room.map, {14, y, z}, VoxelState::kOccupied);
   const auto viewpoints = Viewpoints(room.map, room.object, 1.3, {}, kCamera_m);
@@ -70,7 +70,7 @@ TEST(Viewpoints, AreNoneBehindAWall) {
 }
 
 TEST(Viewpoints, AreNotInflatedNorOutOfRange) {
-  Room room;
+  ApproachRoom room;
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 20; ++x) SetState(room.map, {x, y, 0}, VoxelState::kTraversable, true);
   for (const VoxelKey& key : Viewpoints(room.map, room.object, 1.3, {}, kCamera_m))
@@ -79,7 +79,7 @@ TEST(Viewpoints, AreNotInflatedNorOutOfRange) {
 }
 
 TEST(Viewpoints, PlacesThatWereTriedAreNotOfferedAgain) {
-  Room room;
+  ApproachRoom room;
   const Vector3d tried(1.05, 2.05, 0);
   const auto viewpoints = Viewpoints(room.map, room.object, 1.3, {}, kCamera_m, {tried});
   EXPECT_FALSE(viewpoints.empty());

@@ -12,19 +12,19 @@ using memory::SemanticMemory;
 const VerifyConfig kConfig;
 const ObjectConfig kObject;
 
-memory::MemoryRow Row(const VoxelKey& key, float weight, std::vector<float> feature) {
+memory::MemoryRow MemoryRowOf(const VoxelKey& key, float weight, std::vector<float> feature) {
   MemoryRow row{key, weight, weight};
   for (const float x : feature) row.half.push_back(x == 0 ? 0 : 0x3c00);  // 0 or 1
   return row;
 }
 
-std::vector<VoxelKey> Column(int x) {
+std::vector<VoxelKey> ColumnAt(int x) {
   return {{x, 0, 0}, {x, 0, 1}, {x, 0, 2}, {x, 0, 3}, {x, 0, 4}};
 }
 
 Sighting SightingOf(int x, double confidence) {
   Sighting sighting;
-  sighting.voxels = Column(x);
+  sighting.voxels = ColumnAt(x);
   sighting.p_center_world = Vector3d(0.1 * x, 0, 0.25);
   sighting.confidence = confidence;
   return sighting;
@@ -32,10 +32,10 @@ Sighting SightingOf(int x, double confidence) {
 
 TEST(Opinion, IsThatOfAllViewsByTheirWeight) {
   SemanticMemory memory({}, 0.1, 2);
-  memory.AppendRow(Row({0, 0, 0}, 3, {1, 0}));
-  memory.AppendRow(Row({0, 0, 1}, 1, {0, 1}));
+  memory.AppendRow(MemoryRowOf({0, 0, 0}, 3, {1, 0}));
+  memory.AppendRow(MemoryRowOf({0, 0, 1}, 1, {0, 1}));
   const std::vector<NamedText> others = {{"sofa", {0, 1}}, {"desk", {0, -1}}};
-  const auto opinion = OpinionOf(memory, Column(0), std::vector<float>{1, 0}, others);
+  const auto opinion = OpinionOf(memory, ColumnAt(0), std::vector<float>{1, 0}, others);
   ASSERT_TRUE(opinion.has_value());
   EXPECT_EQ(opinion->rows, 2);
   EXPECT_EQ(opinion->other, "sofa");
@@ -45,7 +45,7 @@ TEST(Opinion, IsThatOfAllViewsByTheirWeight) {
 
 TEST(Opinion, IsNoneWhereNothingIsRemembered) {
   const SemanticMemory memory({}, 0.1, 2);
-  EXPECT_FALSE(OpinionOf(memory, Column(0), std::vector<float>{1, 0}, {}).has_value());
+  EXPECT_FALSE(OpinionOf(memory, ColumnAt(0), std::vector<float>{1, 0}, {}).has_value());
 }
 
 TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedClaimsEnd) {
@@ -102,7 +102,7 @@ TEST(ViewEvidence, DecidesOnceTheSightingsAgree) {
 TEST(ViewEvidence, IsNotedByView) {
   LivePoi poi;
   poi.id = 7;
-  poi.voxels = Column(0);
+  poi.voxels = ColumnAt(0);
   poi.p_center_world = Vector3d(0, 0, 0.25);
   ClaimTracker book;
   for (const Vector3d& p_camera : {Vector3d(2, 0, 0.9), Vector3d(3, 0, 0.9), Vector3d(0, 3, 0.9)})
@@ -124,7 +124,7 @@ TEST(Views, AreOthersByAngleAroundTheObjectAndByDistance) {
 TEST(Views, AreNotedOnceForASide) {
   LivePoi poi;
   poi.id = 7;
-  poi.voxels = Column(0);
+  poi.voxels = ColumnAt(0);
   poi.p_center_world = Vector3d(0, 0, 0.25);
   ClaimTracker book;
   const auto note = [&](const Vector3d& p_camera, double confidence) {
@@ -140,7 +140,7 @@ TEST(Views, AreNotedOnceForASide) {
 
 TEST(Rejected, AnObjectIsNotTriedAgainWithoutNewEvidence) {
   ClaimTracker book;
-  book.rejected.push_back({3, Column(0), Vector3d(0, 0, 0.25), 0.75, {Vector3d(2, 0, 0.9)}});
+  book.rejected.push_back({3, ColumnAt(0), Vector3d(0, 0, 0.25), 0.75, {Vector3d(2, 0, 0.9)}});
   std::vector<int> revived;
   const auto left = [&](const Vector3d& p_camera, double confidence) {
     return WithoutRejected({SightingOf(0, confidence), SightingOf(30, 0.7)}, p_camera, kObject,

@@ -14,15 +14,15 @@ using test::FlightWorld;
 using test::MakeFlight;
 
 /// A frame in which each voxel of `voxels` fills one pixel of a solid block of stair mask.
-struct Frame {
+struct StairFrame {
   Image<float> probability;
   std::vector<EndRun> ends;
 };
 
-Frame FrameOf(const std::vector<VoxelKey>& voxels, float probability = 0.8F) {
+StairFrame FrameOf(const std::vector<VoxelKey>& voxels, float probability = 0.8F) {
   constexpr int kWidth = 32;
   const int rows = (static_cast<int>(voxels.size()) + kWidth - 1) / kWidth;
-  Frame frame{Image<float>(kWidth, rows + 4, 0.0F), {}};
+  StairFrame frame{Image<float>(kWidth, rows + 4, 0.0F), {}};
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     frame.probability.data[i] = probability;
     frame.ends.push_back({static_cast<std::int32_t>(i), 1, voxels[i]});
@@ -31,7 +31,7 @@ Frame FrameOf(const std::vector<VoxelKey>& voxels, float probability = 0.8F) {
 }
 
 void Show(StairEvidence& evidence, const FlightWorld& world, int step, float probability = 0.8F) {
-  const Frame frame = FrameOf(world.flight, probability);
+  const StairFrame frame = FrameOf(world.flight, probability);
   evidence.Update(frame.probability, frame.ends, world.map, {}, step);
 }
 
@@ -43,7 +43,7 @@ TEST(StairEvidence, ComponentsUnderEightyPixelsAreIgnored) {
   const FlightWorld world = MakeFlight();
   for (const std::size_t count : {79u, 80u}) {
     StairEvidence evidence;
-    const Frame frame =
+    const StairFrame frame =
         FrameOf(std::vector<VoxelKey>(world.flight.begin(), world.flight.begin() + count));
     evidence.Update(frame.probability, frame.ends, world.map, {}, 0);
     EXPECT_EQ(evidence.voxels().size(), count < 80 ? 0u : 80u);
@@ -98,7 +98,7 @@ TEST(StairEvidence, AFlatFloorIsNeverConfirmed) {
   for (int x = 0; x < 15; ++x)
     for (int y = 0; y < 15; ++y) floor.insert({x, y, -1});
   const VoxelMap map = test::MapOfEvidence(floor, {});
-  const Frame frame = FrameOf({floor.begin(), floor.end()});
+  const StairFrame frame = FrameOf({floor.begin(), floor.end()});
   StairEvidence evidence;
   for (int step = 0; step < 10; ++step)
     evidence.Update(frame.probability, frame.ends, map, {}, step);

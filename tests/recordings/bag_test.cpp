@@ -7,6 +7,7 @@
 
 #include "recordings/cdr_writer.h"
 #include "recordings/wall_drive.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 
 namespace crossnav::recordings {
@@ -18,7 +19,7 @@ using testing::ExpectFlat;
 using testing::ReadAll;
 using testing::ReadResult;
 
-const std::filesystem::path kData = CROSSNAV_SOURCE_DIR "/tests/recordings/data";
+const std::filesystem::path kData = test::SourcePath("tests/recordings/data");
 
 TEST(RosbagsBag, RawImagesAreMatchedRegisteredInterpolatedAndCounted) {
   const ReadResult result = ReadAll(kData / "raw");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "recordings/wall_drive.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 
 namespace crossnav::recordings {
@@ -184,7 +185,7 @@ TEST_F(Folders, TheAxisThatPointsUpAndTheMountingAreApplied) {
 }
 
 TEST(RealFrames, FiveOfADepthCameraAreRead) {
-  const std::string path = CROSSNAV_SHARED_DIR "/data/rgbd";
+  const std::string path = test::SharedPath("data/rgbd");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real frames beside the project";
   RecordingOptions options;
   ExpectError(ReadAll(path, options), {"640 x 480", "--intrinsics"});

@@ -14,6 +14,7 @@
 #include "crossnav/core/rng.h"
 #include "crossnav/serve/blind.h"
 #include "serve/live_client.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 
 namespace crossnav::test {
@@ -33,12 +34,13 @@ class ServeProgram {
  public:
   explicit ServeProgram(const std::filesystem::path& folder)
       : path_((folder / "s.sock").string()), out_((folder / "out.json").string()) {
+    const std::string program = ProgramPath();
     process_ = ::fork();
     if (process_ != 0) return;
     if (std::freopen(out_.c_str(), "w", stdout) == nullptr) ::_exit(1);
     // Every goal explores anew, so that the agent has something to do to the end.
-    ::execl(CROSSNAV_PROGRAM, CROSSNAV_PROGRAM, "serve", "--json", "--quiet", "--perception",
-            "none", "--socket", path_.c_str(), "--set", "policy.poi.use_history=false", nullptr);
+    ::execl(program.c_str(), program.c_str(), "serve", "--json", "--quiet", "--perception", "none",
+            "--socket", path_.c_str(), "--set", "policy.poi.use_history=false", nullptr);
     ::_exit(127);
   }
   ~ServeProgram() {

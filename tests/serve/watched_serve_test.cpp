@@ -7,6 +7,7 @@
 
 #include "agent/two_rooms.h"
 #include "serve/live_client.h"
+#include "support/places.h"
 #include "support/temp_folder.h"
 #include "watch/http_client.h"
 
@@ -18,10 +19,10 @@ class WatchedServe {
  public:
   WatchedServe(const std::filesystem::path& folder, int port)
       : socket_((folder / "s.sock").string()) {
-    const std::string number = std::to_string(port);
+    const std::string program = ProgramPath(), number = std::to_string(port);
     process_ = ::fork();
     if (process_ != 0) return;
-    ::execl(CROSSNAV_PROGRAM, CROSSNAV_PROGRAM, "serve", "--quiet", "--perception", "none",
+    ::execl(program.c_str(), program.c_str(), "serve", "--quiet", "--perception", "none",
             "--socket", socket_.c_str(), "--watch-port", number.c_str(), nullptr);
     ::_exit(127);
   }

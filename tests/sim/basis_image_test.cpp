@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "crossnav/core/read_file.h"
+#include "support/places.h"
 
 namespace crossnav::sim::test {
 namespace {
@@ -36,9 +37,7 @@ class BasisSamples : public testing::Test {
     if (!HasBasisTranscoder()) GTEST_SKIP() << "no transcoder; scripts/setup.sh hm3d";
     if (!std::filesystem::exists(Folder())) GTEST_SKIP() << Folder() << " is not here";
   }
-  static std::filesystem::path Folder() {
-    return std::filesystem::path(CROSSNAV_SHARED_DIR) / "data/basis";
-  }
+  static std::filesystem::path Folder() { return crossnav::test::SharedPath("data/basis"); }
   static std::string Read(const char* name) { return ReadFile(Folder() / name).value(); }
 };
 

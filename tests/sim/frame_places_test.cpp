@@ -10,27 +10,28 @@
 namespace crossnav::sim::test {
 namespace {
 
-struct World {
+struct PlacesWorld {
   Scene scene;
   RayCaster caster{scene};
   NavMesh navmesh;
-  explicit World(Scene s) : scene(std::move(s)), navmesh(std::move(*NavMesh::Build(scene, {}))) {}
+  explicit PlacesWorld(Scene s)
+      : scene(std::move(s)), navmesh(std::move(*NavMesh::Build(scene, {}))) {}
 
   std::vector<FramePlace> Places(const FrameRules& rules) const {
     return FramePlaces(scene, navmesh, caster, rules);
   }
 };
 
-World RoomWithABed() {
+PlacesWorld RoomWithABed() {
   MicroScene m;
   m.Room(0, 0, 8, 8);
   m.Begin("bed", "bed");
   m.Box({6, 6, 0}, {7.5, 7.5, 0.6});
-  return World(m.Finish());
+  return PlacesWorld(m.Finish());
 }
 
 TEST(FramePlaces, AreAsManyAsAskedForOnTheNavmeshAndTheSameForTheSameSeed) {
-  const World w = RoomWithABed();
+  const PlacesWorld w = RoomWithABed();
   FrameRules rules;
   rules.count = 40;
   const auto places = w.Places(rules), again = w.Places(rules);
@@ -48,7 +49,7 @@ TEST(FramePlaces, AreAsManyAsAskedForOnTheNavmeshAndTheSameForTheSameSeed) {
 }
 
 TEST(FramePlaces, LookTowardsAGoalWhereTheyAreForObjects) {
-  const World w = RoomWithABed();
+  const PlacesWorld w = RoomWithABed();
   FrameRules rules;
   rules.count = 30;
   rules.object_share = 1;

@@ -8,7 +8,7 @@
 namespace crossnav::sim::test {
 namespace {
 
-struct World {
+struct TruthWorld {
   Scene scene;
   RayCaster caster{scene};
   NavMesh navmesh;
@@ -29,7 +29,7 @@ struct World {
     return m.Finish();
   }
 
-  World()
+  TruthWorld()
       : scene(Make()),
         navmesh(std::move(*NavMesh::Build(scene, {}))),
         simulator(scene, navmesh, caster, Sensor(), {}) {
@@ -47,7 +47,7 @@ struct World {
 };
 
 TEST(GroundTruth, DetectsTrueInstancesWithTheirTightBoxes) {
-  World w;
+  TruthWorld w;
   GroundTruthConfig config;
   config.max_distance_m = 20;
   config.min_visible_px = 20;
@@ -82,7 +82,7 @@ TEST(GroundTruth, DetectsTrueInstancesWithTheirTightBoxes) {
 }
 
 TEST(GroundTruth, MissesFarAndTinyObjects) {
-  World w;
+  TruthWorld w;
   const Observation obs = w.simulator.Observe();
   GroundTruthConfig near;
   near.max_distance_m = 8;
@@ -95,7 +95,7 @@ TEST(GroundTruth, MissesFarAndTinyObjects) {
 }
 
 TEST(GroundTruth, ConfidenceGrowsWithApproachAndPassesTheStopThreshold) {
-  World w;
+  TruthWorld w;
   auto suite = *GroundTruthPerception(w.simulator, {});
   float last = 0;
   for (int i = 0; i < 8; ++i) {
@@ -110,7 +110,7 @@ TEST(GroundTruth, ConfidenceGrowsWithApproachAndPassesTheStopThreshold) {
 }
 
 TEST(GroundTruth, OtherGoalsMatchRawNamesExactly) {
-  World w;
+  TruthWorld w;
   const Observation obs = w.simulator.Observe();
   auto suite = *GroundTruthPerception(w.simulator, {});
   EXPECT_EQ(suite.detector->Detect(obs, "stool")->size(), 1U);
@@ -119,7 +119,7 @@ TEST(GroundTruth, OtherGoalsMatchRawNamesExactly) {
 }
 
 TEST(GroundTruth, StairPixelsAreExactlyThePixelsOfStairs) {
-  World w;
+  TruthWorld w;
   const Observation obs = w.simulator.Observe();
   auto suite = *GroundTruthPerception(w.simulator, {});
   const auto stairs = suite.stairs->SegmentStairs(obs);
@@ -135,7 +135,7 @@ TEST(GroundTruth, StairPixelsAreExactlyThePixelsOfStairs) {
 }
 
 TEST(GroundTruth, AForeignObservationIsAnErrorNotAGuess) {
-  World w;
+  TruthWorld w;
   auto suite = *GroundTruthPerception(w.simulator, {});
   Observation never_rendered;
   EXPECT_EQ(suite.detector->Detect(never_rendered, "chair").error().code, ErrorCode::kMismatch);
@@ -145,7 +145,7 @@ TEST(GroundTruth, AForeignObservationIsAnErrorNotAGuess) {
 }
 
 TEST(GroundTruth, AllPartsWorkTogether) {
-  World w;
+  TruthWorld w;
   const Observation obs = w.simulator.Observe();
   auto suite = *GroundTruthPerception(w.simulator, {});
   const auto percept = suite.Look(obs, "chair");

@@ -6,12 +6,13 @@
 #include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/sim/scene/scene.h"
 #include "crossnav/sim/sensing/scene_info.h"
+#include "support/places.h"
 
 namespace crossnav::sim::test {
 namespace {
 
 std::filesystem::path HomeFolder(const char* id) {
-  return std::filesystem::path(CROSSNAV_SHARED_DIR) / "data" / "homes" / id;
+  return std::filesystem::path(crossnav::test::SharedPath("data/homes")) / id;
 }
 
 #define LOAD_HOME_OR_SKIP(scene, id)                                           \

@@ -11,11 +11,12 @@
 namespace crossnav::sim::test {
 namespace {
 
-struct World {
+struct ViewsWorld {
   Scene scene;
   RayCaster caster{scene};
   NavMesh navmesh;
-  explicit World(Scene s) : scene(std::move(s)), navmesh(std::move(*NavMesh::Build(scene, {}))) {}
+  explicit ViewsWorld(Scene s)
+      : scene(std::move(s)), navmesh(std::move(*NavMesh::Build(scene, {}))) {}
 
   const SceneInstance& Named(const std::string& name) const {
     for (const SceneInstance& instance : scene.instances) {
@@ -38,7 +39,7 @@ MicroScene ChairInARoom() {
 }
 
 /// Reference: counts the object's pixels in the whole picture.
-VisibleObject CountPixels(const World& w, const ObjectView& view, const SensorConfig& sensor) {
+VisibleObject CountPixels(const ViewsWorld& w, const ObjectView& view, const SensorConfig& sensor) {
   const Frame frame =
       w.caster.Render(sensor.Intrinsics(), CameraPose(view.pose, sensor.camera_height_m));
   for (const VisibleObject& object : VisibleObjects(frame.instance, 1)) {
@@ -48,7 +49,7 @@ VisibleObject CountPixels(const World& w, const ObjectView& view, const SensorCo
 }
 
 TEST(GoodViews, StandAroundAFreeObjectFacingItAtTheAskedDistance) {
-  const World w(ChairInARoom().Finish());
+  const ViewsWorld w(ChairInARoom().Finish());
   const ViewRules rules;
   const auto views = w.ViewsOf("chair");
   ASSERT_EQ(views.size(), 4U);
@@ -66,7 +67,7 @@ TEST(GoodViews, StandAroundAFreeObjectFacingItAtTheAskedDistance) {
 }
 
 TEST(GoodViews, TellTheBoxAndThePixelsOfTheWholePicture) {
-  const World w(ChairInARoom().Finish());
+  const ViewsWorld w(ChairInARoom().Finish());
   const ViewRules rules;
   for (const ObjectView& view : w.ViewsOf("chair")) {
     const VisibleObject plain = CountPixels(w, view, rules.sensor);
@@ -84,7 +85,7 @@ TEST(GoodViews, AreNotWhereSomethingHidesMostOfTheObject) {
   MicroScene m = ChairInARoom();
   m.Begin("screen");
   m.Box({3.8, 3, 0}, {3.85, 5.5, 1.5});  // beside the chair, towards -x
-  const World w(m.Finish());
+  const ViewsWorld w(m.Finish());
   const auto views = w.ViewsOf("chair");
   ASSERT_FALSE(views.empty());
   for (const ObjectView& view : views) {
@@ -94,7 +95,7 @@ TEST(GoodViews, AreNotWhereSomethingHidesMostOfTheObject) {
   ViewRules all;
   all.per_object = 1000;
   EXPECT_LT(w.ViewsOf("chair", all).size(),
-            World(ChairInARoom().Finish()).ViewsOf("chair", all).size());
+            ViewsWorld(ChairInARoom().Finish()).ViewsOf("chair", all).size());
 }
 
 TEST(GoodViews, CountPartsOutsideThePictureAsHidden) {
@@ -102,7 +103,7 @@ TEST(GoodViews, CountPartsOutsideThePictureAsHidden) {
   m.Room(0, 0, 8, 8);
   m.Begin("tower", "chair");
   m.Box({4, 4, 0}, {4.3, 4.3, 2.5});  // its top is in the picture from 1.62 m on only
-  const World w(m.Finish());
+  const ViewsWorld w(m.Finish());
   ViewRules rules;
   rules.per_object = 1000;
   rules.min_visible = 0.99;
@@ -120,7 +121,7 @@ TEST(GoodViews, AreNoneForAnObjectInACupboardOrOnlySmallOnes) {
   m.Box({2.9, 2.9, 0}, {3.5, 3.5, 1.2});
   m.Begin("thimble", "plant");
   m.Box({1, 1, 0}, {1.05, 1.05, 0.05});
-  const World w(m.Finish());
+  const ViewsWorld w(m.Finish());
   EXPECT_TRUE(w.ViewsOf("tv").empty());
   EXPECT_TRUE(w.ViewsOf("thimble").empty());
 }

@@ -18,11 +18,12 @@ const SceneInstance& Named(const Scene& scene, const char* name) {
   throw std::runtime_error("no such instance");
 }
 
-struct World {
+struct InfoWorld {
   Scene scene;
   RayCaster caster{scene};
   NavMesh navmesh;
-  explicit World(Scene s) : scene(std::move(s)), navmesh(std::move(*NavMesh::Build(scene, {}))) {}
+  explicit InfoWorld(Scene s)
+      : scene(std::move(s)), navmesh(std::move(*NavMesh::Build(scene, {}))) {}
   std::vector<Vector3d> ViewpointsOf(const char* name) const {
     return Viewpoints(scene, navmesh, caster, Named(scene, name), {});
   }
@@ -33,7 +34,7 @@ TEST(Viewpoints, SurroundAFreeStandingObjectOnTheGrid) {
   m.Room(0, 0, 8, 8);
   m.Begin("chair", "chair");
   m.Box({4, 4, 0}, {4.5, 4.5, 0.9});
-  const World w(m.Finish());
+  const InfoWorld w(m.Finish());
   const auto points = w.ViewpointsOf("chair");
   const Box3& box = Named(w.scene, "chair").box;
   int quadrants[4] = {};
@@ -57,14 +58,14 @@ TEST(Viewpoints, AreNotBehindAWall) {
   m.Box({4, 0, 0}, {4.1, 3, 2.6});  // a gap at y > 3
   m.Begin("toilet", "toilet");
   m.Box({3.4, 0.5, 0}, {3.95, 1, 0.8});
-  const World w(m.Finish());
+  const InfoWorld w(m.Finish());
   const auto points = w.ViewpointsOf("toilet");
   EXPECT_FALSE(points.empty());
   for (const Vector3d& p : points) EXPECT_LT(p.x(), 4);
 }
 
 TEST(Viewpoints, BelongToTheStoreyOfTheObject) {
-  const World w(TwoFloors());
+  const InfoWorld w(TwoFloors());
   const auto bed = w.ViewpointsOf("bed"), couch = w.ViewpointsOf("couch");
   ASSERT_FALSE(bed.empty());
   ASSERT_FALSE(couch.empty());
@@ -82,12 +83,12 @@ TEST(Viewpoints, AnObjectInsideACupboardHasNone) {
   m.Box({3, 3, 0.5}, {3.4, 3.4, 0.8});
   m.Begin("cupboard");
   m.Box({2.9, 2.9, 0}, {3.5, 3.5, 1.2});
-  const World w(m.Finish());
+  const InfoWorld w(m.Finish());
   EXPECT_TRUE(w.ViewpointsOf("tv").empty());
 }
 
 TEST(DescribeScene, ListsGoalInstancesPerCategory) {
-  const World w(TwoFloors());
+  const InfoWorld w(TwoFloors());
   const SceneInfo info = DescribeScene(w.scene, w.navmesh, w.caster, {});
   EXPECT_EQ(info.scene, "micro");
   EXPECT_EQ(info.floors.size(), 2U);

@@ -17,20 +17,20 @@ SensorConfig SmallSensor() {
   return sensor;
 }
 
-struct World {
+struct SimulatorWorld {
   Scene scene;
   RayCaster caster{scene};
   NavMesh navmesh;
   Simulator simulator;
 
-  explicit World(Scene s)
+  explicit SimulatorWorld(Scene s)
       : scene(std::move(s)),
         navmesh(std::move(*NavMesh::Build(scene, {}))),
         simulator(scene, navmesh, caster, SmallSensor(), {}) {}
 };
 
 TEST(Simulator, ForwardMovesAQuarterMetreWhereItLooks) {
-  World w(TwoFloors());
+  SimulatorWorld w(TwoFloors());
   ASSERT_TRUE(w.simulator.Reset({{3, 3, 0}, 0, 0}).has_value());
   EXPECT_NEAR(w.simulator.Step(Action::kMoveForward), 0.25, 1e-4);
   EXPECT_NEAR(w.simulator.agent().p_world.x(), 3.25, 1e-4);
@@ -43,7 +43,7 @@ TEST(Simulator, ForwardMovesAQuarterMetreWhereItLooks) {
 }
 
 TEST(Simulator, PitchIsClamped) {
-  World w(TwoFloors());
+  SimulatorWorld w(TwoFloors());
   ASSERT_TRUE(w.simulator.Reset({{3, 3, 0}, 0, 3.0}).has_value());
   EXPECT_NEAR(w.simulator.agent().pitch_rad, DegToRad(60), 1e-9);
   for (int i = 0; i < 10; ++i) w.simulator.Step(Action::kLookDown);
@@ -53,7 +53,7 @@ TEST(Simulator, PitchIsClamped) {
 }
 
 TEST(Simulator, ABadStartIsAnErrorAndKeepsTheOldPose) {
-  World w(TwoFloors());
+  SimulatorWorld w(TwoFloors());
   ASSERT_TRUE(w.simulator.Reset({{3, 3, 0}, 0.5, 0}).has_value());
   for (const AgentPose& bad : {AgentPose{{NAN, 3, 0}, 0, 0}, AgentPose{{3, 3, 0}, INFINITY, 0},
                                AgentPose{{3, 3, 0}, 0, NAN}, AgentPose{{-9, 3, 0}, 0, 0}}) {
@@ -65,7 +65,7 @@ TEST(Simulator, ABadStartIsAnErrorAndKeepsTheOldPose) {
 }
 
 TEST(Simulator, AWallStopsItWithoutSliding) {
-  World w(TwoFloors());
+  SimulatorWorld w(TwoFloors());
   ASSERT_TRUE(w.simulator.Reset({{9.0, 3, 0}, DegToRad(30), 0}).has_value());
   double moved = 0;
   for (int i = 0; i < 20; ++i) moved += w.simulator.Step(Action::kMoveForward);
@@ -85,7 +85,7 @@ double StairHeight(double x) {
 }
 
 TEST(Simulator, ClimbsSeventeenStairsWithTheCameraOverTheTreads) {
-  World w(TwoFloors());
+  SimulatorWorld w(TwoFloors());
   ASSERT_TRUE(w.simulator.Reset({{0.5, 0.5, 0}, 0, 0}).has_value());
   for (int i = 0; i < 40 && w.simulator.agent().p_world.z() < 2.99; ++i) {
     const double before_x = w.simulator.agent().p_world.x();
@@ -105,8 +105,8 @@ TEST(Simulator, ClimbsSeventeenStairsWithTheCameraOverTheTreads) {
 }
 
 TEST(Simulator, ObservationsMatchThePoseAndRepeat) {
-  World a(TwoFloors()), b(TwoFloors());
-  for (World* w : {&a, &b}) {
+  SimulatorWorld a(TwoFloors()), b(TwoFloors());
+  for (SimulatorWorld* w : {&a, &b}) {
     ASSERT_TRUE(w->simulator.Reset({{3, 3, 0}, 0.7, 0}).has_value());
     for (const Action action :
          {Action::kMoveForward, Action::kTurnLeft, Action::kLookDown, Action::kMoveForward}) {

@@ -2,24 +2,17 @@
 #include "crossnav/store/map_file.h"
 
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
+#include "store/change_file.h"
 #include "store/small_world.h"
 
 namespace crossnav::store {
 namespace {
 
+using testing::Change;
 using testing::ExpectSame;
 using testing::SmallWorld;
 using testing::TempFile;
-
-/// Does `sql` to the file behind our back.
-void Change(const std::filesystem::path& path, const char* sql) {
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sql;
-  sqlite3_close(db);
-}
 
 const SaveInfo kInfo{.encoder_name = "test-encoder",
                      .encoder_hash = 0xfedcba9876543210ULL,

@@ -3,16 +3,17 @@
 #include "crossnav/store/object_table.h"
 
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include "crossnav/objects/object_book.h"
 #include "crossnav/store/map_file.h"
+#include "store/change_file.h"
 #include "store/small_world.h"
 
 namespace crossnav::store {
 namespace {
 
 using objects::ObjectRecord;
+using testing::Change;
 using testing::SmallWorld;
 using testing::TempFile;
 
@@ -42,13 +43,6 @@ ObjectRecord Bare() {
   record.voxels = {{0, 0, 0}};
   Measure(record, 0.1);
   return record;
-}
-
-void Change(const std::filesystem::path& path, const char* sql) {
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sql;
-  sqlite3_close(db);
 }
 
 TEST(ObjectTable, RecordsAreLoadedAsTheyWereSaved) {

@@ -12,20 +12,12 @@
 #include "crossnav/trace/mcap_reader.h"
 #include "crossnav/trace/mcap_writer.h"
 #include "support/temp_folder.h"
+#include "support/text_file.h"
 
 namespace crossnav::trace {
 namespace {
 
 using Taken = std::vector<std::string>;
-
-std::string BytesOf(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-void Put(const std::filesystem::path& path, std::string_view bytes) {
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<long>(bytes.size()));
-}
 
 /// Several small chunks on two channels.
 void WriteSmall(const std::filesystem::path& path) {
@@ -102,7 +94,7 @@ TEST(Mcap, IsReadUpToTheTearWhereverItIsTorn) {
   WriteSmall(path);
   Taken whole, part;
   ASSERT_TRUE(Read(path, whole));
-  const std::string bytes = BytesOf(path);
+  const std::string bytes = test::ReadText(path);
   std::size_t most = 0;
   for (std::size_t n = 8; n < bytes.size(); ++n) {
     const auto contents = Scan(std::string_view(bytes).substr(0, n), part);
@@ -122,7 +114,7 @@ TEST(Mcap, AFlippedBitAnywhereIsFound) {
   WriteSmall(path);
   Taken whole, got;
   ASSERT_TRUE(Read(path, whole));
-  const std::string bytes = BytesOf(path);
+  const std::string bytes = test::ReadText(path);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     for (const int mask : {0x01, 0x80}) {
       std::string damaged = bytes;
@@ -150,7 +142,7 @@ TEST(Mcap, NeverSplitsAGroup) {
     ASSERT_TRUE(writer->EndGroup());
   }
   ASSERT_TRUE(writer->Close());
-  const std::string bytes = BytesOf(path);
+  const std::string bytes = test::ReadText(path);
   Taken part;
   for (std::size_t n = 8; n < bytes.size(); ++n) {
     ASSERT_TRUE(Scan(std::string_view(bytes).substr(0, n), part));
@@ -211,9 +203,9 @@ TEST(Mcap, RefusesOtherFilesAndFolders) {
   const test::TempFolder folder;
   Taken taken;
   EXPECT_EQ(Read(folder.path() / "none.mcap", taken).error().code, ErrorCode::kNotFound);
-  Put(folder.path() / "text.mcap", "this is not a recording at all");
+  test::WriteText(folder.path() / "text.mcap", "this is not a recording at all");
   EXPECT_EQ(Read(folder.path() / "text.mcap", taken).error().code, ErrorCode::kMalformed);
-  Put(folder.path() / "empty.mcap", "");
+  test::WriteText(folder.path() / "empty.mcap", "");
   EXPECT_FALSE(Read(folder.path() / "empty.mcap", taken));
   EXPECT_FALSE(Read(folder.path(), taken));
   EXPECT_EQ(McapWriter::Open(folder.path() / "no" / "a.mcap", {}).error().code, ErrorCode::kIo);

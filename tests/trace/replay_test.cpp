@@ -13,6 +13,7 @@
 #include "crossnav/trace/replay_writer.h"
 #include "crossnav/trace/trace_json.h"
 #include "support/temp_folder.h"
+#include "support/text_file.h"
 #include "trace/sample_episode.h"
 
 namespace crossnav::trace {
@@ -23,15 +24,6 @@ namespace fs = std::filesystem;
 const SampleEpisode& Sample() {
   static const SampleEpisode episode = MakeSampleEpisode(32);
   return episode;
-}
-
-std::string BytesOf(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-void Put(const fs::path& path, std::string_view bytes) {
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<long>(bytes.size()));
 }
 
 void WriteSample(const fs::path& path) {
@@ -84,7 +76,7 @@ TEST(Replay, HasTheSameBytesEachTime) {
   const test::TempFolder folder;
   WriteSample(folder.path() / "a.mcap");
   WriteSample(folder.path() / "b.mcap");
-  EXPECT_EQ(BytesOf(folder.path() / "a.mcap"), BytesOf(folder.path() / "b.mcap"));
+  EXPECT_EQ(test::ReadText(folder.path() / "a.mcap"), test::ReadText(folder.path() / "b.mcap"));
 }
 
 TEST(Replay, WorksWithoutImages) {
@@ -115,10 +107,11 @@ TEST(Replay, OfAKilledRunIsReadUpToTheTear) {
   const test::TempFolder folder;
   const fs::path path = folder.path() / "a.mcap", torn = folder.path() / "torn.mcap";
   WriteSample(path);
-  const std::string bytes = BytesOf(path);
+  const std::string bytes = test::ReadText(path);
   std::size_t most = 0;
   for (const double share : {0.1, 0.5, 0.8, 0.97}) {
-    Put(torn, bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+    test::WriteText(
+        torn, bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
     const auto replay = ReadReplay(torn);
     ASSERT_TRUE(replay) << replay.error().Message();
     EXPECT_FALSE(replay->is_complete);
@@ -146,8 +139,8 @@ TEST(Replay, WithoutAStepsRecordIsRefusedUnlessItIsTornThere) {
   ASSERT_FALSE(whole);
   EXPECT_NE(whole.error().where.find("a.mcap, step 1"), std::string::npos) << whole.error().where;
 
-  const std::string bytes = BytesOf(path);
-  Put(path, bytes.substr(0, bytes.size() - 30));
+  const std::string bytes = test::ReadText(path);
+  test::WriteText(path, bytes.substr(0, bytes.size() - 30));
   const auto torn = ReadReplay(path);
   ASSERT_TRUE(torn) << torn.error().Message();
   EXPECT_EQ(torn->steps.size(), 1U);
@@ -157,9 +150,9 @@ TEST(Replay, RefusesDamage) {
   const test::TempFolder folder;
   const fs::path path = folder.path() / "a.mcap", bad = folder.path() / "bad.mcap";
   WriteSample(path);
-  std::string bytes = BytesOf(path);
+  std::string bytes = test::ReadText(path);
   bytes[bytes.size() / 3] = static_cast<char>(bytes[bytes.size() / 3] ^ 4);
-  Put(bad, bytes);
+  test::WriteText(bad, bytes);
   const auto replay = ReadReplay(bad);
   ASSERT_FALSE(replay);
   EXPECT_EQ(replay.error().code, ErrorCode::kMalformed);
@@ -214,7 +207,7 @@ TEST(ReplayPage, OfTwoRunsOfAnEpisodeHoldsBoth) {
   ASSERT_TRUE(writer->Write({Sample().frames[0].trace}));
   ASSERT_TRUE(writer->Close());
   ASSERT_TRUE(ExportComparison(a, b, folder.path() / "two.html"));
-  const std::string page = BytesOf(folder.path() / "two.html");
+  const std::string page = test::ReadText(folder.path() / "two.html");
   EXPECT_EQ(page.find("@OTHER_DATA@"), std::string::npos);
   EXPECT_GT(page.size(), ReplayPage(*ReadReplay(a)).size());
   ReplayInfo other = Sample().info;

@@ -15,14 +15,14 @@
 namespace crossnav::world {
 namespace {
 
-struct Shaft {
+struct StairShaft {
   HousePlan plan;
   Vector3d p_below, p_above;  ///< on the corridors
 };
 
 /// A corridor 2 m wide south of the shaft on `storeys` + 1 levels.
-Shaft MakeShaft(StairParams params, int storeys = 1) {
-  Shaft shaft;
+StairShaft MakeShaft(StairParams params, int storeys = 1) {
+  StairShaft shaft;
   HousePlan& plan = shaft.plan;
   plan.id = "00001-Shaft";
   StairBlock block = MakeStairBlock(params);
@@ -50,7 +50,7 @@ Shaft MakeShaft(StairParams params, int storeys = 1) {
 }
 
 /// Walks from below to above and back.
-void ExpectWalkable(const Shaft& shaft) {
+void ExpectWalkable(const StairShaft& shaft) {
   const test::TempFolder dir;
   const auto folder = WriteScene(BuildHouse(shaft.plan), dir.path());
   ASSERT_TRUE(folder.has_value());
@@ -178,7 +178,7 @@ TEST(Stairs, NoStepWithoutRisersIsTooHighForAChild) {
 
 TEST(RailVoids, ClosesEveryEdgeWithoutWallOrStair) {
   StairParams params;
-  Shaft shaft = MakeShaft(params);
+  StairShaft shaft = MakeShaft(params);
   double length = 0;
   for (const Railing& r : shaft.plan.railings) length += (r.b - r.a).norm();
   // The long side towards the corridor and the short one over the first treads.

@@ -16,25 +16,25 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Rounded to 1e-5 m, as Habitat's files are.
-double Rounded(double value) {
+double RoundedForFile(double value) {
   const double rounded = std::round(value * 1e5) / 1e5;
   return rounded == 0 ? 0 : rounded;  // no -0
 }
 
 Json PositionJson(const Vector3d& p_world) {
   const Vector3d p = HabitatFromWorld(p_world);
-  return Json::array({Rounded(p.x()), Rounded(p.y()), Rounded(p.z())});
+  return Json::array({RoundedForFile(p.x()), RoundedForFile(p.y()), RoundedForFile(p.z())});
 }
 
 Json RotationJson(double yaw_rad) {
   const auto q = HabitatFromYaw(yaw_rad);
-  return Json::array({q[0], Rounded(q[1]), q[2], Rounded(q[3])});
+  return Json::array({q[0], RoundedForFile(q[1]), q[2], RoundedForFile(q[3])});
 }
 
 Json EpisodeJson(const Episode& episode) {
   Json floors = Json::array();
   for (const EpisodeFloor& floor : episode.floors) {
-    floors.push_back({{"id", floor.id}, {"height_m", Rounded(floor.height_m)}});
+    floors.push_back({{"id", floor.id}, {"height_m", RoundedForFile(floor.height_m)}});
   }
   Json json = {{"episode_id", episode.episode_id},
                {"scene_id", episode.scene_id},

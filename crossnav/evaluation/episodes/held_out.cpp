@@ -16,7 +16,7 @@ using geometry::VoxelKey;
 using geometry::VoxelMap;
 using geometry::VoxelState;
 
-constexpr int kStep_px = 4;  // chosen: neighbouring rays carry the same information
+constexpr int kRay_px = 4;  // chosen: neighbouring rays carry the same information
 
 /// Fractions of the segment at entry into and exit from the voxel.
 std::pair<double, double> ThroughVoxel(const Vector3d& from, const Vector3d& to,
@@ -82,8 +82,8 @@ bool IsFreeAround(const VoxelMap& map, const VoxelKey& key) {
 
 void AddHeldOut(const VoxelMap& map, const Observation& obs, HeldOutResult* result) {
   const geometry::MapConfig& config = map.config();
-  for (int v = kStep_px / 2; v < obs.depth_m.height; v += kStep_px)
-    for (int u = kStep_px / 2; u < obs.depth_m.width; u += kStep_px) {
+  for (int v = kRay_px / 2; v < obs.depth_m.height; v += kRay_px)
+    for (int u = kRay_px / 2; u < obs.depth_m.width; u += kRay_px) {
       const double depth_m = obs.depth_m.At(u, v);
       if (!(depth_m >= config.depth_min_m && depth_m <= config.depth_max_m)) continue;
       ++result->rays;

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1, kTrackFormat = 2;
+constexpr int kSuiteFormat = 1, kTrackFormat = 2;
 constexpr std::string_view kPackSuffix = "-pack";
 constexpr std::array<const char*, 9> kDrawnHomes = {
     "1BedroomApartmentWithRoundWall", "2BedroomApartment", "2BedroomApartmentWithBowWindow",
@@ -25,7 +25,7 @@ constexpr std::array<const char*, 9> kDrawnHomes = {
     "3BedroomHouseWithMezzanine",     "4BedroomHouse",     "Studio"};
 
 Json ToJson(const SuiteManifest& manifest) {
-  Json json = {{"format", manifest.track.empty() ? kFormat : kTrackFormat},
+  Json json = {{"format", manifest.track.empty() ? kSuiteFormat : kTrackFormat},
                {"suite", manifest.suite},
                {"generator_version", manifest.generator_version},
                {"furniture", manifest.furniture},
@@ -160,7 +160,7 @@ Result<SuiteManifest> ReadManifest(const std::filesystem::path& path) {
     const Json json = Json::parse(*text);
     const int format = ValueOf<int>(json.at("format"));
     if (format == kTrackFormat) manifest.track = json.at("track");
-    if (format != kFormat && format != kTrackFormat) {
+    if (format != kSuiteFormat && format != kTrackFormat) {
       return Fail(ErrorCode::kUnsupported, "is of another format; make the suite anew",
                   path.string() + ": format");
     }

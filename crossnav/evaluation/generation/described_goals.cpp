@@ -14,7 +14,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr int kDraws = 40;  // chosen: descriptions of a category to choose from
+constexpr int kDescriptions = 40;  // chosen: descriptions of a category to choose from
 
 /// A scene as language knows homes: rooms are its regions, of the types that their things tell.
 struct SceneHome {
@@ -62,7 +62,8 @@ const Target* TargetWith(const std::vector<Target>& targets, int instance) {
 std::optional<std::pair<std::string, GoalObject>> Describe(const SceneContext& context,
                                                            const SceneHome& scene,
                                                            const std::string& category, Rng& rng) {
-  const auto drawn = DrawWords(scene.home, WordKind::kClear, kDraws, {SpacedName(category)}, rng);
+  const auto drawn =
+      DrawWords(scene.home, WordKind::kClear, kDescriptions, {SpacedName(category)}, rng);
   std::vector<std::pair<std::string, GoalObject>> described;
   for (const DrawnWords& words : drawn) {
     const Target* target = TargetWith(context.TargetsOf(category), scene.instances[words.thing]);

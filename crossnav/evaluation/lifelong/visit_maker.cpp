@@ -16,7 +16,7 @@ constexpr double kStaleNear_m = 1.5;  // as of a STOP: an instance within it is 
 constexpr double kMinStart_m = 1.0;   // as dataset.min_first_goal_m
 constexpr int kStarts = 60;           // chosen: draws of a start
 constexpr int kMostStatic = 3;        // chosen: of the goals of a later day, where others are there
-constexpr double kRounding_m = 1e-4;  // files keep it
+constexpr double kStartRounding_m = 1e-4;  // files keep it
 
 /// Instances that a goal means.
 int CountOf(const sim::Scene& scene, const std::string& goal, bool is_category) {
@@ -24,10 +24,6 @@ int CountOf(const sim::Scene& scene, const std::string& goal, bool is_category) 
       std::count_if(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
         return !instance.box.empty() && (is_category ? instance.category : instance.name) == goal;
       }));
-}
-
-bool IsCategory(const std::string& goal) {
-  return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
 }
 
 /// Name that means the changed object alone, before and after; empty = none does.
@@ -173,7 +169,7 @@ class Maker {
       if (!p) continue;
       AgentPose start;
       for (int axis = 0; axis < 3; ++axis) {
-        start.p_world[axis] = std::round((*p)[axis] / kRounding_m) * kRounding_m;
+        start.p_world[axis] = std::round((*p)[axis] / kStartRounding_m) * kStartRounding_m;
       }
       start.yaw_rad = yaw_rad;
       const bool is_on_floor =

@@ -15,7 +15,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kVisitFormat = 1;
 
 Json PointJson(const Vector3d& p) {
   const auto rounded = [](double m) { return std::round(m * 1e4) / 1e4; };
@@ -137,7 +137,7 @@ Result<Json> ParseObject(std::string_view text, const std::string& where) {
 
 Result<void> CheckFormat(const Json& json, const std::string& where) {
   const auto format = json.find("format");
-  if (format != json.end() && *format == kFormat) return {};
+  if (format != json.end() && *format == kVisitFormat) return {};
   return Fail(ErrorCode::kUnsupported, "is missing or of another version", where + ": format");
 }
 
@@ -155,7 +155,7 @@ std::string VisitsText(const std::vector<HouseVisit>& visits) {
                     {"yaw_rad", visit.start.yaw_rad},
                     {"goals", std::move(goals)}});
   }
-  const Json json = {{"format", kFormat}, {"visits", std::move(list)}};
+  const Json json = {{"format", kVisitFormat}, {"visits", std::move(list)}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -229,10 +229,10 @@ Result<VisitRecord> ParseVisitLine(const std::string& text, const std::string& w
 
 std::string VisitResultsText(const VisitResults& results) {
   const VisitRun& run = results.run;
-  const Json header = {
-      {"format", kFormat},      {"suite_hash", run.suite_hash},   {"memory_mode", run.memory_mode},
-      {"variant", run.variant}, {"config_hash", run.config_hash}, {"perception", run.perception},
-      {"version", run.version}};
+  const Json header = {{"format", kVisitFormat},         {"suite_hash", run.suite_hash},
+                       {"memory_mode", run.memory_mode}, {"variant", run.variant},
+                       {"config_hash", run.config_hash}, {"perception", run.perception},
+                       {"version", run.version}};
   std::string text = header.dump() + "\n";
   for (const VisitRecord& record : results.records) text += VisitLine(record) + "\n";
   return text;

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kFlipsOnTerminal = 20;  // chosen: one screen; the report has all
 
-struct Line {
+struct TextLine {
   std::string name, difference, interval;
 };
 
 /// Shares in percentage points, lengths in metres.
-std::vector<Line> Lines(const Comparison& c) {
-  std::vector<Line> lines;
+std::vector<TextLine> Lines(const Comparison& c) {
+  std::vector<TextLine> lines;
   for (const std::string& name : c.order) {
     const PairedDifference& d = c.differences.at(name);
     const double unit = name == "distance_to_goal_m" ? 1 : 100;
@@ -81,7 +81,7 @@ std::string ComparisonMarkdown(const Comparison& c, const std::filesystem::path&
   text += fmt::format("{} episodes in both; points of per cent; 95 % bootstrap, {}.\n\n",
                       c.episodes, HowResampled(c));
   text += "| metric | difference | 95 % |\n|---|--:|--:|\n";
-  for (const Line& line : Lines(c)) {
+  for (const TextLine& line : Lines(c)) {
     text += fmt::format("| {} | {} | {} |\n", line.name, line.difference, line.interval);
   }
   text += "\n" + FlipSummary(c) + ".\n";
@@ -104,7 +104,7 @@ std::string ComparisonText(const Comparison& c) {
     text += "  FORCED, the runs differ in: " + Joined(c.headers.unfair) + "\n";
   }
   if (!c.headers.compared.empty()) text += "  compared: " + Joined(c.headers.compared) + "\n";
-  for (const Line& line : Lines(c)) {
+  for (const TextLine& line : Lines(c)) {
     text += fmt::format("  {:<20} {:>8}  {}\n", line.name, line.difference, line.interval);
   }
   text += "  " + FlipSummary(c) + "\n";

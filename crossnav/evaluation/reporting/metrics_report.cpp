@@ -16,7 +16,7 @@ bool IsShare(const std::string& name) {
   return name != "distance_to_goal_m";
 }
 
-std::string Figure(const std::string& name, double value) {
+std::string FigureText(const std::string& name, double value) {
   return IsShare(name) ? fmt::format("{:6.2f}", 100 * value) : fmt::format("{:6.2f}", value);
 }
 
@@ -54,11 +54,11 @@ std::string FiguresText(std::span<const EpisodeRecord> episodes, const Bootstrap
       text += fmt::format("  {:<20}      -\n", name);
       continue;
     }
-    text += fmt::format("  {:<20} {}", name, Figure(name, *value));
+    text += fmt::format("  {:<20} {}", name, FigureText(name, *value));
     const auto interval = intervals.find(name);
     if (interval != intervals.end()) {
-      text += fmt::format("  [{}, {}]", Figure(name, interval->second.low),
-                          Figure(name, interval->second.high));
+      text += fmt::format("  [{}, {}]", FigureText(name, interval->second.low),
+                          FigureText(name, interval->second.high));
     }
     text += "\n";
   }

@@ -10,6 +10,8 @@
 namespace crossnav::evaluation {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// The figure `metric` of a row of the paper's table, as a share.
 std::optional<double> ValueOf(const PaperRow& row, const std::string& metric) {
   if (metric == "SR") return row.sr / 100;
@@ -133,7 +135,6 @@ std::string CausesCsv(const std::vector<ReportRun>& runs) {
 
 std::string ReportJson(const std::vector<ReportRun>& runs,
                        const std::vector<ReportFigure>& figures) {
-  using Json = nlohmann::ordered_json;
   Json run_list = Json::array(), figure_list = Json::array();
   for (const ReportRun& run : runs) {
     run_list.push_back({{"name", run.name},

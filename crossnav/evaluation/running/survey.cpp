@@ -18,20 +18,21 @@ namespace {
 
 using geometry::VoxelKey;
 
-constexpr double kApart_m = 1.0;  // chosen: distance of places; four sides reveal most furniture
+// chosen: four sides reveal most furniture
+constexpr double kPlacesApart_m = 1.0;
 constexpr std::array<double, 2> kPitches_deg = {0,
                                                 -30};  // chosen: ahead, and the ground at the feet
-constexpr int kYaws = 4;                               // chosen: a field of view of 90 degrees
-constexpr int kPixelStep = 2;         // chosen: an object's voxel shows in many pixels
+constexpr int kSurveyYaws = 4;                         // chosen: a field of view of 90 degrees
+constexpr int kSurveyStep_px = 2;     // chosen: an object's voxel shows in many pixels
 constexpr int kBackgroundShare = 8;   // chosen: one in eight background voxels is kept
 constexpr float kCertainWeight = 10;  // chosen: ten frames at the best distance
 
-/// Points of the walkable surface, each `kApart_m` from the points before it, by x, y, z.
+/// Points of the walkable surface, each `kPlacesApart_m` from the points before it, by x, y, z.
 std::vector<Vector3d> PlacesOf(const SceneContext& context) {
   std::vector<Vector3d> places;
   for (const Vector3d& p : context.WalkablePoints()) {
     const bool is_near = std::any_of(places.begin(), places.end(), [&](const Vector3d& other) {
-      return (other - p).norm() < kApart_m - 1e-6;
+      return (other - p).norm() < kPlacesApart_m - 1e-6;
     });
     if (!is_near) places.push_back(p);
   }
@@ -39,7 +40,7 @@ std::vector<Vector3d> PlacesOf(const SceneContext& context) {
 }
 
 /// Instances that the views show at a voxel.
-struct Shown {
+struct ShownVoxel {
   std::map<int, int> pixels;  // by instance
   double nearest_m = 1e9;
   Vector3f p_eye_world = Vector3f::Zero();
@@ -81,14 +82,14 @@ class Surveyor {
   policy::StairEvidence stairs_;
   policy::FlightSurvey flight_survey_;
   std::vector<double> levels_m_;
-  std::map<VoxelKey, Shown> shown_;
+  std::map<VoxelKey, ShownVoxel> shown_;
 };
 
 Result<void> Surveyor::LookAround(const Vector3d& p_world, bool with_objects) {
   ++survey_.places;
-  for (int yaw = 0; yaw < kYaws; ++yaw) {
+  for (int yaw = 0; yaw < kSurveyYaws; ++yaw) {
     for (const double pitch_deg : kPitches_deg) {
-      const AgentPose pose{p_world, DegToRad(360.0 * yaw / kYaws), DegToRad(pitch_deg)};
+      const AgentPose pose{p_world, DegToRad(360.0 * yaw / kSurveyYaws), DegToRad(pitch_deg)};
       if (auto ok = simulator_.Reset(pose); !ok) return ok;
       if (auto ok = Look(with_objects); !ok) return ok;
     }
@@ -116,8 +117,8 @@ void Surveyor::NoteObjects(const Observation& obs) {
   const geometry::MapConfig& map = config_.agent.map;
   const InstanceImage& instance = simulator_.last_frame().instance;
   const Vector3d p_eye = obs.T_world_camera.translation();
-  for (int v = 0; v < instance.height; v += kPixelStep) {
-    for (int u = 0; u < instance.width; u += kPixelStep) {
+  for (int v = 0; v < instance.height; v += kSurveyStep_px) {
+    for (int u = 0; u < instance.width; u += kSurveyStep_px) {
       const float depth_m = obs.depth_m.At(u, v);
       if (!(depth_m >= map.depth_min_m && depth_m <= map.depth_max_m)) continue;
       const sim::SceneInstance* seen = context_.scene().FindInstance(instance.At(u, v));
@@ -126,7 +127,7 @@ void Surveyor::NoteObjects(const Observation& obs) {
       const VoxelKey key = geometry::KeyOf(p_world, map.voxel_m);
       const int mixed = key.x + 3 * key.y + 5 * key.z;
       if (seen->category.empty() && mixed % kBackgroundShare != 0) continue;
-      Shown& shown = shown_[key];
+      ShownVoxel& shown = shown_[key];
       ++shown.pixels[seen->id];
       if (const double away_m = (p_world - p_eye).norm(); away_m < shown.nearest_m) {
         shown.nearest_m = away_m;

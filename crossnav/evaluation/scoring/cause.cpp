@@ -6,6 +6,8 @@
 #include <deque>
 #include <string_view>
 
+#include "crossnav/evaluation/scoring/outcome.h"
+
 namespace crossnav::evaluation {
 namespace {
 
@@ -33,10 +35,6 @@ double HeightOf(const std::vector<sim::Floor>& floors, int id) {
     if (floor.id == id) return floor.height_m;
   }
   return 0;
-}
-
-bool Holds(const std::vector<int>& floors, int floor) {
-  return std::find(floors.begin(), floors.end(), floor) != floors.end();
 }
 
 std::optional<FlightCause> JudgeFlight(const CauseWatch& watch, const SceneContext& context,

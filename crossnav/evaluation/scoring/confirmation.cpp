@@ -11,7 +11,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr double kApart_m = 0.2;  // chosen: less than a forward action
+constexpr double kSamePlace_m = 0.2;  // chosen: less than a forward action
 
 /// Middle of the part of the box at which the agent's approach would point the camera
 /// (policy::AimPoint: up to 1 m beyond the nearest point).
@@ -108,7 +108,7 @@ std::optional<Vector3d> ConfirmationRule::FirstOf(std::vector<Vector3d> points) 
   std::vector<Vector3d> tried;
   for (const Vector3d& p : points) {
     const bool is_known = std::any_of(tried.begin(), tried.end(), [&](const Vector3d& other) {
-      return (p - other).norm() < kApart_m - 1e-6;
+      return (p - other).norm() < kSamePlace_m - 1e-6;
     });
     if (is_known) continue;
     if (IsConfirmedFrom(p)) return p;

@@ -4,14 +4,6 @@
 #include <algorithm>
 
 namespace crossnav::evaluation {
-namespace {
-
-bool Holds(const std::vector<int>& floors, int floor) {
-  return std::find(floors.begin(), floors.end(), floor) != floors.end();
-}
-
-}  // namespace
-
 bool IsWithinBoxRadius(const Target& target, const Vector3d& p_world, int floor,
                        const EvalConfig& eval) {
   return target.box.HorizontalDistance(p_world) <= eval.success_radius_m &&

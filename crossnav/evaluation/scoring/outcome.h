@@ -3,6 +3,7 @@
 // only: the agent cannot see it. World frame, metres.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@
 #include "crossnav/trace/step_trace.h"
 
 namespace crossnav::evaluation {
+
+inline bool Holds(const std::vector<int>& floors, int floor) {
+  return std::find(floors.begin(), floors.end(), floor) != floors.end();
+}
 
 /// True where a STOP at `p_world` on `floor` reaches the target under `eval.success = box`:
 /// horizontally within the radius of its box AND on the floor of one of its viewpoints.

@@ -14,10 +14,6 @@
 namespace crossnav::evaluation {
 namespace {
 
-bool IsCategory(const std::string& goal) {
-  return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
-}
-
 bool EndsWith(const std::string& text, std::string_view end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }

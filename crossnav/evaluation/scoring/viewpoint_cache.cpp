@@ -16,17 +16,17 @@
 namespace crossnav::evaluation {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using Viewpoints = std::vector<std::vector<Vector3d>>;  // of each instance
 
-constexpr int kFormat = 1;  // raise it when sim::Viewpoints gives other results
+constexpr int kViewpointFormat = 1;  // raise it when sim::Viewpoints gives other results
 
 std::string KeyOf(const ViewedScene& viewed,
                   const std::vector<const sim::SceneInstance*>& instances) {
   const SensorConfig& s = viewed.sensor;
-  std::string text = fmt::format("{} {} {} {} {} {} {}", kFormat, HexHash(viewed.scene.mesh_hash),
-                                 HexHash(viewed.navmesh.Hash()), s.width_px, s.height_px,
-                                 s.hfov_deg, s.camera_height_m);
+  std::string text = fmt::format("{} {} {} {} {} {} {}", kViewpointFormat,
+                                 HexHash(viewed.scene.mesh_hash), HexHash(viewed.navmesh.Hash()),
+                                 s.width_px, s.height_px, s.hfov_deg, s.camera_height_m);
   for (const sim::SceneInstance* instance : instances) text += fmt::format(" {}", instance->id);
   return HexHash(HashString(text));
 }

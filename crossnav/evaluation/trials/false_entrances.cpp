@@ -21,12 +21,12 @@ using world::RoomType;
 
 namespace {
 
-constexpr Rect kRoom{0, 0, 6, 5};      // chosen: a living room
-constexpr Rect kNextRoom{6, 0, 9, 5};  // chosen: a second room to explore
-constexpr double kStorey_m = 2.8;      // chosen: floor to floor
+constexpr Rect kRoom{0, 0, 6, 5};        // chosen: a living room
+constexpr Rect kNextRoom{6, 0, 9, 5};    // chosen: a second room to explore
+constexpr double kStoreyHeight_m = 2.8;  // chosen: floor to floor
 constexpr double kSlab_m = 0.3;
 
-int AddRoom(HousePlan& plan, RoomType type, int level, const Rect& rect) {
+int AddRectangle(HousePlan& plan, RoomType type, int level, const Rect& rect) {
   Room room;
   room.type = type;
   room.name = "room";
@@ -39,7 +39,7 @@ int AddRoom(HousePlan& plan, RoomType type, int level, const Rect& rect) {
 
 void AddLevels(HousePlan& plan, int count) {
   for (int level = 0; level < count; ++level) {
-    plan.levels.push_back({level * kStorey_m, (level + 1) * kStorey_m - kSlab_m});
+    plan.levels.push_back({level * kStoreyHeight_m, (level + 1) * kStoreyHeight_m - kSlab_m});
   }
 }
 
@@ -55,8 +55,8 @@ void Open(HousePlan& plan, int room_a, int room_b, const Opening& opening) {
 FalseWorld TwoRooms() {
   FalseWorld made;
   AddLevels(made.plan, 1);
-  const int room = AddRoom(made.plan, RoomType::kLiving, 0, kRoom);
-  const int next = AddRoom(made.plan, RoomType::kLiving, 0, kNextRoom);
+  const int room = AddRectangle(made.plan, RoomType::kLiving, 0, kRoom);
+  const int next = AddRectangle(made.plan, RoomType::kLiving, 0, kNextRoom);
   world::DeriveWalls(made.plan, {});
   Open(made.plan, room, next, {});
   return made;
@@ -70,11 +70,11 @@ FalseWorld Gallery(Rng& rng) {
   AddLevels(plan, 2);
   const double edge_m = rng.Uniform(2.0, 3.0);
   const Rect near{kRoom.x0, kRoom.y0, kRoom.x1, edge_m}, far{kRoom.x0, edge_m, kRoom.x1, kRoom.y1};
-  const int under = AddRoom(plan, RoomType::kHall, 0, near);
-  const int below = AddRoom(plan, RoomType::kHall, 0, far);
+  const int under = AddRectangle(plan, RoomType::kHall, 0, near);
+  const int below = AddRectangle(plan, RoomType::kHall, 0, far);
   plan.rooms[static_cast<std::size_t>(below)].has_ceiling = false;
-  AddRoom(plan, RoomType::kHall, 1, near);
-  AddRoom(plan, RoomType::kVoid, 1, far);
+  AddRectangle(plan, RoomType::kHall, 1, near);
+  AddRectangle(plan, RoomType::kVoid, 1, far);
   plan.voids.emplace_back(1, far);
   world::DeriveWalls(plan, {});
   Opening passage;
@@ -83,8 +83,8 @@ FalseWorld Gallery(Rng& rng) {
   Open(plan, under, below, passage);
   world::RailVoids(plan, rng.Int(0, 2));
   const bool is_above = rng.Chance(0.5);
-  made.start_m = is_above ? kStorey_m : 0;
-  made.p_seen_world = {3, is_above ? edge_m - 0.3 : edge_m + 0.1, kStorey_m};
+  made.start_m = is_above ? kStoreyHeight_m : 0;
+  made.p_seen_world = {3, is_above ? edge_m - 0.3 : edge_m + 0.1, kStoreyHeight_m};
   return made;
 }
 
@@ -93,17 +93,17 @@ FalseWorld Balcony(Rng& rng) {
   FalseWorld made;
   HousePlan& plan = made.plan;
   AddLevels(plan, 2);
-  AddRoom(plan, RoomType::kLiving, 0, kRoom);
-  AddRoom(plan, RoomType::kBalcony, 0, {-3, -4, 9, 0});  // the ground outside
-  const int room = AddRoom(plan, RoomType::kLiving, 1, kRoom);
+  AddRectangle(plan, RoomType::kLiving, 0, kRoom);
+  AddRectangle(plan, RoomType::kBalcony, 0, {-3, -4, 9, 0});  // the ground outside
+  const int room = AddRectangle(plan, RoomType::kLiving, 1, kRoom);
   const double x0 = rng.Uniform(0.5, 1.5), x1 = rng.Uniform(4.0, 5.5);
   const Rect out{x0, -rng.Uniform(1.1, 1.6), x1, 0};
-  const int balcony = AddRoom(plan, RoomType::kBalcony, 1, out);
+  const int balcony = AddRectangle(plan, RoomType::kBalcony, 1, out);
   world::DeriveWalls(plan, {});
   Opening door;
   door.width_m = 0.9;
   Open(plan, room, balcony, door);
-  const double z = kStorey_m;
+  const double z = kStoreyHeight_m;
   const int style = rng.Int(0, 2);
   plan.railings.push_back({{out.x0, out.y0, z}, {out.x1, out.y0, z}, 0.95, style});
   plan.railings.push_back({{out.x0, out.y0, z}, {out.x0, 0, z}, 0.95, style});

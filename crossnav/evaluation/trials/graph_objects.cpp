@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "crossnav/core/category_table.h"
+#include "crossnav/evaluation/trials/true_home.h"
 #include "crossnav/policy/claim.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/sim/sensing/ground_truth.h"
@@ -19,12 +20,8 @@ using geometry::VoxelKey;
 using scenegraph::GraphObject;
 using scenegraph::GraphRelation;
 
-constexpr double kSameObject_m = 0.5;  // chosen: half of a small armchair
-constexpr int kLeastVoxels = 10;       // as policy.object.min_projected_voxels
-
-std::string NameOf(const sim::SceneInstance& instance) {
-  return CanonicalName(instance.category.empty() ? instance.name : instance.category);
-}
+constexpr double kSameObject_m = 0.5;   // chosen: half of a small armchair
+constexpr int kLeastOfObject_vox = 10;  // as policy.object.min_projected_voxels
 
 bool Counts(const std::string& name) {
   const auto rivals = policy::RivalNames();
@@ -33,21 +30,21 @@ bool Counts(const std::string& name) {
 }
 
 /// Pixels and voxels of one instance in a frame.
-struct Shown {
+struct ShownObject {
   sim::SeenInstance seen;
   std::vector<VoxelKey> voxels;
 };
 
-std::map<int, Shown> ShownIn(const Observation& obs, const InstanceImage& instances,
-                             const std::map<int, std::string>& names,
-                             const geometry::MapConfig& map) {
-  std::map<int, Shown> shown;
+std::map<int, ShownObject> ShownIn(const Observation& obs, const InstanceImage& instances,
+                                   const std::map<int, std::string>& names,
+                                   const geometry::MapConfig& map) {
+  std::map<int, ShownObject> shown;
   for (int v = 0; v < instances.height; ++v)
     for (int u = 0; u < instances.width; ++u) {
       const int id = instances.At(u, v);
       if (id == 0 || names.count(id) == 0) continue;
       const float depth_m = obs.depth_m.At(u, v);
-      Shown& one = shown[id];
+      ShownObject& one = shown[id];
       one.seen.Add(u, v, depth_m);
       if (!(depth_m >= map.depth_min_m && depth_m <= map.depth_max_m)) continue;
       const VoxelKey key = geometry::KeyOf(
@@ -145,7 +142,7 @@ void ObjectSurvey::Look(const Observation& obs, const sim::Simulator& simulator)
   for (auto& [id, shown] :
        ShownIn(obs, simulator.last_frame().instance, names_, config_.agent.map)) {
     const auto detection = sim::DetectionOf(shown.seen, simulator.sensor(), config_.ground_truth);
-    if (!detection || static_cast<int>(shown.voxels.size()) < kLeastVoxels) continue;
+    if (!detection || static_cast<int>(shown.voxels.size()) < kLeastOfObject_vox) continue;
     if (detection->confidence < config_.agent.policy.object.secondary_confidence) continue;
     auto& named = seen_[id];
     named.first = names_.at(id);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "crossnav/evaluation/running/survey.h"
+#include "crossnav/evaluation/trials/true_home.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/world/house/house_gate.h"
 #include "crossnav/world/house/house_generator.h"
@@ -18,7 +19,6 @@ namespace {
 
 using Cells = std::set<std::pair<int, int>>;
 
-constexpr double kStorey_m = 1.5;      // as sim::Floor
 constexpr double kSameHeight_m = 0.3;  // chosen: three voxels
 constexpr double kLeastIou = 0.5;      // docs/lifelong.md
 

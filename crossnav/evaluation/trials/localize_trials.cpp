@@ -13,10 +13,10 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr int kDraws = 10000;  // chosen: until a point lies on the floor that was asked for
+constexpr int kPointDraws = 10000;  // chosen: until a point lies on the floor that was asked for
 
 Result<AgentPose> DrawPose(const SceneContext& context, Rng& rng, int floor) {
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < kPointDraws; ++draw) {
     const auto p = context.navmesh().RandomPoint(rng);
     if (!p) break;
     const double yaw_rad = WrapAngle(rng.Uniform(0, DegToRad(360)));

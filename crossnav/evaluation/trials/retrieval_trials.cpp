@@ -25,7 +25,7 @@ constexpr std::array<const char*, 20> kNowhere = {
     "elephant", "violin",  "canoe",      "tank",       "castle",        "rocket"};
 constexpr double kSpacing_m = 2.2;  // chosen: between the places from which a house is seen
 constexpr int kMisses = 150;        // chosen: points in a row that are too near, and it is covered
-constexpr int kYaws = 5;
+constexpr int kTrialYaws = 5;
 constexpr int kSide_px = 240;
 constexpr int kLeastVoxels = 5;     // of an instance that was seen
 constexpr double kSameWord = 0.9;   // cosine
@@ -33,7 +33,7 @@ constexpr double kMargin_m = 0.25;  // chosen: of a place around its instance's 
 constexpr double kLeastSeparation = 0.8;
 constexpr int kLeastQueries = 10;  // chosen: of each kind, for a threshold
 
-std::string NameOf(const sim::SceneInstance& instance) {
+std::string SpacedNameOf(const sim::SceneInstance& instance) {
   return SpacedName(instance.category.empty() ? instance.name : instance.category);
 }
 
@@ -56,8 +56,9 @@ Result<void> SeeWhole(const sim::NavMesh& navmesh, sim::Simulator& simulator,
                       perception::DenseEncoder& encoder, memory::SemanticMemory& memory) {
   geometry::VoxelMap map;
   for (const Vector3d& p : CoveringPoints(navmesh)) {
-    for (int yaw = 0; yaw < kYaws; ++yaw) {
-      if (!simulator.Reset({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)})) continue;
+    for (int yaw = 0; yaw < kTrialYaws; ++yaw) {
+      if (!simulator.Reset({p, yaw * 2 * M_PI / kTrialYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)}))
+        continue;
       const Observation obs = simulator.Observe();
       const auto& pixels = map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
       const auto grid = encoder.EncodeImage(obs);
@@ -83,7 +84,7 @@ std::map<std::string, int> SeenNames(const sim::Scene& scene,
     const auto voxels = std::count_if(keys.begin(), keys.end(), [&](const auto& key) {
       return IsIn(geometry::CenterOf(key, memory.VoxelSize()), instance.box, 0);
     });
-    int& most = seen[NameOf(instance)];
+    int& most = seen[SpacedNameOf(instance)];
     most = std::max(most, static_cast<int>(voxels));
   }
   return seen;
@@ -108,7 +109,7 @@ RetrievalCount CountPlaces(const sim::Scene& scene, const std::string& word, boo
     const bool is_right =
         is_there && std::any_of(scene.instances.begin(), scene.instances.end(),
                                 [&](const sim::SceneInstance& instance) {
-                                  return NameOf(instance) == word &&
+                                  return SpacedNameOf(instance) == word &&
                                          IsIn(place.p_center_world, instance.box, kMargin_m);
                                 });
     (is_right ? count.right : count.wrong) += 1;
@@ -145,7 +146,7 @@ std::vector<RetrievalChoice> RetrievalChoices() {
 
 std::set<std::string> WordsOf(const sim::Scene& scene) {
   std::set<std::string> words;
-  for (const sim::SceneInstance& instance : scene.instances) words.insert(NameOf(instance));
+  for (const sim::SceneInstance& instance : scene.instances) words.insert(SpacedNameOf(instance));
   return words;
 }
 

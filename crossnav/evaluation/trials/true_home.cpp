@@ -13,8 +13,7 @@ namespace {
 using language::Fit;
 using language::RoomType;
 
-constexpr double kStorey_m = 1.5;  // as sim::Floor
-constexpr double kMostly = 0.7;    // chosen: of a thing's surface before it has a colour
+constexpr double kMostly = 0.7;  // chosen: of a thing's surface before it has a colour
 
 /// Types that people call a room of the plan, the first its own.
 std::vector<RoomType> TypesOf(world::RoomType type) {

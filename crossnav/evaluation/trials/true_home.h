@@ -12,6 +12,8 @@
 
 namespace crossnav::evaluation {
 
+inline constexpr double kStorey_m = 1.5;  ///< as sim::Floor
+
 struct TrueHome {
   language::KnownHome home;
   std::vector<int> instances;  ///< id of each thing

@@ -20,8 +20,8 @@ namespace {
 using language::KnownHome;
 using language::Outcome;
 
-constexpr double kSamePlace_m = 0.3;  // chosen: three voxels about the true box
-constexpr int kPixelStep = 2;         // chosen: as the survey
+constexpr double kAboutBox_m = 0.3;  // chosen: three voxels about the true box
+constexpr int kWordStep_px = 2;      // chosen: as the survey
 
 /// Records of all instances that there are words for, as ground truth detects them.
 class Recorder {
@@ -82,7 +82,7 @@ class Recorder {
     const geometry::MapConfig& map = config_.agent.map;
     if (!(depth_m >= map.depth_min_m && depth_m <= map.depth_max_m)) return;
     shown.view.Add(u, v, depth_m);
-    if (u % kPixelStep != 0 || v % kPixelStep != 0) return;
+    if (u % kWordStep_px != 0 || v % kWordStep_px != 0) return;
     shown.voxels.push_back(geometry::KeyOf(
         obs.T_world_camera * BackProjectPixel(obs.camera, u, v, depth_m), map.voxel_m));
   }
@@ -105,8 +105,8 @@ class Recorder {
 bool IsSame(const language::Thing& found, const language::Thing& truth) {
   const Vector3d& p = found.p_center_world;
   return found.category == truth.category &&
-         (p.array() >= truth.box.min.array() - kSamePlace_m).all() &&
-         (p.array() <= truth.box.max.array() + kSamePlace_m).all();
+         (p.array() >= truth.box.min.array() - kAboutBox_m).all() &&
+         (p.array() <= truth.box.max.array() + kAboutBox_m).all();
 }
 
 std::vector<std::string> WordsOf(const language::Description& d) {
@@ -238,7 +238,7 @@ Result<WordTrial> TryWords(const WordTrialOptions& options, const RunConfig& con
   known.p_robot_world = truth.home.p_robot_world;
   // The ground floor is known to who lives there.
   for (std::size_t i = 0; i < truth.home.floors.size(); ++i)
-    if (truth.home.floors[i].height_m < -kSamePlace_m)
+    if (truth.home.floors[i].height_m < -kAboutBox_m)
       truth.home.ground_floor = static_cast<int>(i) + 1;
   known.ground_floor = truth.home.ground_floor;
   WordTrial trial;

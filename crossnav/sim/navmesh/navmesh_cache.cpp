@@ -11,7 +11,7 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr char kMagic[8] = {'c', 'n', 'a', 'v', 'm', 's', 'h', '2'};
+constexpr char kCacheMagic[8] = {'c', 'n', 'a', 'v', 'm', 's', 'h', '2'};
 
 struct Head {
   char magic[8];
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> SaveTiles(const dtNavMesh& mesh, std::uint64_t key) {
     Append(body, data.data(), data.size());
   }
   Head head{};
-  std::memcpy(head.magic, kMagic, sizeof(kMagic));
+  std::memcpy(head.magic, kCacheMagic, sizeof(kCacheMagic));
   head.key = key;
   head.checksum = XXH3_64bits(body.data(), body.size());
   std::vector<std::uint8_t> out;
@@ -67,7 +67,7 @@ DetourMesh LoadTiles(const std::vector<std::uint8_t>& bytes, std::uint64_t key) 
   std::memcpy(&head, bytes.data(), sizeof(head));
   const std::uint8_t* body = bytes.data() + sizeof(head);
   std::size_t left = bytes.size() - sizeof(head);
-  if (std::memcmp(head.magic, kMagic, sizeof(kMagic)) != 0 || head.key != key ||
+  if (std::memcmp(head.magic, kCacheMagic, sizeof(kCacheMagic)) != 0 || head.key != key ||
       head.checksum != XXH3_64bits(body, left)) {
     return nullptr;
   }

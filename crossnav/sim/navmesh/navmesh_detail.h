@@ -79,6 +79,10 @@ std::vector<std::uint8_t> SaveTiles(const dtNavMesh& mesh, std::uint64_t key);
 /// Null unless the bytes are exactly the output of SaveTiles for `key`.
 DetourMesh LoadTiles(const std::vector<std::uint8_t>& bytes, std::uint64_t key);
 
+// The first numbers of a file of habitat-sim.
+inline constexpr std::int32_t kHabitatMagic = 'M' << 24 | 'S' << 16 | 'E' << 8 | 'T';
+inline constexpr std::int32_t kHabitatVersion = 1;
+
 /// Tiles of a file of habitat-sim in our Recast frame (navmesh_habitat_read.cpp). Each is checked:
 /// the file may come from anywhere. Error kMalformed: `where` and what is wrong.
 Result<DetourMesh> ReadHabitatTiles(std::string_view file, const std::string& where);

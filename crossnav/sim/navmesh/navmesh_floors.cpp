@@ -14,7 +14,7 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr double kGrid_m = 0.1;
+constexpr double kFloorGrid_m = 0.1;
 constexpr double kMinFloor_m2 = 4.0;    // chosen: larger than any landing
 constexpr double kMergeHeight_m = 0.5;  // chosen: sunken rooms are not storeys
 constexpr double kStorey_m = 1.5;       // chosen: too low to stand upright
@@ -34,7 +34,8 @@ bool IsFlat(const std::vector<SurfaceSample>& samples, const SurfaceSample& s) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     int ahead = 0, behind = 0;
     const double rise = walk(axis, ahead) - walk(axis + 2, behind);
-    if (ahead + behind > 0 && std::abs(rise) > kMaxSlope * (ahead + behind) * kGrid_m) return false;
+    if (ahead + behind > 0 && std::abs(rise) > kMaxSlope * (ahead + behind) * kFloorGrid_m)
+      return false;
   }
   return true;
 }
@@ -54,10 +55,10 @@ std::vector<Level> FindLevels(const std::vector<SurfaceSample>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (label[i] < 0) continue;
     Level& part = parts[static_cast<std::size_t>(label[i])];
-    part.area_m2 += kGrid_m * kGrid_m;
+    part.area_m2 += kFloorGrid_m * kFloorGrid_m;
     part.z += samples[i].z;
   }
-  for (Level& part : parts) part.z /= part.area_m2 / (kGrid_m * kGrid_m);
+  for (Level& part : parts) part.z /= part.area_m2 / (kFloorGrid_m * kFloorGrid_m);
   std::sort(parts.begin(), parts.end(), [](const Level& a, const Level& b) { return a.z < b.z; });
   std::vector<Level> levels;
   for (const Level& part : parts) {
@@ -136,7 +137,7 @@ FloorPlan FindFloors(const dtNavMesh& mesh) {
     plan.area_m2 += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
     triangles.push_back(t);
   });
-  const std::vector<SurfaceSample> samples = SampleSurface(triangles, kGrid_m);
+  const std::vector<SurfaceSample> samples = SampleSurface(triangles, kFloorGrid_m);
   plan.floors = FloorsOf(samples);
   if (plan.floors.empty()) return plan;
   std::vector<int> on_floor(samples.size(), -1);
@@ -144,7 +145,7 @@ FloorPlan FindFloors(const dtNavMesh& mesh) {
     const int nearest = NearestLevel(plan.floors, samples[i].z);
     Floor& floor = plan.floors[static_cast<std::size_t>(nearest)];
     if (floor.GapTo(samples[i].z) > kOnFloor_m) continue;
-    floor.area_m2 += kGrid_m * kGrid_m;
+    floor.area_m2 += kFloorGrid_m * kFloorGrid_m;
     on_floor[i] = nearest;
   }
   for (const auto& [a, b] : JoinedFloors(samples, on_floor)) {

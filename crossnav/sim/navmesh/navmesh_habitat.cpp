@@ -5,9 +5,6 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr std::int32_t kMagic = 'M' << 24 | 'S' << 16 | 'E' << 8 | 'T';
-constexpr std::int32_t kVersion = 1;
-
 template <class T>
 void Append(std::string& out, const T& value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof(value));
@@ -45,8 +42,8 @@ Result<std::string> EncodeHabitatNavMesh(const Scene& scene, const NavMeshSettin
     return Fail(ErrorCode::kInvalid, "no walkable ground was found", scene.id);
   }
   std::string out;
-  Append(out, kMagic);
-  Append(out, kVersion);
+  Append(out, kHabitatMagic);
+  Append(out, kHabitatVersion);
   Append(out, count);
   Append(out, params);
   for (int i = 0; i < count; ++i) {

@@ -17,11 +17,9 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr std::int32_t kMagic = 'M' << 24 | 'S' << 16 | 'E' << 8 | 'T';
-constexpr std::int32_t kVersion = 1;
 constexpr std::int32_t kMostTiles = 100000;
 constexpr int kCorners = DT_VERTS_PER_POLYGON;
-constexpr float kFar_m = 1e5F;              // chosen: beyond it no number is a place
+constexpr float kFarthest_m = 1e5F;         // chosen: beyond it no number is a place
 constexpr unsigned short kBorder = 0xffff;  // Recast's mark of an edge without a neighbour
 constexpr float kHeightSteps = 60000;       // chosen: of 65535, over a tile's height
 
@@ -73,7 +71,7 @@ struct Tile {
 
 bool ArePlaces(std::span<const float> numbers) {
   return std::all_of(numbers.begin(), numbers.end(),
-                     [](float x) { return std::isfinite(x) && std::abs(x) < kFar_m; });
+                     [](float x) { return std::isfinite(x) && std::abs(x) < kFarthest_m; });
 }
 
 /// Recast's direction (0 = -x, 1 = +z, 2 = +x, 3 = -z) of a portal of Detour.
@@ -248,9 +246,9 @@ Result<DetourMesh> ReadHabitatTiles(std::string_view file, const std::string& wh
   const auto version = bytes.Take<std::int32_t>();
   const auto count = bytes.Take<std::int32_t>();
   auto params = bytes.Take<dtNavMeshParams>();
-  if (bytes.is_short || magic != kMagic)
+  if (bytes.is_short || magic != kHabitatMagic)
     return Fail(ErrorCode::kMalformed, "is no navmesh of habitat-sim", where);
-  if (version != kVersion || count < 1 || count > kMostTiles)
+  if (version != kHabitatVersion || count < 1 || count > kMostTiles)
     return Fail(ErrorCode::kMalformed, "has another version, or no tiles", where);
   const float sizes[] = {params.orig[0], params.orig[1], params.orig[2], params.tileWidth,
                          params.tileHeight};

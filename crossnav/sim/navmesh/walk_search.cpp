@@ -14,7 +14,8 @@ namespace crossnav::sim {
 namespace {
 
 constexpr double kEpsilon_m = 1e-7;
-constexpr std::size_t kMaxNodes = 1'000'000;  // chosen: far above any house; a guard, not a limit
+// chosen: far above any house; a guard, not a limit
+constexpr std::size_t kMostWalkNodes = 1'000'000;
 constexpr int kStartId = -1;
 
 double Cross(const Vector2d& a, const Vector2d& b) {
@@ -81,7 +82,7 @@ class WalkSearch {
     first.sees_all = true;
     nodes_.push_back(first);
     Expand(0);
-    while (!queue_.empty() && nodes_.size() < kMaxNodes) {
+    while (!queue_.empty() && nodes_.size() < kMostWalkNodes) {
       const auto [bound, index] = queue_.top();
       if (bound >= best_m_) break;
       queue_.pop();

@@ -8,15 +8,14 @@
 #include <string>
 
 #include "crossnav/core/camera.h"
+#include "crossnav/sim/sensing/instance_scene.h"
 
 namespace crossnav::sim {
 namespace {
 
-constexpr int kTries = 60;            // chosen: of places for one frame before it is taken anywhere
-constexpr double kNear_m = 0.6;       // chosen: from the middle of an object
-constexpr double kFar_m = 4.5;        // chosen: as far as claims are judged
-constexpr double kAboveFoot_m = 2.2;  // chosen: objects that begin higher hang over everything
-constexpr double kBelowFoot_m = 0.3;  // chosen: objects that end lower are on another floor
+constexpr int kTries = 60;       // chosen: of places for one frame before it is taken anywhere
+constexpr double kNear_m = 0.6;  // chosen: from the middle of an object
+constexpr double kFar_m = 4.5;   // chosen: as far as claims are judged
 constexpr double kAroundStairs_m = 3.0;  // chosen: where stairs are looked for with a camera
 constexpr double kTurn_deg = 25;         // chosen: objects are not always in the middle
 constexpr double kNose_m = 0.4;          // chosen: a frame of a wall alone teaches little

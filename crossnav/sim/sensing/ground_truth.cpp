@@ -27,10 +27,6 @@ float ConfidenceOf(const SeenInstance& s, const SensorConfig& sensor,
   return static_cast<float>(std::clamp(by_size - by_distance + 0.1, 0.0, 0.98));
 }
 
-bool IsCategory(std::string_view goal) {
-  return std::find(kCategories.begin(), kCategories.end(), goal) != kCategories.end();
-}
-
 /// The simulator's last frame, or null if `obs` cannot be made from it. Only the sizes are
 /// compared: depth and pose of an observation may have noise.
 const Frame* FrameOf(const Simulator& simulator, const Observation& obs) {

@@ -61,7 +61,7 @@ Feature RandomUnit(std::uint64_t seed, int dim) {
   return v;
 }
 
-bool IsCategory(std::string_view name) {
+bool IsCategoryText(std::string_view name) {
   return std::any_of(kCategories.begin(), kCategories.end(),
                      [&](std::string_view c) { return SpacedName(c) == name; });
 }
@@ -74,8 +74,8 @@ bool HasWord(const std::string& name, std::string_view word) {
 std::vector<std::string> LookAlikesOf(const std::string& name) {
   std::vector<std::string> out;
   for (const auto& [category, word] : kLookAlikes) {
-    if (category == name && IsCategory(word)) out.emplace_back(word);
-    if (!IsCategory(name) && HasWord(name, word)) out.emplace_back(category);
+    if (category == name && IsCategoryText(word)) out.emplace_back(word);
+    if (!IsCategoryText(name) && HasWord(name, word)) out.emplace_back(category);
   }
   return out;
 }
@@ -133,7 +133,7 @@ class TextSpace {
     const double mutual = c > 0 ? (1 - std::sqrt(1 - c * c)) / c : 0;
     const double lean = c / std::sqrt(1 - c * c);
     for (const std::string& other : LookAlikesOf(name))
-      AddScaled(IsCategory(name) ? mutual : lean, Own(other), own);
+      AddScaled(IsCategoryText(name) ? mutual : lean, Own(other), own);
     Normalize(own);
     Feature v(dim_, 0.0f);
     AddScaled(std::sqrt(common_share_), common_, v);

@@ -6,6 +6,12 @@
 
 namespace crossnav::sim {
 
+// Heights of an object over the foot of the one who sees it.
+// chosen: objects that begin higher hang over everything
+inline constexpr double kAboveFoot_m = 2.2;
+// chosen: objects that end lower are on another floor
+inline constexpr double kBelowFoot_m = 0.3;
+
 /// The triangles of instance `id` with the materials and textures they use (holes stay holes).
 Scene ExtractInstance(const Scene& scene, int id);
 

@@ -13,11 +13,9 @@
 namespace crossnav::sim {
 namespace {
 
-constexpr double kGrid_m = 0.2;       // chosen: steps of about one forward action
-constexpr double kAboveFoot_m = 2.2;  // chosen: objects that begin higher hang over everything
-constexpr double kBelowFoot_m = 0.3;  // chosen: objects that end lower are on another floor
-constexpr double kMinDepth_m = 0.1;   // chosen: a corner beside or behind the camera is too near
-constexpr int kCoarse = 4;            // chosen: a picture of a quarter tells which views are good
+constexpr double kViewGrid_m = 0.2;  // chosen: steps of about one forward action
+constexpr double kMinDepth_m = 0.1;  // chosen: a corner beside or behind the camera is too near
+constexpr int kCoarse = 4;           // chosen: a picture of a quarter tells which views are good
 
 /// Pixels that may show the box, the picture's borders ignored; nullopt where it is too near.
 std::optional<perception::PixelBox> Project(const Box3& box, const CameraIntrinsics& K,
@@ -129,14 +127,14 @@ std::vector<ObjectView> GoodViews(const Scene& scene, const NavMesh& navmesh,
   const ViewJudge judge(scene, caster, instance, rules);
   const Vector3d middle = box.Center();
   const auto first = [&](double m) {
-    return static_cast<int>(std::ceil((m - rules.far_m) / kGrid_m));
+    return static_cast<int>(std::ceil((m - rules.far_m) / kViewGrid_m));
   };
   const auto last = [&](double m) {
-    return static_cast<int>(std::floor((m + rules.far_m) / kGrid_m));
+    return static_cast<int>(std::floor((m + rules.far_m) / kViewGrid_m));
   };
   for (int i = first(middle.x()); i <= last(middle.x()); ++i) {
     for (int j = first(middle.y()); j <= last(middle.y()); ++j) {
-      const double x = i * kGrid_m, y = j * kGrid_m;
+      const double x = i * kViewGrid_m, y = j * kViewGrid_m;
       const double distance_m = std::hypot(x - middle.x(), y - middle.y());
       if (distance_m < rules.near_m || distance_m > rules.far_m) continue;
       for (const double z :

@@ -15,9 +15,7 @@ constexpr double kReach_m = 1.0;
 constexpr double kMinCoverage = 0.05;
 constexpr double kPitchStep_deg = 30;  // three pitches: -30, 0, +30
 // chosen: objects wholly below the ground are on another floor
-constexpr double kBelowFoot_m = 0.3;
-constexpr double kAboveFoot_m = 2.2;  // chosen: as are objects above every wall cabinet
-constexpr int kRaysAcross = 24;       // chosen: 576 rays over the instance's angular extent
+constexpr int kRaysAcross = 24;  // chosen: 576 rays over the instance's angular extent
 
 /// Directions to the box as seen from `eye`: azimuth relative to `towards`, tangent of elevation.
 struct Extent {

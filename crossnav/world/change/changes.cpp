@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kChangesFormat = 1;
 constexpr std::size_t kMaxChanges = 10'000;  // chosen: more than any house has objects
 
 /// Millimetres: enough to find an object by, and short to read.
@@ -144,7 +144,7 @@ std::optional<ChangeKind> ChangeKindFromName(std::string_view name) {
 }
 
 std::string ChangesText(const DayChanges& day) {
-  const Json json = {{"format", kFormat},
+  const Json json = {{"format", kChangesFormat},
                      {"scene", day.scene},
                      {"before", day.before},
                      {"day", day.day},
@@ -161,7 +161,7 @@ Result<DayChanges> ParseChanges(std::string_view text, const std::string& where)
   for (const char* key : {"format", "scene", "before", "day", "seed", "changes", "lifted"}) {
     if (!json.contains(key)) return Fail(ErrorCode::kMalformed, "is missing", where + ": " + key);
   }
-  if (json["format"] != kFormat) {
+  if (json["format"] != kChangesFormat) {
     return Fail(ErrorCode::kUnsupported, "is of another format; make the days anew",
                 where + ": format");
   }

@@ -11,10 +11,10 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kReachableShare = 0.6;    // as of a generated house's rooms
-constexpr std::size_t kMinCategories = 5;  // as of a generated house
+constexpr double kDayReachableShare = 0.6;  // as of a generated house's rooms
+constexpr std::size_t kMinCategories = 5;   // as of a generated house
 
-tl::unexpected<Error> Refuse(std::string what, std::string where) {
+tl::unexpected<Error> RefuseDay(std::string what, std::string where) {
   return Fail(ErrorCode::kInvalid, std::move(what), std::move(where));
 }
 
@@ -50,8 +50,8 @@ Result<void> CheckRooms(const HouseView& first, const sim::NavMesh& navmesh, con
       reached += navmesh.Geodesic(start_world, *p).has_value() ? 1 : 0;
     }
     const std::string where = fmt::format("room {} on floor {}", room.region, room.floor);
-    if (walkable == 0) return Refuse("no walkable ground in a room", where);
-    if (reached < kReachableShare * walkable) return Refuse("a room is cut off", where);
+    if (walkable == 0) return RefuseDay("no walkable ground in a room", where);
+    if (reached < kDayReachableShare * walkable) return RefuseDay("a room is cut off", where);
   }
   return {};
 }
@@ -75,7 +75,7 @@ Result<void> CheckCategories(const sim::Scene& first, const sim::Scene& scene,
                              const Vector3d& start_world) {
   const auto before = CategoriesOf(first), now = CategoriesOf(scene);
   if (now.size() < std::min(kMinCategories, before.size())) {
-    return Refuse("fewer than five categories", scene.id);
+    return RefuseDay("fewer than five categories", scene.id);
   }
   for (const std::string& category : now) {
     const bool is_viewable =
@@ -84,7 +84,7 @@ Result<void> CheckCategories(const sim::Scene& first, const sim::Scene& scene,
                  IsViewable(scene, navmesh, caster, instance, start_world);
         });
     const bool was_there = before.contains(category);
-    if (was_there && !is_viewable) return Refuse("no instance can be viewed", category);
+    if (was_there && !is_viewable) return RefuseDay("no instance can be viewed", category);
   }
   return {};
 }
@@ -96,7 +96,7 @@ Result<void> CheckChanged(const sim::Scene& scene, const sim::NavMesh& navmesh,
     if (!IsMove(change.kind) && change.kind != ChangeKind::kAdded) continue;
     const auto* instance = scene.FindInstance(change.instance);
     if (instance == nullptr || !IsViewable(scene, navmesh, caster, *instance, start_world)) {
-      return Refuse("a changed object cannot be viewed", change.name);
+      return RefuseDay("a changed object cannot be viewed", change.name);
     }
   }
   return {};
@@ -108,10 +108,10 @@ Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, con
                       const sim::NavMesh& navmesh) {
   const sim::Scene& scene = day.scene;
   if (navmesh.Floors().size() < first.navmesh->Floors().size()) {
-    return Refuse("a floor has no walkable ground", scene.id);
+    return RefuseDay("a floor has no walkable ground", scene.id);
   }
   const auto start = StartOn(first, navmesh, day.shut);
-  if (!start) return Refuse("no walkable ground", scene.id);
+  if (!start) return RefuseDay("no walkable ground", scene.id);
   if (auto ok = CheckRooms(first, navmesh, day.shut, *start); !ok) return ok;
   const sim::RayCaster caster(scene);
   if (auto ok = CheckChanged(scene, navmesh, caster, *start, day.changes); !ok) return ok;

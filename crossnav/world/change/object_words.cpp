@@ -23,8 +23,9 @@ constexpr std::string_view kMovable[] = {
     "toy",   "book",     "laptop", "bowl",       "clock",   "fan",   "radio",    "speaker",
     "cup",   "bottle",   "tv",     "television", "monitor", "guitar"};
 constexpr std::string_view kMovableCategories[] = {"chair", "sofa", "plant", "tv_monitor"};
-constexpr std::string_view kBath[] = {"toilet", "bathtub", "shower", "bidet"};
-constexpr std::string_view kKitchen[] = {"stove", "oven", "refrigerator", "dishwasher", "hood"};
+constexpr std::string_view kBathThings[] = {"toilet", "bathtub", "shower", "bidet"};
+constexpr std::string_view kKitchenThings[] = {"stove", "oven", "refrigerator", "dishwasher",
+                                               "hood"};
 
 bool Holds(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -68,12 +69,12 @@ bool IsStairs(std::string_view name) {
 }
 
 bool IsBathFixture(std::string_view name) {
-  return Holds(kBath, LastWord(name));
+  return Holds(kBathThings, LastWord(name));
 }
 
 bool IsKitchenFixture(std::string_view name) {
   const std::string_view last = LastWord(name);
-  return Holds(kKitchen, last) || (name.starts_with("kitchen") && last == "cabinet");
+  return Holds(kKitchenThings, last) || (name.starts_with("kitchen") && last == "cabinet");
 }
 
 }  // namespace crossnav::world

@@ -12,13 +12,13 @@
 namespace crossnav::world {
 namespace {
 
-constexpr int kTries = 60;            // chosen: places of a room that are tried for an object
+constexpr int kPlaceTries = 60;       // chosen: places of a room that are tried for an object
 constexpr double kLong_m = 0.9;       // chosen: what is longer stands at a wall, or where it stood
 constexpr double kWallReach_m = 2.5;  // chosen: a wall further away is another wall's
-constexpr double kOffWall_m = 0.05;   // chosen: skirting and cables
-constexpr double kMovedOnTop_m = 0.25;  // chosen: further than a hand pushes a thing aside
-constexpr double kMovedBeside_m = 0.5;  // chosen: another side of a table
-constexpr double kMovedAway_m = 1.0;    // chosen: out of the success radius of where it was
+constexpr double kOffSkirting_m = 0.05;  // chosen: skirting and cables
+constexpr double kMovedOnTop_m = 0.25;   // chosen: further than a hand pushes a thing aside
+constexpr double kMovedBeside_m = 0.5;   // chosen: another side of a table
+constexpr double kMovedAway_m = 1.0;     // chosen: out of the success radius of where it was
 constexpr double kLowestTop_m = 0.25, kHighestTop_m = 1.4;  // chosen: above the ground
 constexpr double kLoungeArea_m2 = 5;                        // chosen: smaller rooms hold no sofa
 
@@ -185,14 +185,14 @@ class Placer {
     const Vector3d& out = kSides[static_cast<std::size_t>(*wall)];
     const double deep_m = std::abs(out.x()) * half.x() + std::abs(out.y()) * half.y();
     const double to_wall_m = FreeFrom(probe, *wall, kWallReach_m) + 0.01;
-    p_world += out * (to_wall_m - deep_m - kOffWall_m);
+    p_world += out * (to_wall_m - deep_m - kOffSkirting_m);
     return std::make_pair(turn, p_world);
   }
 
   std::optional<Standing> FindOnGround() {
     const auto rooms = RoomsAsked();
     if (rooms.empty()) return std::nullopt;
-    for (int i = 0; i < kTries; ++i) {
+    for (int i = 0; i < kPlaceTries; ++i) {
       const int room = rooms[rng_.Below(static_cast<std::uint32_t>(rooms.size()))];
       const auto& ground = night_.view.rooms[static_cast<std::size_t>(room)].ground;
       Vector3d p = ground[rng_.Below(static_cast<std::uint32_t>(ground.size()))];
@@ -237,7 +237,7 @@ class Placer {
       }
     }
     if (tops.empty()) return std::nullopt;
-    for (int i = 0; i < kTries; ++i) {
+    for (int i = 0; i < kPlaceTries; ++i) {
       const auto& top = *tops[rng_.Below(static_cast<std::uint32_t>(tops.size()))];
       if (auto standing = TryTop(top)) return standing;
     }

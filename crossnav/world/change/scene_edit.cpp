@@ -10,7 +10,7 @@
 namespace crossnav::world {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::uint32_t kRemoved = ~std::uint32_t{0};
 
 /// Copy of vertex `v` with all that belongs to it.
 std::uint32_t CopyVertex(sim::TriangleMesh& mesh, std::uint32_t v) {
@@ -26,7 +26,7 @@ class OwnVertices {
   OwnVertices(sim::TriangleMesh& mesh, const Shift& shift) : mesh_(mesh), shift_(shift) {}
 
   std::uint32_t Of(std::uint32_t v) {
-    const auto [at, is_new] = copy_of_.try_emplace(v, kNone);
+    const auto [at, is_new] = copy_of_.try_emplace(v, kRemoved);
     if (!is_new) return at->second;
     at->second = CopyVertex(mesh_, v);
     Vector3f& p = mesh_.vertices[at->second];

@@ -13,8 +13,8 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kTries = 40;  // chosen: per piece
+using std::numbers::pi;
+constexpr int kPieceTries = 40;  // chosen: per piece
 
 /// Rugs lie under everything.
 bool IsFlat(const Box3& b) {
@@ -33,9 +33,9 @@ struct Side {
 };
 
 std::array<Side, 4> SidesOf(const Rect& r) {
-  return {Side{{r.x1, r.y1}, {-1, 0}, r.Width(), kPi}, Side{{r.x0, r.y0}, {1, 0}, r.Width(), 0},
-          Side{{r.x0, r.y1}, {0, -1}, r.Depth(), -kPi / 2},
-          Side{{r.x1, r.y0}, {0, 1}, r.Depth(), kPi / 2}};
+  return {Side{{r.x1, r.y1}, {-1, 0}, r.Width(), pi}, Side{{r.x0, r.y0}, {1, 0}, r.Width(), 0},
+          Side{{r.x0, r.y1}, {0, -1}, r.Depth(), -pi / 2},
+          Side{{r.x1, r.y0}, {0, 1}, r.Depth(), pi / 2}};
 }
 
 class RoomFiller {
@@ -159,7 +159,7 @@ class RoomFiller {
   bool TryWall(Group& group, double z_m) {
     const auto sides = SidesOf(inner_);
     const double half = 0.5 * group.body.Width();
-    for (int attempt = 0; attempt < kTries; ++attempt) {
+    for (int attempt = 0; attempt < kPieceTries; ++attempt) {
       const Side& side = sides[rng_.Below(4)];
       if (side.length_m < 2 * half) continue;
       double t = rng_.Uniform(half, std::max(half + 1e-9, side.length_m - half));
@@ -186,8 +186,8 @@ class RoomFiller {
   }
 
   bool TryMiddle(Group& group) {
-    for (int attempt = 0; attempt < kTries; ++attempt) {
-      const double yaw = rng_.Below(4) * kPi / 2;
+    for (int attempt = 0; attempt < kPieceTries; ++attempt) {
+      const double yaw = rng_.Below(4) * pi / 2;
       const Vector2d p(rng_.Uniform(inner_.x0, inner_.x1), rng_.Uniform(inner_.y0, inner_.y1));
       const Pose T = PoseAt(p, yaw, 0);
       const Rect around = RectAt(T, group.body).Grown(0.55);

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 2;
+constexpr int kPackFormat = 2;
 constexpr std::uint64_t kMaxModel = 256U << 20;
 
 struct Writer {
@@ -34,7 +34,7 @@ struct Writer {
   }
 };
 
-struct Reader {
+struct PackBytes {
   const std::string& in;
   std::size_t at = 0;
   bool is_good = true;
@@ -170,7 +170,7 @@ Result<void> WritePack(std::vector<PackModel> models, const fs::path& dir) {
     bytes += packed;
     list.push_back(ToJson(m.entry));
   }
-  const Json manifest = {{"format", kFormat}, {"pack_xxh3", HashOf(bytes)}, {"models", list}};
+  const Json manifest = {{"format", kPackFormat}, {"pack_xxh3", HashOf(bytes)}, {"models", list}};
   for (const auto& [name, text] :
        {std::pair<std::string, std::string>{"furniture.pack", bytes},
         {"ATTRIBUTION.md", Attribution(models)},
@@ -196,7 +196,7 @@ Result<FurniturePack> FurniturePack::Load(const fs::path& dir) {
   pack.hash_ = HashOf(*text);
   try {
     const Json manifest = Json::parse(*text);
-    if (manifest.at("format") != kFormat) {
+    if (manifest.at("format") != kPackFormat) {
       return Fail(ErrorCode::kUnsupported, "another version of the pack; import it again", where);
     }
     pack_hash = manifest.at("pack_xxh3");
@@ -227,7 +227,7 @@ const PackEntry* FurniturePack::Find(std::string_view id) const {
 
 Result<ObjectModel> DecodeModel(const std::string& bytes, const PackEntry& entry,
                                 const std::string& where) {
-  Reader r{bytes};
+  PackBytes r{bytes};
   ObjectModel m;
   m.name = entry.kind;
   m.asset_id = entry.id;

@@ -8,7 +8,7 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Maker {
   const FurnitureSource& source;
@@ -59,7 +59,7 @@ struct Maker {
     } else {
       OnTop(g, "laptop", *desk, {0, 0, 0});
     }
-    g.Add(std::move(*chair), {rng.Uniform(-0.1, 0.1), y, 0}, kPi + rng.Uniform(-0.3, 0.3));
+    g.Add(std::move(*chair), {rng.Uniform(-0.1, 0.1), y, 0}, pi + rng.Uniform(-0.3, 0.3));
     g.Add(std::move(*desk), Vector3d::Zero());
     g.clear_front_m = 0.3;
     return g;
@@ -104,7 +104,7 @@ struct Maker {
         auto chair = source.Make("dining chair", same);
         const double x = along == 1 ? 0 : (i == 0 ? -0.25 : 0.25) * size.x();
         const double y = side * (0.5 * size.y() + 0.5 * chair->Size().y() + 0.03);
-        g.Add(std::move(*chair), {x, y, 0}, (side > 0 ? kPi : 0) + rng.Uniform(-0.2, 0.2));
+        g.Add(std::move(*chair), {x, y, 0}, (side > 0 ? pi : 0) + rng.Uniform(-0.2, 0.2));
       }
     }
     g.Add(std::move(*table), Vector3d::Zero());

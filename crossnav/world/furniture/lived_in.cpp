@@ -10,7 +10,7 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A room with its furniture.
 class Dweller {
@@ -30,7 +30,7 @@ class Dweller {
     for (int i = 0; i < count; ++i) {
       const auto model = source_.Make(kThings[rng_.Below(std::size(kThings))], rng_);
       const Vector3d p(rng_.Uniform(in.x0, in.x1), rng_.Uniform(in.y0, in.y1), space_.floor_m);
-      const double yaw_rad = rng_.Uniform(0, 2 * kPi);
+      const double yaw_rad = rng_.Uniform(0, 2 * pi);
       if (model) TryPut(*model, StandAt(p, yaw_rad));
     }
   }
@@ -84,7 +84,7 @@ class Dweller {
     if (!model) return;
     const Vector3d half = 0.5 * (model->Size() + (goal.max - goal.min));
     for (int side = 0; side < 4; ++side) {
-      const double yaw_rad = 0.5 * kPi * ((first + side) % 4);
+      const double yaw_rad = 0.5 * pi * ((first + side) % 4);
       const Vector3d way(std::sin(yaw_rad), -std::cos(yaw_rad), 0);
       const double reach_m =
           std::abs(way.x()) * half.x() + std::abs(way.y()) * half.y() + rng_.Uniform(0.05, 0.25);

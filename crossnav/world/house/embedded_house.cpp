@@ -16,7 +16,7 @@ namespace {
 constexpr double kWest = 0, kHallWest = 3.8, kHallEast = 6.2, kEast = 10;
 constexpr double kSouth = 0, kWestSplit = 5.2, kEastSplit = 4.6, kNorth = 9;
 constexpr double kStairX = 4.36, kStairY = 2.0;  // first riser, middle of the flight
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Room MakeRoom(const char* name, RoomType type, int level, const Rect& rect) {
   Room room;
@@ -146,7 +146,7 @@ void PutOnTop(HousePlan& plan, const char* kind, const Vector3d& offset, double 
   Put(plan, kind, room, p + offset + Vector3d(0, 0, below.model.top_m - ground), yaw_rad);
 }
 
-constexpr double kToNorth = 0, kToWest = kPi / 2, kToSouth = kPi, kToEast = -kPi / 2;
+constexpr double kToNorth = 0, kToWest = pi / 2, kToSouth = pi, kToEast = -pi / 2;
 
 void FurnishBelow(HousePlan& plan) {
   Put(plan, "couch", kLivingRoom, {0.56, 2.6, 0}, kToEast);

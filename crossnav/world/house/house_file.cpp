@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;
+constexpr int kHouseFormat = 1;
 
 Json RoomJson(const HousePlan& plan, std::size_t index) {
   const Room& room = plan.rooms[index];
@@ -47,7 +47,7 @@ Json CreditsJson(const HousePlan& plan, const FurniturePack& pack) {
   return credits;
 }
 
-HouseRoom FromJson(const Json& j) {
+HouseRoom RoomFromJson(const Json& j) {
   HouseRoom room{j.at("name"), j.at("floor_m"), {}};
   for (const Json& r : j.at("rects")) {
     room.rects.push_back({r.at(0), r.at(1), r.at(2), r.at(3)});
@@ -60,7 +60,7 @@ HouseRoom FromJson(const Json& j) {
 std::string HouseText(const HousePlan& plan, const HouseParams& params, const FurniturePack* pack) {
   Json rooms = Json::array();
   for (std::size_t i = 0; i < plan.rooms.size(); ++i) rooms.push_back(RoomJson(plan, i));
-  Json house = {{"format", kFormat},
+  Json house = {{"format", kHouseFormat},
                 {"scene", plan.id},
                 {"seed", params.seed},
                 {"floors", params.floors},
@@ -87,7 +87,7 @@ Result<std::vector<HouseRoom>> ReadHouseRooms(const fs::path& folder) {
   if (auto ok = CheckJsonShape(*text, file.string()); !ok) return tl::unexpected(ok.error());
   try {
     const Json house = Json::parse(*text);
-    for (const Json& j : house.at("rooms")) rooms.push_back(FromJson(j));
+    for (const Json& j : house.at("rooms")) rooms.push_back(RoomFromJson(j));
   } catch (const Json::exception& e) {
     return Fail(ErrorCode::kMalformed, PlainReason(e.what()), file.string());
   }

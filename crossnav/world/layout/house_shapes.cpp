@@ -9,7 +9,7 @@ namespace crossnav::world {
 namespace {
 
 constexpr double kIntoSlab_m = 0.02;  // blocks run into the ceiling, so that no gap shows
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 bool IsPlain(const Room& room) {
   using enum RoomType;
@@ -69,7 +69,7 @@ void RoundCorner(HousePlan& plan, std::size_t room, const Vector2d& corner, cons
   constexpr int kPieces = 6;
   const Vector2d center = corner + radius_m * inward;
   const auto at = [&](int i) -> Vector2d {
-    const double angle = 0.5 * kPi * i / kPieces;
+    const double angle = 0.5 * pi * i / kPieces;
     return center - radius_m * Vector2d(inward.x() * std::sin(angle), inward.y() * std::cos(angle));
   };
   for (int i = 0; i < kPieces; ++i) {
@@ -99,15 +99,15 @@ void RoundCorners(HousePlan& plan, std::size_t index, Rng& rng) {
 }
 
 void AddColumn(HousePlan& plan, std::size_t index, Rng& rng) {
-  constexpr int kSides = 12;
+  constexpr int kColumnSides = 12;
   const Rect inner = plan.rooms[index].rects[0].Grown(-1.3);
   const Vector2d c(rng.Uniform(inner.x0, inner.x1), rng.Uniform(inner.y0, inner.y1));
   const double radius_m = rng.Uniform(0.12, 0.28);
   const Rect around = Rect{c.x(), c.y(), c.x(), c.y()}.Grown(radius_m + 0.6);
   if (IsInUse(plan, plan.rooms[index].level, around)) return;
   std::vector<Vector2d> circle;
-  for (int i = 0; i < kSides; ++i) {
-    const double angle = 2 * kPi * i / kSides;
+  for (int i = 0; i < kColumnSides; ++i) {
+    const double angle = 2 * pi * i / kColumnSides;
     circle.push_back(c + radius_m * Vector2d(std::cos(angle), std::sin(angle)));
   }
   plan.blocks.push_back(Prism(plan, index, std::move(circle)));

@@ -5,15 +5,13 @@
 #include <numbers>
 
 #include "crossnav/core/check.h"
+#include "crossnav/world/stairs/stair_walls.h"
 #include "crossnav/world/stairs/stairs.h"
 
 namespace crossnav::world {
 namespace {
 
-constexpr double kWall_m = 0.06;      // half a wall
-constexpr double kIntoWall_m = 0.03;  // treads end inside the wall, so that no gap shows
-constexpr double kGap_m = 0.12;       // chosen: between the flights, as in a U
-constexpr int kWinders = 6;           // chosen: 30 degrees each
+constexpr int kWinders = 6;  // chosen: 30 degrees each
 
 /// Sizes in plan, in the block's frame.
 struct Plan {

@@ -81,7 +81,7 @@ std::vector<double> Breaks(double lo, double hi, bool along_x, const LevelEdges&
 }
 
 /// A side of a void.
-struct Side {
+struct VoidSide {
   bool along_x;
   double fixed;
   Vector2d outward;
@@ -89,7 +89,7 @@ struct Side {
   Vector2d At(double v) const { return along_x ? Vector2d(v, fixed) : Vector2d(fixed, v); }
 };
 
-void RailSide(const Rect& r, const Side& side, const LevelEdges& edges, double z_m, int style,
+void RailSide(const Rect& r, const VoidSide& side, const LevelEdges& edges, double z_m, int style,
               HousePlan& plan) {
   constexpr double kSetback_m = 0.04;  // the posts stand on the floor, not over the void
   const auto at = side.along_x ? Breaks(r.x0, r.x1, true, edges) : Breaks(r.y0, r.y1, false, edges);
@@ -109,11 +109,11 @@ void RailVoids(HousePlan& plan, int style) {
     const LevelEdges edges = EdgesOf(plan, level);
     const double z_m = plan.levels[static_cast<std::size_t>(level)].floor_m;
     for (const Rect& r : edges.voids) {
-      const Side sides[] = {{true, r.y0, {0, -1}},
-                            {true, r.y1, {0, 1}},
-                            {false, r.x0, {-1, 0}},
-                            {false, r.x1, {1, 0}}};
-      for (const Side& side : sides) RailSide(r, side, edges, z_m, style, plan);
+      const VoidSide sides[] = {{true, r.y0, {0, -1}},
+                                {true, r.y1, {0, 1}},
+                                {false, r.x0, {-1, 0}},
+                                {false, r.x1, {1, 0}}};
+      for (const VoidSide& side : sides) RailSide(r, side, edges, z_m, style, plan);
     }
   }
 }

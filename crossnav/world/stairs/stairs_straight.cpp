@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Straight flights: single, with a landing, two side by side, and the few steps of a split level.
+#include "crossnav/world/stairs/stair_walls.h"
 #include "crossnav/world/stairs/stairs.h"
 
 namespace crossnav::world {
@@ -7,7 +8,6 @@ namespace {
 
 constexpr double kLanding_m = 0.95;  // chosen: a landing about as long as the flight is wide
 constexpr double kZone_m = 1.1;      // chosen: free ground before and after a flight
-constexpr double kWall_m = 0.06;     // half a wall
 
 std::vector<Vector2d> Strip(double x0, double x1, double half) {
   return {{x0, -half}, {x1, -half}, {x1, half}, {x0, half}};

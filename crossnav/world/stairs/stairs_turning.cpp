@@ -4,15 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "crossnav/world/stairs/stair_walls.h"
 #include "crossnav/world/stairs/stairs.h"
 
 namespace crossnav::world {
 namespace {
 
-constexpr double kWall_m = 0.06;      // half a wall
-constexpr double kIntoWall_m = 0.03;  // treads end inside the wall, so that no gap shows
-constexpr double kGap_m = 0.12;       // chosen: between the flights of a U
-constexpr double kExitZone_m = 1.0;   // chosen
+constexpr double kExitZone_m = 1.0;  // chosen
 
 std::vector<Vector2d> Quad(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
