@@ -18,7 +18,7 @@ from doc_commands import commands_of, pages
 
 PLANTED = "planted.by_the_check"
 REFUSED = f'crossnav: --set: unknown key "{PLANTED}"'
-# Programs of the system, of which nothing is looked up.
+# Programs of the system; their options are not checked.
 SYSTEM = {"apt", "apt-get", "basename", "cd", ".", "cp", "dpkg-deb", "mkdir", "rerun", "tar"}
 MODULES = {"venv", "zipfile"}
 
@@ -41,7 +41,7 @@ def check_crossnav(command, root, program):
 
 
 def is_left_open(said, words):
-    """Whether the program asks for what a partial command leaves out, or has a placeholder for."""
+    """Whether the program reports a part that a partial command omits or has a placeholder for."""
     if re.search(r" is required|requires? ", said):
         return True
     if '"--set"' in said and "--set" not in words:  # a verb that has verbs of its own
@@ -147,7 +147,7 @@ RULES = {"crossnav": check_crossnav, "make": check_make, "ctest": check_presets,
 
 
 def check(command, root, program):
-    """What is wrong with a command; None if nothing."""
+    """The problem of a command; None if it has none."""
     if len(command.words) == 1 and command.words[0] in RULES:
         return None
     first = command.words[0].rpartition("/")[2]

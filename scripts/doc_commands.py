@@ -34,7 +34,7 @@ class Block(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What bash would run. Inline code may leave out what an option needs."""
+    """A command as bash would run it. Inline code may omit the value of an option."""
     page: str
     words: list
     is_inline: bool

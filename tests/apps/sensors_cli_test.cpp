@@ -13,7 +13,7 @@ using test::Outcome;
 
 class RealFrames : public SensorsCli {
  protected:
-  /// What `bench sensors` says of the real frames; null where they are not here.
+  /// Result of `bench sensors` on the real frames; null without these frames.
   Json Trials() {
     const std::string data = CROSSNAV_SHARED_DIR "/data";
     if (!std::filesystem::exists(data + "/hololens")) return nullptr;

@@ -43,7 +43,7 @@ TEST_P(MapBlocksTest, ARestoredMapIsEqualAndStaysEqual) {
   EXPECT_TRUE(ExportBlocks(*restored) == ExportBlocks(map));
 }
 
-// What was built without counts, and long ago, gives way to two frames of today.
+// Evidence from a map without counts, and old evidence, yields to two new frames.
 TEST(MapBlocksTest, EvidenceOfAnOldMapGivesWayToTwoFrames) {
   MapConfig config;
   config.clearing = "evidence";
