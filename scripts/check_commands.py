@@ -24,7 +24,7 @@ MODULES = {"venv", "zipfile"}
 
 
 def check_crossnav(command, root, program):
-    """By the program itself. Inline code may lack what is required, but names nothing that is not there."""
+    """By the program itself. Inline code may omit required parts, but must name existing parts only."""
     words = [word.replace("/home/me/crossnav", str(root)) for word in command.words[1:] if word != "..."]
     if words[:1] == ["--version"] or "VERB" in words or re.fullmatch(r"[A-Z]+|\d.*", words[0]):
         return None
