@@ -138,7 +138,7 @@ policy::EvidenceConfig Fit(const std::vector<Scored>& all) {
   return fit;
 }
 
-/// Reliability diagram, error of the expected share, Brier score and log loss of what `all` says.
+/// Reliability diagram, error of the expected share, Brier score and log loss of `all`.
 void PrintDiagram(const char* title, const std::vector<Scored>& all) {
   std::printf("%s: %zu\n  said          n   true\n", title, all.size());
   double brier = 0, loss = 0, off = 0;

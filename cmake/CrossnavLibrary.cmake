@@ -105,3 +105,17 @@ function(crossnav_suites target timeout)
     "  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${include}")
 endfunction()
+
+# The test `viewer.NAME` of the replay page: viewer/test/NAME.test.mjs under Node.js, with ENVIRONMENT and the other
+# properties of PROPERTIES. ctest reports it as skipped where Node.js or all that the file needs is not installed.
+function(crossnav_page_test name)
+  find_program(NODE_PROGRAM NAMES node nodejs)
+  if(NODE_PROGRAM)
+    add_test(NAME viewer.${name}
+      COMMAND "${NODE_PROGRAM}" --test "${PROJECT_SOURCE_DIR}/viewer/test/${name}.test.mjs")
+  else()
+    add_test(NAME viewer.${name} COMMAND "${CMAKE_COMMAND}" -E echo "no Node.js; run scripts/setup.sh viewer")
+  endif()
+  set_tests_properties(viewer.${name} PROPERTIES TIMEOUT 300
+    SKIP_REGULAR_EXPRESSION "^no Node.js;pass 0\n[^\n]*fail 0\n[^\n]*cancelled 0\n[^\n]*skipped [1-9]" ${ARGN})
+endfunction()

@@ -18,13 +18,13 @@ from doc_commands import commands_of, pages
 
 PLANTED = "planted.by_the_check"
 REFUSED = f'crossnav: --set: unknown key "{PLANTED}"'
-# Programs of the system, of which nothing is looked up.
+# Programs of the system; their options are not checked.
 SYSTEM = {"apt", "apt-get", "basename", "cd", ".", "cp", "dpkg-deb", "mkdir", "rerun", "tar"}
 MODULES = {"venv", "zipfile"}
 
 
 def check_crossnav(command, root, program):
-    """By the program itself. Inline code may lack what is required, but names nothing that is not there."""
+    """By the program itself. Inline code may omit required parts, but must name existing parts only."""
     words = [word.replace("/home/me/crossnav", str(root)) for word in command.words[1:] if word != "..."]
     if words[:1] == ["--version"] or "VERB" in words or re.fullmatch(r"[A-Z]+|\d.*", words[0]):
         return None
@@ -41,7 +41,7 @@ def check_crossnav(command, root, program):
 
 
 def is_left_open(said, words):
-    """Whether the program asks for what a partial command leaves out, or has a placeholder for."""
+    """Whether the program reports a part that a partial command omits or has a placeholder for."""
     if re.search(r" is required|requires? ", said):
         return True
     if '"--set"' in said and "--set" not in words:  # a verb that has verbs of its own
@@ -147,7 +147,7 @@ RULES = {"crossnav": check_crossnav, "make": check_make, "ctest": check_presets,
 
 
 def check(command, root, program):
-    """What is wrong with a command; None if nothing."""
+    """The problem of a command; None if it has none."""
     if len(command.words) == 1 and command.words[0] in RULES:
         return None
     first = command.words[0].rpartition("/")[2]

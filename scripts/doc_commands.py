@@ -34,14 +34,14 @@ class Block(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What bash would run. Inline code may leave out what an option needs."""
+    """A command as bash would run it. Inline code may omit the value of an option."""
     page: str
     words: list
     is_inline: bool
 
 
 def pages(root):
-    """Markdown files that tell a user what to type."""
+    """Markdown files with commands for users."""
     names = ["README.md", "CONTRIBUTING.md", "BENCHMARKS.md"]
     return [path for path in [root / name for name in names] + sorted((root / "docs").rglob("*.md"))
             if path.exists()]
@@ -70,7 +70,7 @@ def inline_of(path):
 
 
 def trace(script):
-    """(argument lists, what bash had to say) of a script; no program is run."""
+    """(argument lists, messages of bash) of a script; no program is run."""
     stubs = {word for word in PATH_WORD.findall(script) if re.fullmatch(r"[\w./-]+", word)}
     functions = "".join(f"function {word} {{ record {word} \"$@\"; }}\n" for word in sorted(stubs))
     with tempfile.TemporaryDirectory() as folder:

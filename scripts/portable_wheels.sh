@@ -20,7 +20,7 @@ export LD_LIBRARY_PATH="$openvino${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 say() { printf 'portable_wheels: %s\n' "$*"; }
 tag_of() { "$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])'; }
 
-# Interpreters that have what a wheel is built with: one of each version.
+# Interpreters with headers and pip: one of each version.
 find_pythons() {
   local minor candidate
   for minor in 10 11 12 13 14; do

@@ -3,7 +3,7 @@
 # Python tests, run on the wheel in the virtual environment of the tools.
 #   scripts/test_python.sh BUILD_DIR                 builds and installs the wheel, then runs every test
 #   scripts/test_python.sh BUILD_DIR install         only the former; exit status 77: skipped, see build_wheel.sh
-#   scripts/test_python.sh BUILD_DIR FILE...         only these tests of python/tests, with what is installed
+#   scripts/test_python.sh BUILD_DIR FILE...         only these tests of python/tests, with the installed wheel
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -35,7 +35,7 @@ inside() {
     "${pip_settings[@]}" PIP_FIND_LINKS= "$@"
 }
 
-# What the root needs to reach pip's registry as this machine does, and the packages.
+# Copies this machine's settings of pip and the packages into the root.
 furnish() {
   rm -rf "$target/try" && mkdir "$target/try"
   cp "$root"/build/portable/*.whl "$target/try/"

@@ -124,7 +124,7 @@ struct EpisodesOptions {
   std::string scenes, file, out;
   int count = 10, goals = 0;
   double cross_floor = 0.3;
-  double alternate = 0;  ///< of those: the share that changes floors at every stage
+  double alternate = 0;  ///< share of these that changes floors at every stage
   std::uint64_t seed = 1;
   bool repeats = false;
   std::string certify;                ///< coverage or detection; empty = as configured
@@ -279,7 +279,7 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
 struct NetworksOptions {
   std::vector<std::string> cards;  ///< to check; empty = all
   std::string image, depth, text, out;
-  std::string network;  ///< a card that answers alone; empty = those of the settings
+  std::string network;  ///< card of a single network; empty = networks of the settings
   std::string scenes;   ///< development houses
 };
 Result<void> NetworksList(const NetworksOptions& options, const CommonOptions& common,

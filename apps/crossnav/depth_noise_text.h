@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `bench sensors`: what the frames tell of the noise of their camera (docs/noise.md, "Real
-// cameras").
+// `bench sensors`: noise of the camera, estimated from its frames (docs/noise.md, "Real cameras").
 #pragma once
 
 #include <string>

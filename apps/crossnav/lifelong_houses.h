@@ -17,7 +17,8 @@ struct LifelongPlace {
 };
 LifelongPlace LifelongPlaceOf(const SuiteOptions& options);
 
-/// The suite on disk, made where it is not. Visits are written last: what has them is whole.
+/// The suite on disk; made if it is missing. Visits are written last, so that a suite with visits
+/// is complete.
 Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console& console);
 
 }  // namespace crossnav::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `bench localize`: robots that wake up anywhere in surveyed houses, and what they say of where.
+// `bench localize`: localisation of robots at random places of surveyed houses.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

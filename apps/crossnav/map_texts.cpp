@@ -29,7 +29,7 @@ Result<std::unique_ptr<perception::DenseEncoder>> TruthFor(const std::string& fi
   return encoder;
 }
 
-/// The text in the space of `encoder`, and what it may be held against.
+/// The text in the space of `encoder`, and its background for comparison.
 Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::string& text,
                                const evaluation::RunConfig& config) {
   auto vector = encoder.EncodeText(text);

@@ -36,7 +36,7 @@ Result<TextVectors> EncodeText(const std::string& file, const std::string& text,
 /// From which match on a text is present in a map with features of `encoder`.
 std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config);
 
-/// Looks for each of `categories` in the map's memory and adds what is found to the graph.
+/// Queries the map's memory for each of `categories` and adds the found objects to the graph.
 Result<void> FindObjects(const std::string& file, const std::vector<std::string>& categories,
                          const store::LoadedMemory& loaded, const evaluation::RunConfig& config,
                          scenegraph::SceneGraph& graph);

@@ -26,7 +26,7 @@ Result<store::SaveReport> SaveMemoryOf(const agent::Agent& agent, const std::fil
                                        const std::string& encoder, const std::string& frame);
 
 /// Reads the memory saved at `path` for going on with `config`. Errors: features of another encoder
-/// than `encoder`, what LoadMemory refuses.
+/// than `encoder`, errors of LoadMemory.
 Result<store::LoadedMemory> ReadMemory(const std::filesystem::path& path,
                                        const evaluation::RunConfig& config,
                                        const std::string& encoder);

@@ -11,7 +11,7 @@
 
 namespace crossnav::app {
 
-/// Head of a replay; what is true of the goals is for display.
+/// Head of a replay; ground truth of the goals is for display.
 trace::ReplayInfo ReplayInfoOf(const evaluation::SceneContext& context,
                                const evaluation::Episode& episode,
                                const evaluation::RunConfig& config,

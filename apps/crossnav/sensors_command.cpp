@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kHeldOut = 4;  // every fourth frame, from the fourth
 constexpr double kFloorBand_m = 0.25;
 
-/// Storeys of the map, and the plane through what lies near the lowest one's height.
+/// Storeys of the map, and the plane through the points near the height of the lowest.
 Json FloorJson(const geometry::VoxelMap& map) {
   const auto storeys = scenegraph::FindStoreys(map);
   if (storeys.empty()) return {{"storeys", 0}};

@@ -106,7 +106,7 @@ Result<MaskImage> MaskOf(const Observation& frame, perception::StairSegmenter& n
   return mask;
 }
 
-/// Pixels of the flight's carpet, which is green, and what the colour camera does not see.
+/// Pixels of the flight's green carpet, and pixels that the colour camera does not see.
 MaskImage CarpetOf(const Observation& frame) {
   const Observation obs = WithColourOnDepthGrid(frame);
   MaskImage mask(obs.depth_m.width, obs.depth_m.height, 0);

@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "crossnav/core/setting.h"
+
 namespace crossnav {
 
 enum class Action { kMoveForward, kTurnLeft, kTurnRight, kLookUp, kLookDown, kStop };
@@ -20,10 +22,10 @@ struct ActionConfig {
 
 template <class V>
 void Visit(V& visit, ActionConfig& c) {
-  visit("forward_m", c.forward_m, 0.01, 2.0);
-  visit("turn_deg", c.turn_deg, 1.0, 180.0);
-  visit("pitch_deg", c.pitch_deg, 1.0, 90.0);
-  visit("max_pitch_deg", c.max_pitch_deg, 0.0, 90.0);
+  visit(CROSSNAV_SETTING(c, forward_m), 0.01, 2.0);
+  visit(CROSSNAV_SETTING(c, turn_deg), 1.0, 180.0);
+  visit(CROSSNAV_SETTING(c, pitch_deg), 1.0, 90.0);
+  visit(CROSSNAV_SETTING(c, max_pitch_deg), 0.0, 90.0);
 }
 
 }  // namespace crossnav

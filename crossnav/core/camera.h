@@ -4,6 +4,7 @@
 #pragma once
 
 #include "crossnav/core/pose.h"
+#include "crossnav/core/setting.h"
 
 namespace crossnav {
 
@@ -36,10 +37,10 @@ struct SensorConfig {
 
 template <class V>
 void Visit(V& visit, SensorConfig& c) {
-  visit("width_px", c.width_px, 8, 8192);
-  visit("height_px", c.height_px, 8, 8192);
-  visit("hfov_deg", c.hfov_deg, 1.0, 179.0);
-  visit("camera_height_m", c.camera_height_m, 0.01, 5.0);
+  visit(CROSSNAV_SETTING(c, width_px), 8, 8192);
+  visit(CROSSNAV_SETTING(c, height_px), 8, 8192);
+  visit(CROSSNAV_SETTING(c, hfov_deg), 1.0, 179.0);
+  visit(CROSSNAV_SETTING(c, camera_height_m), 0.01, 5.0);
 }
 
 }  // namespace crossnav

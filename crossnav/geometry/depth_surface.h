@@ -28,7 +28,7 @@ struct DepthSurface {
 DepthSurface SurfaceOf(const DepthImage& depth_m, const CameraIntrinsics& camera,
                        const Pose& T_world_camera, const MaskImage& mask);
 
-/// The direction that most of what is about level agrees on; the z axis where little is.
+/// Normal of the level surfaces, by majority; the z axis if few surfaces are level.
 Vector3d UpOf(const DepthSurface& surface);
 
 /// Rotation about the camera that turns UpOf into the z axis.

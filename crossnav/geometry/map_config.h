@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "crossnav/core/setting.h"
+
 namespace crossnav::geometry {
 
 struct MapConfig {
@@ -28,22 +30,22 @@ struct MapConfig {
 
 template <class V>
 void Visit(V& visit, MapConfig& c) {
-  visit("voxel_m", c.voxel_m, 0.02, 0.5);
-  visit("extent_xy_m", c.extent_xy_m, 1.0, 10000.0);
-  visit("extent_z_m", c.extent_z_m, 1.0, 10000.0);
-  visit("clip_to_extent", c.clip_to_extent);
-  visit("inflation_m", c.inflation_m, 0.0, 2.0);
-  visit("support_depth_m", c.support_depth_m, 0.0, 3.0);
-  visit("max_climb_m", c.max_climb_m, 0.0, 1.0);
-  visit("agent_height_m", c.agent_height_m, 0.1, 3.0);
-  visit("agent_radius_m", c.agent_radius_m, 0.0, 2.0);
-  visit("depth_min_m", c.depth_min_m, 0.0, 100.0);
-  visit("depth_max_m", c.depth_max_m, 0.1, 1000.0);
-  visit("rays", c.rays, {"fast", "exact"});
-  visit("clearing", c.clearing, {"never", "evidence"});
-  visit("min_hits", c.min_hits, 1, 1000);
-  visit("hit_ratio", c.hit_ratio, 0.0, 1.0);
-  visit("max_hits", c.max_hits, 1, 1000);
+  visit(CROSSNAV_SETTING(c, voxel_m), 0.02, 0.5);
+  visit(CROSSNAV_SETTING(c, extent_xy_m), 1.0, 10000.0);
+  visit(CROSSNAV_SETTING(c, extent_z_m), 1.0, 10000.0);
+  visit(CROSSNAV_SETTING(c, clip_to_extent));
+  visit(CROSSNAV_SETTING(c, inflation_m), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, support_depth_m), 0.0, 3.0);
+  visit(CROSSNAV_SETTING(c, max_climb_m), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, agent_height_m), 0.1, 3.0);
+  visit(CROSSNAV_SETTING(c, agent_radius_m), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, depth_min_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, depth_max_m), 0.1, 1000.0);
+  visit(CROSSNAV_SETTING(c, rays), {"fast", "exact"});
+  visit(CROSSNAV_SETTING(c, clearing), {"never", "evidence"});
+  visit(CROSSNAV_SETTING(c, min_hits), 1, 1000);
+  visit(CROSSNAV_SETTING(c, hit_ratio), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, max_hits), 1, 1000);
 }
 
 }  // namespace crossnav::geometry

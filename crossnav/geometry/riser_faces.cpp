@@ -14,7 +14,7 @@ constexpr double kPlane_m = 0.02;         // chosen: noise about a face
 constexpr double kRiserStep_m = 0.05;     // chosen: neighbours farther apart lie on two things
 constexpr double kRiserEdgeShare = 0.02;  // chosen: stray points beyond an edge
 constexpr std::size_t kLeastSeed = 40;    // chosen: pixels, of a face of 4 by 10
-constexpr double kLowFace_m = 0.05, kHighFace_m = 0.26;  // chosen: what people build
+constexpr double kLowFace_m = 0.05, kHighFace_m = 0.26;  // chosen: range of built stairs
 constexpr double kLeastWidth_m = 0.25;                   // chosen: of a foot and its place
 constexpr double kLeastVertical = 0.5;  // chosen: share of a face's rectangle that is seen
 
@@ -64,7 +64,7 @@ void FitPlane(const DepthSurface& s, const std::vector<int>& pixels, RiserFace* 
   face->front_m = QuantileOf(along_m, 0.5);
 }
 
-/// The seed, and what lies in its plane beside it: normals at an edge are of both its sides.
+/// The seed, and neighbours in its plane: normals at an edge mix both sides.
 std::vector<int> WithEdges(const DepthSurface& s, const std::vector<int>& seed,
                            const RiserFace& face) {
   std::vector<int> pixels = seed;

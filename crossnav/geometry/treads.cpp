@@ -12,7 +12,7 @@
 namespace crossnav::geometry {
 namespace {
 
-constexpr double kLowRiser_m = 0.07, kHighRiser_m = 0.25;    // chosen: what people build
+constexpr double kLowRiser_m = 0.07, kHighRiser_m = 0.25;    // chosen: range of built stairs
 constexpr double kShortTread_m = 0.15, kLongTread_m = 0.50;  // chosen: likewise
 constexpr double kRiserSpread_m = 0.04;                      // chosen: risers of one flight
 constexpr double kTreadSpread_m = 0.10;  // chosen: fronts move where parts are hidden

@@ -96,7 +96,7 @@ Result<ModelCard> ReadModelCard(const std::filesystem::path& path);
 /// own section of that name, or behind everything else. All other bytes stay.
 std::string WithRetrieval(std::string_view card, std::string_view section);
 
-/// The content of the card's file; an error where it is not the one that the card was written for.
+/// Content of the card's file; an error if it does not match the card's SHA-256.
 Result<std::string> ReadNetworkFile(const ModelCard& card);
 
 /// Policy confidence of a detector's score for a label: piecewise linear through (0, 0), (weak,

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "crossnav/core/setting.h"
+
 namespace crossnav::inference {
 
 struct NetworksConfig {
@@ -22,14 +24,14 @@ struct NetworksConfig {
 
 template <class V>
 void Visit(V& visit, NetworksConfig& c) {
-  visit("dir", c.dir);
-  visit("detector", c.detector);
-  visit("segmenter", c.segmenter);
-  visit("stairs", c.stairs);
-  visit("encoder", c.encoder);
-  visit("backend", c.backend, {"auto", "openvino", "onnxruntime"});
-  visit("provider", c.provider, {"cpu", "cuda", "tensorrt"});
-  visit("threads", c.threads, 1, 64);
+  visit(CROSSNAV_SETTING(c, dir));
+  visit(CROSSNAV_SETTING(c, detector));
+  visit(CROSSNAV_SETTING(c, segmenter));
+  visit(CROSSNAV_SETTING(c, stairs));
+  visit(CROSSNAV_SETTING(c, encoder));
+  visit(CROSSNAV_SETTING(c, backend), {"auto", "openvino", "onnxruntime"});
+  visit(CROSSNAV_SETTING(c, provider), {"cpu", "cuda", "tensorrt"});
+  visit(CROSSNAV_SETTING(c, threads), 1, 64);
 }
 
 }  // namespace crossnav::inference

@@ -70,13 +70,13 @@ bool AreSure(const std::vector<int>& things, const Description& subject, const K
   });
 }
 
-/// "chair", "red chair near the table upstairs": as the subject said it, without its article.
+/// The subject's own words without the article: "chair", "red chair near the table upstairs".
 std::string SubjectText(const Description& subject) {
   const std::string text = TextOf(subject);
   return text.substr(text.find(' ') + 1);
 }
 
-/// Why nothing was found.
+/// Reason for an empty result.
 std::string NothingText(const Description& subject, const KnownHome& home) {
   const Resolution none = Resolve(subject, home);
   const std::string what = SubjectText(subject);
@@ -168,7 +168,7 @@ bool IsAsked(const KnownRoom& room, const Description& subject, const KnownHome&
   return std::find(floors.begin(), floors.end(), room.floor) != floors.end();
 }
 
-/// Best fit of anything in the room.
+/// Best fit among the things in the room.
 Fit HeldBy(int room, const Description& subject, const KnownHome& home) {
   Fit best = subject.noun.empty() ? Fit::kYes : Fit::kNo;
   for (const Thing& thing : home.things)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The answer to a question, from what is known of a home. What is not known is said to be unknown:
-// a room that was measured but not looked at holds anything.
+// Answers questions from a known home. Missing knowledge gives the answer "unknown": a room that
+// was measured but not looked at may hold any object.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ namespace crossnav::language {
 
 struct Answer {
   std::string text;             ///< sentences for people, one a line
-  bool is_known = true;         ///< false: what was not looked at could change the answer
-  std::optional<bool> is_true;  ///< is there: yes, no; empty = not known
-  std::optional<int> count;     ///< how many
+  bool is_known = true;         ///< false: places not looked at could change the answer
+  std::optional<bool> is_true;  ///< kIsThere: yes or no; empty = unknown
+  std::optional<int> count;     ///< kHowMany: the number
   std::vector<int> things;      ///< indices into KnownHome, the last seen first
-  std::vector<int> rooms;       ///< which rooms: those that are sure
-  std::vector<int> unseen;      ///< rooms that could change the answer
+  std::vector<int> rooms;       ///< kWhichRooms: the certain rooms
+  std::vector<int> unseen;      ///< rooms not looked at that could change the answer
 };
 
 Answer AnswerTo(const Question& question, const KnownHome& home);

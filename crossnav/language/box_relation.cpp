@@ -14,8 +14,8 @@ using scenegraph::kCovered, scenegraph::kNear_m, scenegraph::kNextTo_m, scenegra
 
 constexpr double kMissedBy_m = 0.25;     // chosen: two voxels and a half
 constexpr double kHardlyCovered = 0.3;   // chosen: likewise
-constexpr double kNearMissedBy_m = 0.5;  // chosen: a step more or less
-constexpr double kStorey_m = 2.0;        // chosen: nobody calls that near
+constexpr double kNearMissedBy_m = 0.5;  // chosen: one step
+constexpr double kStorey_m = 2.0;        // chosen: boxes on two storeys are not near
 
 Fit Within(double value, double limit, double missed_by) {
   return value <= limit ? Fit::kYes : value <= limit + missed_by ? Fit::kMaybe : Fit::kNo;
@@ -32,7 +32,7 @@ Fit Both(Fit a, Fit b) {
 
 Fit OnFit(const Box3& a, const Box3& b) {
   const Fit touches = Within(std::abs(a.min.z() - b.max.z()), kTouch_m, kMissedBy_m);
-  // The top of what has a back or shelves lies below the top of its box.
+  // Furniture with a back or shelves carries objects below the top of its box.
   const bool is_within = a.min.z() > b.min.z() + kMissedBy_m && a.min.z() < b.max.z();
   return Both(CoveredFit(a, b), std::max(touches, is_within ? Fit::kMaybe : Fit::kNo));
 }
@@ -49,7 +49,7 @@ Fit AboveFit(const Box3& a, const Box3& b) {
   return Both(CoveredFit(a, b), is_over);
 }
 
-/// It carries the other, or is below it, or on the floor between its legs.
+/// Below `b`, as its support, or on the floor between its legs.
 Fit UnderFit(const Box3& a, const Box3& b) {
   const bool is_between = a.max.z() < b.max.z() && a.min.z() <= b.min.z() + kTouch_m;
   const Fit between = is_between ? CoveredFit(a, b) : Fit::kNo;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Relation word between two boxes. Measures are those of the graph (scenegraph/box_measures.h); a
-// near miss is a maybe, because boxes of seen objects are coarse. World frame.
+// Relation word between two boxes. Measures: scenegraph/box_measures.h. A near miss is kMaybe,
+// because boxes of seen objects are coarse. World frame.
 #pragma once
 
 #include "crossnav/core/box.h"
@@ -8,7 +8,7 @@
 
 namespace crossnav::language {
 
-/// "a `relation` b". Walls between them are not known here.
+/// Fit of "a `relation` b". Ignores walls between the boxes.
 Fit HoldsFor(Relation relation, const Box3& a, const Box3& b);
 
 }  // namespace crossnav::language

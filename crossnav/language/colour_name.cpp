@@ -34,7 +34,7 @@ struct Prototype {
   Rgb8 rgb;
 };
 
-// chosen: what the names bring to mind, light and dark; several for names of many shades.
+// chosen: prototypes of each name, light and dark; several for names of many shades.
 constexpr std::array<Prototype, 34> kPrototypes = {{
     {Colour::kBlack, {15, 15, 15}},    {Colour::kBlack, {40, 40, 42}},
     {Colour::kGrey, {95, 95, 98}},     {Colour::kGrey, {130, 130, 130}},
@@ -55,9 +55,9 @@ constexpr std::array<Prototype, 34> kPrototypes = {{
     {Colour::kPink, {220, 130, 150}},  {Colour::kPink, {245, 180, 195}},
 }};
 
-constexpr double kShade = 0.76;       // chosen: things of house 301, seen against true
-constexpr double kLightWeight = 0.6;  // chosen: lamps change how light a colour is, hardly its hue
-constexpr double kClose = 14;         // chosen: farther from the name than from the first one
+constexpr double kShade = 0.76;       // chosen: seen over true colour, objects of house 301
+constexpr double kLightWeight = 0.6;  // chosen: lamps change lightness more than hue
+constexpr double kClose = 14;         // chosen: excess over the distance to the nearest name
 
 /// Distance of the nearest prototype of each name.
 std::array<double, kColours> Distances(const Rgb8& rgb) {

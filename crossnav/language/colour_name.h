@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of colours, and how well a name fits the pixels of an object under a lamp.
+// Colour names, and the fit of a name to an object's pixels under a lamp.
 #pragma once
 
 #include <optional>
@@ -29,13 +29,14 @@ std::string_view NameOf(Colour colour);
 
 enum class Fit { kNo, kMaybe, kYes };
 
-/// Colour of a surface whose pixels are `seen` in a room under lamps, as people see past the shade.
+/// Surface colour of pixels `seen` under indoor lamps: corrects for shade.
 Rgb8 SurfaceColourOf(const Rgb8& seen);
 
-/// The name that people would give first.
+/// The nearest name.
 Colour NameColour(const Rgb8& rgb);
 
-/// kYes: the first name. kMaybe: a neighbour of it, as lamps and cameras turn one into the other.
+/// kYes: the nearest name. kMaybe: a neighbouring name, because lamps and cameras confuse
+/// neighbours.
 Fit FitOf(Colour colour, const Rgb8& rgb);
 
 }  // namespace crossnav::language

@@ -6,7 +6,7 @@
 namespace crossnav::language {
 namespace {
 
-/// All but room and floor.
+/// Text without relations, room and floor.
 std::string HeadOf(const Description& d) {
   std::string text = d.is_definite ? "the " : "a ";
   if (d.order != 0) text += OrdinalOf(d.order) + " ";

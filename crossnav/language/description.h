@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A thing as people describe it: "the red armchair near the window upstairs". Plain data;
-// parse_description.h makes it of words, resolve.h finds the thing. docs/lifelong.md says how each
-// word is read.
+// Description of a thing by a person: "the red armchair near the window upstairs". Plain data;
+// parse_description.h parses it, resolve.h finds the thing. Readings of each word:
+// docs/lifelong.md.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace crossnav::language {
 
-enum class SizeWord { kBig, kSmall };  ///< the largest, the smallest of those that fit otherwise
+enum class SizeWord { kBig, kSmall };  ///< largest, smallest of the things that fit otherwise
 
 enum class Relation { kOn, kIn, kNextTo, kNear, kAbove, kUnder };
 inline constexpr int kRelations = 6;
@@ -31,7 +31,7 @@ struct RelationPhrase;
 
 struct Description {
   std::string noun;          ///< canonical name (core/category_table.h): "sofa" for "couch"
-  bool is_definite = false;  ///< "the": one thing is meant; otherwise any will do
+  bool is_definite = false;  ///< "the": one particular thing; otherwise any thing
   int order = 0;             ///< 1 = the nearest to the robot, 2 ...; -1 = the farthest; 0 = none
   std::optional<SizeWord> size;
   std::optional<Colour> colour;
@@ -39,21 +39,21 @@ struct Description {
   std::optional<RoomType> room;
   std::optional<FloorPhrase> floor;
 
-  /// A category alone, as goals were before descriptions.
+  /// A category alone, without any other part.
   bool IsPlain() const;
   friend bool operator==(const Description&, const Description&);
 };
 
-/// "near the window": some window will do.
+/// "near the window": any window.
 struct RelationPhrase {
   Relation relation = Relation::kNear;
-  Description landmark;  ///< without room and floor, which are said of the whole
+  Description landmark;  ///< without room and floor; they belong to the whole
   friend bool operator==(const RelationPhrase&, const RelationPhrase&);
 };
 
 std::string_view NameOf(Relation relation);
 std::string TextOf(const FloorPhrase& floor);  ///< "on the first floor", "upstairs"
-/// Words that parse to this very description.
+/// Words that parse to the same description.
 std::string TextOf(const Description& description);
 
 }  // namespace crossnav::language

@@ -10,9 +10,9 @@
 namespace crossnav::language {
 namespace {
 
-constexpr double kLookedAt = 0.6;  // chosen: of a room's area; what lies behind things is not seen
-constexpr double kBelieved = 0.3;  // as objects::BookConfig::gone
-constexpr double kSamePlace_m = 0.5;    // chosen: between the centres, which features blur
+constexpr double kLookedAt = 0.6;     // chosen: of a room's area; ground behind things stays unseen
+constexpr double kBelieved = 0.3;     // as objects::BookConfig::gone
+constexpr double kSamePlace_m = 0.5;  // chosen: between centres, which features blur
 constexpr double kUnderGround_m = 0.5;  // as scenegraph::FloorAt
 
 Thing ThingOf(const scenegraph::GraphObject& object) {
@@ -46,7 +46,7 @@ bool IsBelieved(const objects::ObjectRecord& record) {
   return record.confidence >= kBelieved && record.views > 0;
 }
 
-/// The memory's place is that of the record, whether or not it is believed any more.
+/// Whether the memory's place coincides with the record, believed or not.
 bool IsOfRecord(const scenegraph::GraphObject& object, const objects::ObjectRecord& record) {
   if (CanonicalName(object.category) != CanonicalName(record.category)) return false;
   const auto& box = record.box_world_m;

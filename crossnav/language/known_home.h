@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Known home, as descriptions and questions need it: floors, rooms with what they may
-// be for, things. Made of a map's graph and its records of objects; tests make it by hand. World
-// frame, metres.
+// Known home: floors, rooms with their possible types, and things, for descriptions and questions.
+// Built from a map's graph and its records of objects; tests build it by hand. World frame, metres.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@
 
 namespace crossnav::language {
 
-/// When a thing was seen last.
+/// Time of the last sighting.
 struct LastSeen {
   std::int64_t step = 0;  ///< of the day's run
   int day = 0;            ///< runs with this memory before it
@@ -29,9 +28,9 @@ struct Thing {
   Vector3d p_center_world = Vector3d::Zero();
   Box3 box;
   std::optional<int> floor, room;
-  std::optional<Rgb8> colour;  ///< of its surface; empty = never looked at in colour
-  double confidence = 0;       ///< that it is there [0, 1]; of a place in the memory its match
-  bool is_certain = false;     ///< the confidence is known to mean presence
+  std::optional<Rgb8> colour;  ///< mean of its surface; empty = never seen in colour
+  double confidence = 0;       ///< of presence [0, 1]; for a place in the memory, its match
+  bool is_certain = false;     ///< the confidence is above a calibrated threshold
   std::optional<LastSeen> last_seen;
   int record = -1;  ///< index into the records; -1 = a place in the memory
 };
@@ -53,18 +52,18 @@ struct KnownHome {
   std::vector<KnownFloor> floors;  ///< lowest first
   std::vector<KnownRoom> rooms;
   std::vector<Thing> things;
-  std::vector<std::string> asked;  ///< categories that were looked for, found or not
-  /// Stairs lead where nobody was: floors may be missing below, above and between.
+  std::vector<std::string> asked;  ///< queried categories, found or not
+  /// Stairs lead to unvisited ground: floors may be missing below, above and between.
   bool may_have_more_floors = false;
   int ground_floor = 0;                   ///< index; floors below it are basements
-  std::optional<Vector3d> p_robot_world;  ///< foot point; empty = nobody stands anywhere
+  std::optional<Vector3d> p_robot_world;  ///< foot point; empty = no robot
 };
 
-/// Records that are believed, and the graph's objects where no record is.
+/// Believed records, and objects of the graph without a record.
 KnownHome HomeOf(const scenegraph::SceneGraph& graph,
                  std::span<const objects::ObjectRecord> records = {});
 
-/// Types of rooms from the things in them. HomeOf has done it.
+/// Sets the types of rooms from the things in them. HomeOf calls it.
 void TellRooms(KnownHome& home);
 
 /// Floor that a point belongs to: the highest at most half a metre above it.

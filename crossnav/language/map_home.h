@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Known home of a saved map: its graph, its records, and what its memory answers when names
-// are looked for in it.
+// Known home of a saved map: its graph, its records, and places where its memory matches a name.
 #pragma once
 
 #include <functional>
@@ -27,10 +26,10 @@ struct MapParts {
   const memory::SemanticMemory& memory;
   const std::vector<geometry::StairFlight>& flights;
   const std::vector<objects::ObjectRecord>& records;
-  std::optional<double> present_from;  ///< of matches (memory/query_match.h); empty = not measured
+  std::optional<double> present_from;  ///< least match (memory/query_match.h); empty = not measured
 };
 
-/// Looks for each of `names`; a memory without features is not asked. Errors are the encoder's.
+/// Queries the memory for each of `names`; skips a memory without features. Errors: of the encoder.
 Result<KnownHome> HomeOf(const MapParts& parts, std::span<const std::string> names,
                          const EncodeText& encode, const memory::QueryConfig& query);
 

@@ -11,7 +11,7 @@ void AddWords(const WordTable<T>& table, std::vector<std::string>& words) {
   for (const auto& [said, meaning] : table) words.push_back(said);
 }
 
-/// All that a description can be made of.
+/// All words of descriptions.
 const std::vector<std::string>& KnownWords() {
   static const std::vector<std::string> known = [] {
     std::vector<std::string> words;
@@ -44,7 +44,7 @@ std::optional<FloorPhrase> TakeFloor(WordStream& words) {
   return words.TakeFrom(FloorWords());
 }
 
-/// A room's name before a thing: "the kitchen chair". The name of a thing may begin with one.
+/// A room's name before a noun: "the kitchen chair". A noun may begin with a room's name.
 bool TakeRoomBefore(WordStream& words, Description& d) {
   const std::size_t mark = words.Mark();
   if (words.TakeFrom(ThingWords())) {
@@ -60,7 +60,7 @@ bool TakeRoomBefore(WordStream& words, Description& d) {
   return true;
 }
 
-/// Colour, size, room, floor before the thing.
+/// Colour, size, room or floor before the noun.
 bool TakeAdjective(WordStream& words, Description& d) {
   const std::size_t mark = words.Mark();
   if (const auto colour = words.TakeFrom(ColourWords())) {
@@ -76,11 +76,11 @@ bool TakeAdjective(WordStream& words, Description& d) {
   return false;
 }
 
-/// Up to the thing.
+/// Description up to its noun.
 Result<Description> ParseHead(WordStream& words) {
   Description d;
   d.is_definite = TakeArticle(words) == Article::kThe;
-  // "the first floor lamp" is a lamp: names of things go before floors.
+  // "the first floor lamp" is a lamp: nouns take precedence over floors.
   const std::size_t mark = words.Mark();
   if (const auto order = words.TakeFrom(OrdinalWords())) {
     d.order = *order;
@@ -99,7 +99,7 @@ Result<Description> ParseHead(WordStream& words) {
   return d;
 }
 
-/// Room and floor of a landmark's head ("the kitchen table") are said of the whole.
+/// Moves room and floor of a landmark's head ("the kitchen table") to the whole.
 Result<void> GiveToWhole(const WordStream& words, Description& landmark, Description& whole) {
   if ((landmark.room && whole.room) || (landmark.floor && whole.floor))
     return Fail(ErrorCode::kInvalid, "two rooms or two floors are named", words.Quoted());
@@ -112,7 +112,7 @@ Result<void> GiveToWhole(const WordStream& words, Description& landmark, Descrip
 std::optional<RoomType> TakeRoom(WordStream& words) {
   if (!words.Take({"in", "at", "inside", "of", "from"})) return std::nullopt;
   (void)TakeArticle(words);
-  if (words.Take({"toilet", "toilets"})) return RoomType::kWc;  // nothing stands in the other
+  if (words.Take({"toilet", "toilets"})) return RoomType::kWc;  // the fixture contains no things
   const std::size_t mark = words.Mark();
   if (words.TakeFrom(ThingWords())) return std::nullopt;
   words.Return(mark);
@@ -148,8 +148,8 @@ bool ParsePlace(WordStream& words, Description* whole) {
 }
 
 Result<void> ParsePlaces(WordStream& words, Description* whole) {
-  // Landmarks one inside the other, each with the relation that leads to it; put together from the
-  // inside at "and" and at the end, so that no pointer into a growing vector is kept.
+  // Nested landmarks, each with its relation. They are joined from the innermost outward at "and"
+  // and at the end, because pointers into a growing vector would dangle.
   std::vector<RelationPhrase> chain;
   const auto close = [&] {
     while (chain.size() > 1) {

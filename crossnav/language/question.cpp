@@ -104,7 +104,7 @@ Result<Question> ParseQuestion(std::string_view text) {
   }
   if (words.Take({"which room is", "which room are", "what room is", "which floor is",
                   "which floor are", "what floor is", "on which floor is", "in which room is"})) {
-    words.DropLast({"in", "on", "at"});  // "which room is the bed in" asks where it is
+    words.DropLast({"in", "on", "at"});  // "which room is the bed in" asks for its place
     return ParseAbout(words, QuestionKind::kWhere);
   }
   if (words.Take({"which rooms", "what rooms", "which room", "what room"}))

@@ -29,11 +29,11 @@ struct Question {
   bool is_count = false;    ///< how many rooms
 };
 
-/// kInvalid names the word that is not understood and what could stand there.
+/// kInvalid names the unknown word and the words expected there.
 Result<Question> ParseQuestion(std::string_view text);
 
-/// Categories that an answer needs, canonical: the subject's kinds, those of its landmarks, and
-/// names that tell rooms apart. For "what is ..." all things that there is a word for.
+/// Canonical categories that an answer needs: kinds of the subject and of its landmarks, and
+/// categories that identify room types. For "what is ...", every known noun.
 std::vector<std::string> NamesFor(const Question& question);
 std::vector<std::string> NamesFor(const Description& description);
 

@@ -10,8 +10,8 @@
 namespace crossnav::language {
 namespace {
 
-constexpr double kStoreyDetour_m = 20;   // chosen: things of the own floor come first
-constexpr double kClearlyLarger = 1.25;  // chosen: else nobody sees which one is larger
+constexpr double kStoreyDetour_m = 20;   // chosen: things on the robot's floor come first
+constexpr double kClearlyLarger = 1.25;  // chosen: smaller ratios are not visible
 
 Fit FloorFit(const FloorPhrase& phrase, const KnownHome& home, const Thing& thing) {
   if (!thing.floor) return Fit::kMaybe;
@@ -20,7 +20,7 @@ Fit FloorFit(const FloorPhrase& phrase, const KnownHome& home, const Thing& thin
   if (!home.may_have_more_floors || phrase.word == FloorWord::kUpstairs ||
       phrase.word == FloorWord::kDownstairs)
     return fits ? Fit::kYes : Fit::kNo;
-  // With a floor more below, what is counted from the ground is one higher.
+  // An unknown floor below would raise every floor number by one.
   const bool could_fit = fits || (phrase.word == FloorWord::kNumber &&
                                   *thing.floor < home.ground_floor + phrase.number);
   return could_fit ? Fit::kMaybe : Fit::kNo;
@@ -66,7 +66,7 @@ double SizeOf(const Thing& thing) {
   return sides[1] * sides[2];
 }
 
-/// Objects as big (or small) as the extreme one, within the margin of sight.
+/// Things of the extreme size, within kClearlyLarger.
 std::vector<int> Extremes(const std::vector<int>& pool, SizeWord word, const KnownHome& home) {
   const auto size = [&](int i) { return SizeOf(home.things[i]); };
   const bool is_big = word == SizeWord::kBig;
@@ -108,7 +108,7 @@ Resolution Nth(int order, std::vector<int> pool, const KnownHome& home) {
   return {Outcome::kFound, {order < 0 ? pool.back() : pool[order - 1]}, true, ""};
 }
 
-/// Adds what fits but for a relation that it misses by little: boxes of what was seen are coarse.
+/// Adds things that miss only a relation, by little, because boxes of seen things are coarse.
 void AddNearMisses(const Description& description, const KnownHome& home, std::vector<int>& pool) {
   Description unrelated = description;
   unrelated.relations.clear();
@@ -128,10 +128,10 @@ std::string_view NameOf(Outcome outcome) {
 std::vector<int> FloorsOf(const FloorPhrase& phrase, const KnownHome& home) {
   const auto count = static_cast<int>(home.floors.size());
   std::vector<int> floors;
-  int own = -1;  // nowhere
+  int own = -1;  // no robot, or on no floor
   if (home.p_robot_world) own = FloorOf(home, *home.p_robot_world).value_or(-1);
   for (int i = 0; i < count; ++i) {
-    // Seen from where there is no floor above, "upstairs" are those above the ground floor.
+    // Without a floor above the robot, "upstairs" means the floors above the ground floor.
     const int up_from = own >= 0 && own + 1 < count ? own : home.ground_floor;
     const int down_from = own > 0 ? own : count - 1;
     const bool fits = (phrase.word == FloorWord::kUpstairs && i > up_from) ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The thing that a description means, among those that are known. Readings: docs/lifelong.md.
+// Resolves a description to a thing of the known home. Readings: docs/lifelong.md.
 #pragma once
 
 #include <optional>
@@ -13,33 +13,32 @@ namespace crossnav::language {
 
 enum class Outcome {
   kFound,
-  kAmbiguous,  ///< several fit as well
-  kAbsent,     ///< none fits, and every place where it could be was looked at
-  kUnknown     ///< none that is known fits; there are places that nobody looked at
+  kAmbiguous,  ///< several things fit equally well
+  kAbsent,     ///< no thing fits, and every possible place was looked at
+  kUnknown     ///< no known thing fits, but some places were not looked at
 };
 std::string_view NameOf(Outcome outcome);
 
 struct Resolution {
   Outcome outcome = Outcome::kUnknown;
-  std::vector<int> things;  ///< found: it alone; ambiguous: all of them; indices into KnownHome
-  bool is_sure = true;      ///< found: nothing about it is a guess
-  std::string reason;       ///< for people, why not found: "2 rooms were not looked at"
+  std::vector<int> things;  ///< found: one; ambiguous: all that fit; indices into KnownHome
+  bool is_sure = true;      ///< found: no part of the fit is kMaybe
+  std::string reason;       ///< for people, of a failure: "2 rooms were not looked at"
 };
 
 Resolution Resolve(const Description& description, const KnownHome& home);
 
-/// How well a thing fits, but for order and size, which say something of all that fit. Without a
-/// noun anything may fit.
+/// Fit of one thing without order and size, which compare all fitting things. Without a noun any
+/// thing may fit.
 Fit FitOf(const Description& description, const KnownHome& home, const Thing& thing);
 
-/// Things of the kind that fit at least so well, by the distance to the robot where it stands
-/// somewhere.
+/// Things with a fit of at least `least`, nearest to the robot first if its place is known.
 std::vector<int> AllThatFit(const Description& description, const KnownHome& home, Fit least);
 
-/// Floors that a phrase can mean; empty where no such floor is known.
+/// Possible floors of a phrase; empty if no such floor is known.
 std::vector<int> FloorsOf(const FloorPhrase& phrase, const KnownHome& home);
 
-/// Rooms where something in that room and on that floor may be, that were not looked at.
+/// Rooms not looked at that may be the description's room on its floor.
 std::vector<int> UnseenRooms(const Description& description, const KnownHome& home);
 
 }  // namespace crossnav::language

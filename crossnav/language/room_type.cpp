@@ -8,13 +8,13 @@
 namespace crossnav::language {
 namespace {
 
-/// Weights of things for a type: 2 = it is of that type, 1 = it may be; less speaks against it.
+/// Weights of a thing for each room type: 2 = decisive, 1 = compatible, below 0 = against it.
 struct Tell {
   std::string_view name;
   std::array<int, kRoomTypes> weights;
 };
 
-// chosen: common sense. A weight counts once, however many of the thing there are.
+// chosen: common sense. A weight counts once per category.
 // clang-format off
 constexpr Tell kTells[] = {
     //                      living kitchen dining bedroom bath wc office hall storage garage balcony
@@ -39,7 +39,7 @@ constexpr Tell kTells[] = {
 };
 // clang-format on
 
-constexpr int kFits = 2;  // chosen: one thing that tells, or two that hint
+constexpr int kFits = 2;  // chosen: one decisive thing, or two compatible things
 
 constexpr auto kNames = [] {
   std::array<std::string_view, std::size(kTells)> names;
@@ -47,7 +47,7 @@ constexpr auto kNames = [] {
   return names;
 }();
 
-/// Without anything in it that tells, a room may be any of these.
+/// Possible types of a room without decisive things.
 bool IsPoor(RoomType type) {
   return type == RoomType::kHall || type == RoomType::kStorage || type == RoomType::kGarage ||
          type == RoomType::kBalcony;
@@ -79,8 +79,8 @@ RoomFits RoomFitsOf(std::span<const std::string> categories, bool was_looked_at)
   }
   RoomFits fits;
   for (int i = 0; i < kRoomTypes; ++i) {
-    // An open room is a kitchen by its stove, whatever else it holds: only strong contradiction
-    // counts against the strongest sign.
+    // A stove makes an open room a kitchen despite its other things: only a strong contradiction
+    // counts against the strongest weight.
     const bool fits_well = sums[i] >= kFits || (best[i] >= 3 && sums[i] > -1);
     const bool may_fit = sums[i] > 0 || (!was_looked_at && sums[i] >= 0) ||
                          (!is_told && sums[i] >= 0 && IsPoor(static_cast<RoomType>(i)));

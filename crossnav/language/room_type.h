@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Type of a room. Rooms of a map are cut from geometry alone; the objects in them tell their
-// type, by the table in room_type.cpp. One room can be of several types: an open kitchen.
+// Type of a room, inferred from the objects in it by the table in room_type.cpp: rooms of a map are
+// cut from geometry alone. A room can have several types, e.g. an open kitchen.
 #pragma once
 
 #include <array>
@@ -29,17 +29,17 @@ inline constexpr int kRoomTypes = 11;
 
 std::string_view NameOf(RoomType type);  ///< "living room"
 
-/// How well each type fits a room.
+/// Fit of each type to a room.
 using RoomFits = std::array<Fit, kRoomTypes>;
 
-/// Of a room that holds things of these categories (canonical names), one entry a thing.
-/// `was_looked_at`: what is not listed is not there.
+/// Fits of a room with things of these categories (canonical names), one entry a thing.
+/// `was_looked_at`: other categories are absent.
 RoomFits RoomFitsOf(std::span<const std::string> categories, bool was_looked_at);
 
-/// The categories that tell rooms apart: what to look for in a memory.
+/// Categories that identify room types, as queries for a memory.
 std::span<const std::string_view> TellingNames();
 
-/// "kitchen, living room?"; empty where nothing fits.
+/// "kitchen, living room?"; empty if no type fits.
 std::string TextOf(const RoomFits& fits);
 
 }  // namespace crossnav::language

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 12> kOrdinals = {"first", "second", "thir
                                                         "fifth", "sixth",  "seventh",  "eighth",
                                                         "ninth", "tenth",  "eleventh", "twelfth"};
 
-// chosen: furniture and what lies about, by the names that annotators and detectors use.
+// chosen: furniture and loose objects, by the names that annotators and detectors use.
 constexpr std::string_view kThings[] = {"armchair",
                                         "basket",
                                         "bath",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The words that descriptions and questions are made of, each with what it stands for. Phrases are
-// words with one space between them, in small letters.
+// Vocabulary of descriptions and questions, each phrase with its meaning. Phrases are lower-case
+// words separated by one space.
 #pragma once
 
 #include <map>
@@ -22,8 +22,8 @@ const WordTable<int>& OrdinalWords();  ///< 1, 2, ...; -1 = last
 const WordTable<Relation>& RelationWords();
 const WordTable<RoomType>& RoomWords();
 const WordTable<FloorPhrase>& FloorWords();  ///< "upstairs", "first floor"
-/// Names of things, singular and plural -> canonical: the table of names (core/category_table.h)
-/// and household things that are no goal category.
+/// Nouns, singular and plural -> canonical: the table of names (core/category_table.h), and
+/// household objects outside the goal categories.
 const WordTable<std::string>& ThingWords();
 
 /// "second" for 2, "last" for -1.
@@ -32,11 +32,11 @@ std::string OrdinalOf(int order);
 /// "chairs" for "chair".
 std::string PluralOf(std::string_view noun);
 
-/// Whether a thing of `category` is called `noun`: itself, or what it ends with ("floor lamp" is a
-/// lamp). Names of the goal categories stand for themselves alone.
+/// Whether `noun` names `category`: the same name, or its last words ("floor lamp" is a lamp). Goal
+/// categories match their own name only.
 bool IsKindOf(std::string_view category, std::string_view noun);
 
-/// Canonical names that IsKindOf `noun`, itself first.
+/// Canonical names of kinds of `noun` (IsKindOf), `noun` first.
 std::vector<std::string> KindsOf(std::string_view noun);
 
 }  // namespace crossnav::language

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A sentence as words, taken from the front. Never fails: what is not understood stays where it is.
+// A sentence as words, taken from the front. Taking never fails: an unknown word stays in the
+// stream.
 #pragma once
 
 #include <initializer_list>
@@ -15,7 +16,7 @@ namespace crossnav::language {
 
 class WordStream {
  public:
-  /// Small letters, no punctuation; "tv_monitor" is two words. kInvalid: no words, or too many.
+  /// Lower case, no punctuation; "tv_monitor" is two words. kInvalid: no words, or too many.
   static Result<WordStream> Of(std::string_view sentence);
 
   bool IsAtEnd() const { return at_ >= words_.size(); }
@@ -24,10 +25,10 @@ class WordStream {
   std::size_t Mark() const { return at_; }
   void Return(std::size_t mark) { at_ = mark; }
 
-  /// Takes the next words if they are one of these phrases; the first that fits.
+  /// Takes the next words if they are one of `phrases`; the first match.
   bool Take(std::initializer_list<std::string_view> phrases);
 
-  /// Leaves out the last word if it is one of these and was not taken yet.
+  /// Removes the last word if it is one of `last` and not taken yet.
   void DropLast(std::initializer_list<std::string_view> last);
 
   /// Takes the longest phrase of `table` that comes next.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A robot that wakes up in a saved map without its pose: localisation first, then observations in
-// the frame in which it goes on. Known: the map's frame, so that the saved memory can be its own.
-// Unknown: the odometry's frame, with nothing known.
+// Start in a saved map without a pose: localisation, then the agent's frame. If the pose is found,
+// this is the map's frame, so that the agent can use the saved memory. Otherwise it is the
+// odometry's frame, and the agent starts without a memory.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,13 @@ class Awakening {
   static Result<Awakening> In(const geometry::VoxelMap& map, const Body& body,
                               const LocalizeConfig& config = {});
 
-  /// While localising: takes what was seen, in the odometry's frame.
+  /// While localising: takes an observation in the odometry's frame.
   const LocalizeStep& Step(const Observation& obs);
 
   const LocalizeStep& last() const { return last_; }
   bool IsOver() const { return last_.status != Status::kLocalising; }
   int actions() const { return localizer_->actions(); }
-  /// From the odometry's frame to that in which the robot goes on.
+  /// From the odometry's frame to the agent's frame.
   Pose T_agent_odom() const {
     return last_.status == Status::kKnown ? last_.T_map_odom : Pose::Identity();
   }

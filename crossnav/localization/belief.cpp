@@ -31,7 +31,7 @@ void Belief::Recheck(const LocalScan& scan, const Vector3d& p_foot_odom) {
   Keep(std::exchange(hypotheses_, {}), scan, p_foot_odom);
 }
 
-/// The best by their beams, of those about the same the better one.
+/// Keeps the hypotheses with the best agreement, one of each similar pose.
 void Belief::Keep(std::vector<Hypothesis> all, const LocalScan& scan, const Vector3d& p_foot_odom) {
   const auto points = RefinePoints(scan, p_foot_odom, config_);
   for (Hypothesis& h : all) {
@@ -54,8 +54,8 @@ void Belief::Keep(std::vector<Hypothesis> all, const LocalScan& scan, const Vect
   Judge(scan, p_foot_odom);
 }
 
-/// Far ahead of all beams, or of those beams alone that tell the two apart: floors that look alike
-/// agree on most.
+/// Whether a lead is decisive, as a share of all beams or by the beams that differ: floors that
+/// look alike agree on most beams.
 bool Belief::IsAhead(const Lead& lead, std::size_t beams) const {
   if (lead.share(beams) >= config_.least_lead) return true;
   return lead.share(beams) >= config_.least_share && lead.sigmas() >= config_.least_sigmas;

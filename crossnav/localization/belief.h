@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Belief over the pose: distinct hypotheses, best first, and whether the best one is
-// known to be right. Frames: map, and odom of the scan.
+// Belief over the pose: distinct hypotheses, best first, and whether the best is confirmed. Frames:
+// map, and odom of the scan.
 #pragma once
 
 #include <string_view>
@@ -21,12 +21,12 @@ std::string_view NameOf(Status status);
 struct LocalizeStep {
   Status status = Status::kLocalising;
   Action action = Action::kStop;       ///< while localising
-  Pose T_map_odom = Pose::Identity();  ///< of the best hypothesis; right once known
-  double agreement = 0;                ///< of it
-  double lead = 0;                     ///< of it over the nearest rival, as a share of all beams
-  Lead nearest;                        ///< the same in beams
-  int rivals = 0;                      ///< hypotheses that cannot be told from the best
-  bool is_pinned = false;              ///< no small shift of it does about as well
+  Pose T_map_odom = Pose::Identity();  ///< of the best hypothesis; valid once known
+  double agreement = 0;                ///< of the best hypothesis
+  double lead = 0;                     ///< over the nearest rival, as a share of all beams
+  Lead nearest;                        ///< the same lead in beams
+  int rivals = 0;                      ///< hypotheses that cannot be told from the best hypothesis
+  bool is_pinned = false;              ///< no small shift of the best scores about as well
 };
 
 class Belief {
@@ -34,14 +34,14 @@ class Belief {
   /// Keeps a reference to `map`.
   Belief(const PlacedMap& map, const LocalizeConfig& config) : map_(map), config_(config) {}
 
-  /// Searches the whole map; what was believed before is not forgotten.
+  /// Searches the whole map; keeps the previous hypotheses.
   void Search(const LocalScan& scan, const Vector3d& p_foot_odom);
 
-  /// Brings the hypotheses up to date with what was seen since.
+  /// Updates the hypotheses with the scan.
   void Recheck(const LocalScan& scan, const Vector3d& p_foot_odom);
 
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
-  /// kKnown: the beams agree with the best hypothesis, it is far ahead of every other, and pinned.
+  /// kKnown: the beams agree with the best hypothesis, its lead is decisive, and it is pinned.
   const LocalizeStep& opinion() const { return opinion_; }
 
  private:

@@ -7,12 +7,12 @@ namespace crossnav::localization {
 namespace {
 
 constexpr std::uint8_t kAtSurface = 60;  // chosen: within a voxel and a half of a surface
-constexpr double kMargin_m = 0.3;        // chosen: before the end, where the surface itself begins
-constexpr double kMarginShare = 0.1;     // chosen: of the beam, which may graze its surface
+constexpr double kMargin_m = 0.3;     // chosen: unchecked before the end, where the surface begins
+constexpr double kMarginShare = 0.1;  // chosen: of the beam's length, for grazing surfaces
 
-constexpr double kUnknownShare = 0.5;  // chosen: of a beam about which the map says nothing
+constexpr double kUnknownShare = 0.5;  // chosen: weight of a beam without a verdict
 
-/// Walks in steps of half a voxel: the first surface before the beam's end is in its way.
+/// Samples in steps of half a voxel: a surface before the beam's end blocks it.
 bool IsBlocked(const DenseMap& map, const Vector3d& eye_map, const Vector3d& end_map) {
   const Vector3d along = end_map - eye_map;
   const double length_m = along.norm(), margin_m = kMargin_m + kMarginShare * length_m;
@@ -22,7 +22,7 @@ bool IsBlocked(const DenseMap& map, const Vector3d& eye_map, const Vector3d& end
     const Vector3d p = eye_map + along * (s / length_m);
     const bool is_surface = map.ContentAt(geometry::KeyOf(p, map.voxel_m)) == Content::kSurface;
     inside = is_surface ? inside + 1 : 0;
-    if (inside >= 2) return true;  // not a mere corner of a voxel
+    if (inside >= 2) return true;  // one sample may be the corner of a voxel
   }
   return false;
 }

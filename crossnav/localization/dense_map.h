@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A saved map as dense arrays, for millions of lookups: what each voxel holds, and how near the
-// next surface is. Map frame; lengths in voxels. Padded, so that a scan around any observed voxel
-// stays inside. Read only once made.
+// Dense arrays of a saved map for millions of lookups: content of each voxel, and proximity of the
+// nearest surface. Map frame; lengths in voxels. Padded, so that a scan around any observed voxel
+// stays inside. Read-only after construction.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct DenseMap {
   geometry::VoxelKey lo;            ///< of the first voxel
   int nx = 0, ny = 0, nz = 0;       ///< [voxels], x fastest
   std::vector<Content> content;     ///< [nz x ny x nx]
-  std::vector<std::uint8_t> score;  ///< 0 to 100: of a scan's point in this voxel
+  std::vector<std::uint8_t> score;  ///< 0 to 100: of a scan point in this voxel
 
   /// The index of a voxel, -1 outside.
   std::int64_t IndexOf(int x, int y, int z) const {
@@ -35,8 +35,8 @@ struct DenseMap {
   }
 };
 
-/// `pad_xy_m` and `pad_z_m` around the map's box. Error: a map that is empty, or too large to be
-/// laid out (kMaxVoxels).
+/// `pad_xy_m` and `pad_z_m` around the map's box. Error: the map is empty, or has more than
+/// kMaxVoxels.
 Result<DenseMap> MakeDenseMap(const geometry::VoxelMap& map, double pad_xy_m, double pad_z_m);
 
 inline constexpr std::int64_t kMaxVoxels = 400'000'000;  // chosen: 1 GB; 100 x 100 x 20 m and more

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A pose of the odometry's frame in the map's frame, with what speaks for it. Both frames have z up
-// (gravity is known), so that it has four degrees of freedom.
+// Hypothesis: a pose of the odometry's frame in the map's frame, with its evidence. Both frames
+// have z up (gravity is known), so that a pose has four degrees of freedom.
 #pragma once
 
 #include <algorithm>
@@ -21,18 +21,18 @@ struct Hypothesis {
   Pose T_map_odom = Pose::Identity();
   double score = 0;  ///< mean of the points' scores, 0 to 100
   double agreement =
-      0;  ///< share of beams that agree with the map; those it is silent on count half
+      0;  ///< share of beams that agree with the map; beams without a verdict count half
   std::vector<Verdict> verdicts;  ///< of the scan's beams
 };
 
-/// How far `a` is ahead of `b`: beams that speak for one of them only.
+/// Lead of `a` over `b`: beams that support only one of them.
 struct Lead {
   int won = 0, lost = 0;
 
   double share(std::size_t beams) const {
     return beams > 0 ? static_cast<double>(won - lost) / static_cast<double>(beams) : 0;
   }
-  /// Standard deviations by which `won` exceeds `lost`, were beams independent; they are not.
+  /// Standard deviations by which `won` exceeds `lost`, for independent beams (they are not).
   double sigmas() const { return won > lost ? (won - lost) / std::sqrt(double(won + lost)) : 0; }
 };
 inline Lead LeadOf(const Hypothesis& a, const Hypothesis& b) {
@@ -53,7 +53,7 @@ inline Pose PlaceAt(const Vector3d& p_map, double yaw_rad, const Vector3d& p_odo
   return T;
 }
 
-/// The frame of a foot: x ahead, z up. An odometry that knows nothing starts in it.
+/// Frame of a foot: x ahead, z up. Odometry starts in it.
 inline Pose FootFrameOf(const AgentPose& foot_world) {
   return PlaceAt(foot_world.p_world, foot_world.yaw_rad, Vector3d::Zero());
 }
@@ -62,7 +62,7 @@ inline double YawOf(const Pose& T_map_odom) {
   return std::atan2(T_map_odom.linear()(1, 0), T_map_odom.linear()(0, 0));
 }
 
-/// True if both say about the same of a foot at `p_odom`.
+/// Whether both poses put a foot at `p_odom` at about the same place and heading.
 inline bool IsSame(const Pose& a, const Pose& b, const Vector3d& p_odom,
                    const LocalizeConfig& config) {
   if ((a * p_odom - b * p_odom).norm() >= config.distinct_m) return false;

@@ -21,10 +21,10 @@ struct Beam {
 
 class LocalScan {
  public:
-  /// `voxel_m`: one point is kept a voxel. Depths beyond `reach_m` are left out.
+  /// `voxel_m`: at most one point is kept per voxel. Ignores depths beyond `reach_m`.
   LocalScan(double voxel_m, double reach_m) : voxel_m_(voxel_m), reach_m_(reach_m) {}
 
-  /// Adds a part of the frame's pixels.
+  /// Adds points and beams of a frame, on two grids of its pixels.
   void Add(const Observation& obs);
 
   const std::vector<Vector3f>& points_odom() const { return points_odom_; }
@@ -39,8 +39,8 @@ class LocalScan {
   int frames_ = 0;
 };
 
-/// At most `count` points, evenly drawn from those in a cylinder of `reach_m` about the foot and
-/// between the two heights above the foot [m]; one a cell of `apart_m`.
+/// At most `count` points, evenly drawn from a cylinder of radius `reach_m` about the foot, between
+/// the two heights above the foot [m]; one per cell of `apart_m`.
 struct PointChoice {
   Vector3d p_foot_odom = Vector3d::Zero();
   double reach_m = 6, low_m = 0.2, high_m = 2.2, apart_m = 0.2;

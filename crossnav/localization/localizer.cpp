@@ -29,7 +29,7 @@ struct Localizer::Impl {
   Belief belief;
   LocalizeStep last;
   int actions = 0;
-  int turns = 0;  // of the look around that goes on
+  int turns = 0;  // of the current look around
   Walk walk;
 
   LocalizeStep Step(const Observation& obs);
@@ -38,7 +38,7 @@ struct Localizer::Impl {
   int TurnsAround() const { return CellsNearest(360, body.action.turn_deg); }
 };
 
-/// Attempts come with views that do not overlap; one view alone is seldom enough.
+/// Attempts follow views without overlap; one view is seldom enough.
 void Localizer::Impl::LookAround(const Vector3d& p_foot_odom) {
   const bool is_last = turns == TurnsAround() - 1;
   const bool is_due = turns > 0 && turns % config.attempt_every_turns == 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// "Awake and lost": finds the pose in a saved map, one observation in, one action out. Looks around
-// first; where that leaves more than one hypothesis, walks to where their predictions differ.
-// "Unknown" is an answer. The odometry's poses are right relative to each other; where its frame
-// lies in the map is what is asked. Deterministic; not thread-safe.
+// "Awake and lost": finds the odometry's frame in a saved map, one observation in, one action out.
+// The robot looks around; if several hypotheses remain, it walks to a place where their predictions
+// differ. "Unknown" is a possible answer. Poses of the odometry must be right relative to each
+// other. Deterministic; not thread-safe.
 #pragma once
 
 #include <memory>
@@ -23,10 +23,10 @@ class Localizer {
   ~Localizer();
   Localizer(Localizer&&) noexcept;
 
-  /// Takes what was seen after the last action. After kKnown or kUnknown the answer stays.
+  /// Takes the observation after the last action. kKnown and kUnknown are final.
   LocalizeStep Step(const Observation& obs);
 
-  int actions() const;  ///< asked for so far
+  int actions() const;  ///< requested so far
   /// The hypotheses of the last attempt, best first.
   const std::vector<Hypothesis>& hypotheses() const;
 

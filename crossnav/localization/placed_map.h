@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A saved map as localisation needs it, and the body that is lost in it. Map frame.
+// Saved map for localisation, and the robot's body. Map frame.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,17 @@
 
 namespace crossnav::localization {
 
-/// A saved map, prepared for localisation. Read only once made.
+/// A saved map, prepared for localisation. Read-only after construction.
 struct PlacedMap {
   DenseMap dense;
   planner::GroundMap ground;
-  std::vector<geometry::VoxelKey> places;  ///< where the search puts the foot
+  std::vector<geometry::VoxelKey> places;  ///< candidates for the foot
 };
 
 /// Errors: a map without ground, or too large (dense_map.h).
 Result<PlacedMap> PlaceMap(const geometry::VoxelMap& map, const LocalizeConfig& config = {});
 
-/// How the robot looks and moves.
+/// Camera and motion of the robot.
 struct Body {
   double camera_height_m = 0.88;
   ActionConfig action;

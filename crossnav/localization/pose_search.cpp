@@ -22,7 +22,7 @@ struct GridPose {
   int place = 0, heading = 0;
 };
 
-/// A pose of the grid is better by its score, then by its order.
+/// Orders poses of the grid by score, then by index.
 bool IsBetter(const GridPose& a, const GridPose& b) {
   return std::tie(b.score, a.place, a.heading) < std::tie(a.score, b.place, b.heading);
 }
@@ -42,7 +42,7 @@ std::vector<std::int32_t> OffsetsOf(const DenseMap& map, const std::vector<Vecto
   return offsets;
 }
 
-/// The best of each neighbourhood and sector.
+/// Keeps the best pose of each neighbourhood and sector.
 class BestOfEach {
  public:
   BestOfEach(const std::vector<VoxelKey>& places, double voxel_m, double yaw_step_deg)
@@ -86,7 +86,7 @@ std::vector<GridPose> ScanGrid(const DenseMap& map, const std::vector<VoxelKey>&
       int score = 0;
       std::size_t i = 0;
       for (; i < early; ++i) score += at[offsets[i]];
-      // A quarter of the points that does much worse than the worst of the best so far is enough.
+      // Early rejection: a quarter of the points scores far below the worst kept pose.
       if (4 * score < 0.7 * bar.front()) continue;
       for (; i < offsets.size(); ++i) score += at[offsets[i]];
       if (4 * score < 3 * bar.front()) continue;
@@ -126,7 +126,7 @@ std::vector<Hypothesis> SearchPoses(const DenseMap& map, const std::vector<Voxel
   choice.count = config.search_points;
   std::vector<Vector3f> points_foot = ChoosePoints(scan.points_odom(), choice);
   for (Vector3f& p : points_foot) p -= p_foot_odom.cast<float>();
-  // A quarter of the points decides early: every fourth first.
+  // Every fourth point first, for the early rejection.
   std::vector<Vector3f> mixed;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t i = k; i < points_foot.size(); i += 4) mixed.push_back(points_foot[i]);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Hypotheses for the pose of a scan in a map: every place to stand of the map, every heading,
-// scored by where the scan's points fall (a correlative match over a grid, every pose of it), the
-// best of each neighbourhood refined. The 4 degrees of freedom that gravity leaves, and voxels as
-// the map's only points, make a registration library's normals and neighbour trees idle: the
-// refinement is a descent on the field that the search needs anyhow.
+// Pose hypotheses of a scan in a map, by exhaustive correlative matching: every place to stand and
+// every heading, scored at the scan's points. The best pose of each neighbourhood is refined by
+// ascent on the field of scores. No registration library: gravity leaves 4 degrees of freedom and
+// the map has voxels only, so that normals and neighbour trees would not help.
 #pragma once
 
 #include <vector>
@@ -16,7 +15,7 @@
 
 namespace crossnav::localization {
 
-/// Places of the map where a foot can be, about one in each square of `step_m` and height; sorted.
+/// Places to stand, one in each square of `step_m` and height; sorted.
 std::vector<geometry::VoxelKey> StandingPlaces(const geometry::VoxelMap& map,
                                                const planner::GroundMap& ground, double step_m);
 
@@ -38,8 +37,8 @@ double ScorePose(const DenseMap& map, const std::vector<Vector3f>& points, const
 std::vector<Vector3f> RefinePoints(const LocalScan& scan, const Vector3d& p_foot_odom,
                                    const LocalizeConfig& config);
 
-/// Fills in agreement and verdicts: a beam agrees that ends at a surface of the map with nothing in
-/// its way; it says nothing where the map is unknown.
+/// Sets agreement and verdicts. A beam agrees if it ends at a surface of the map and no surface
+/// blocks it; a beam that ends in unknown space has no verdict.
 void CheckBeams(const DenseMap& map, const std::vector<Beam>& beams, Hypothesis& hypothesis);
 
 }  // namespace crossnav::localization

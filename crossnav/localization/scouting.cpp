@@ -18,13 +18,13 @@ constexpr std::array<double, 4> kElevations_deg = {-35, -15, 0,
                                                    20};  // chosen: inside the field of view
 constexpr double kDiffers_m = 0.4;                       // chosen: more than voxels and noise
 constexpr double kLeastDifference = 0.03;                // chosen: three rays; fewer are chance
-constexpr double kReach_m = 25;  // chosen: of walking, as the planner counts it
-constexpr int kApart_vox = 4;    // chosen: places that are looked out from
-constexpr double kFixed_m = 2;   // chosen: cost of any walk, besides its length
+constexpr double kReach_m = 25;                          // chosen: path cost of the planner
+constexpr int kApart_vox = 4;                            // chosen: spacing of outlooks
+constexpr double kFixed_m = 2;  // chosen: cost of any walk, besides its length
 constexpr double kSilent = -1;
 
-/// Distance to the first surface, kRayReach_m where there is none, kSilent where the unknown begins
-/// before.
+/// Distance to the first surface; kRayReach_m without a surface, kSilent if unknown space comes
+/// first.
 double CastRay(const DenseMap& map, const Vector3d& p_map, const Vector3d& direction) {
   const double step_m = map.voxel_m / 2;
   for (double s = 0.2; s < kRayReach_m; s += step_m) {
@@ -60,7 +60,7 @@ double DifferenceOf(const Panorama& a, const Panorama& b) {
   return static_cast<double>(differing) / static_cast<double>(a.size());
 }
 
-/// Mean difference of the best hypothesis's prediction to those of the others.
+/// Mean difference between the best hypothesis's prediction and the other predictions.
 double DifferenceAt(const DenseMap& map, const std::vector<Hypothesis>& hypotheses, int others,
                     const Vector3d& eye_odom) {
   const auto predict = [&](const Hypothesis& h) {

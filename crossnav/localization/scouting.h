@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where to walk so that hypotheses come apart: of the places that the best hypothesis can walk to,
-// one from where the map predicts different views under the others, for as few steps as possible.
+// Choice of an outlook: a place that the best hypothesis can walk to, and from where the map
+// predicts different views under the other hypotheses, for a short walk.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ struct Outlook {
   double difference = 0;                     ///< share of the predicted rays that differ, 0 to 1
 };
 
-/// Path under `hypotheses[0]`; empty where no place within `reach_m` of walking tells it from the
-/// next `others` of them. `p_foot_odom`: where the robot stands.
+/// Path under `hypotheses[0]`; empty if no place within reach tells it from the next `others`
+/// hypotheses. `p_foot_odom`: the robot's foot.
 Outlook FindOutlook(const DenseMap& map, const planner::GroundMap& ground,
                     const std::vector<Hypothesis>& hypotheses, int others,
                     const Vector3d& p_foot_odom, double camera_height_m);

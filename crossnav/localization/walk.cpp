@@ -10,11 +10,11 @@
 namespace crossnav::localization {
 namespace {
 
-constexpr double kArrived_m = 0.4;   // chosen: from there the view is about the same
-constexpr int kMostOthers = 3;       // chosen: rivals that a walk is chosen for
-constexpr int kMostFailures = 4;     // chosen: walks that met something; then it is enough
+constexpr double kArrived_m = 0.4;   // chosen: nearer places have about the same view
+constexpr int kMostOthers = 3;       // chosen: rivals that an outlook is to separate
+constexpr int kMostFailures = 4;     // chosen: blocked walks before the robot gives up
 constexpr double kBeside_m = 0.05;   // chosen: half a voxel beside the body
-constexpr double kBump_m = 0.1;      // chosen: a step that led less far met something
+constexpr double kBump_m = 0.1;      // chosen: a shorter step was blocked
 constexpr std::size_t kTrusted = 3;  // chosen: actions until the motion is planned anew
 
 AgentPose InMap(const Pose& T_map_odom, const AgentPose& foot_odom) {
@@ -22,7 +22,7 @@ AgentPose InMap(const Pose& T_map_odom, const AgentPose& foot_odom) {
           foot_odom.pitch_rad};
 }
 
-/// Places to stand from the foot to the target; empty where there is no way.
+/// Places to stand from the foot to the target; empty without a path.
 std::vector<geometry::VoxelKey> PathTo(const PlacedMap& map, const Vector3d& p_foot_map,
                                        const Vector3d& p_target_map) {
   const auto start = map.ground.StandingAt(p_foot_map);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The walk of a robot that does not know where it is: towards an outlook that the best hypothesis
-// can walk to, and no step onto what was seen to be no way.
+// Walk to an outlook without a known pose: the path is planned under the best hypothesis, and the
+// scan vetoes steps into obstacles and drops.
 #pragma once
 
 #include <deque>
@@ -13,14 +13,14 @@
 
 namespace crossnav::localization {
 
-/// Whether the scan's points let a body take a step ahead: nothing between knee and head in its
-/// way, and ground at about its feet where any was seen.
+/// Whether the scan permits a step ahead: no points between knee and head within the body's width,
+/// and ground near foot height where ground was seen.
 bool IsWayClear(const std::vector<Vector3f>& points_odom, const AgentPose& foot_odom,
                 const Body& body);
 
 class Walk {
  public:
-  /// The next action; nothing on arrival, and where there is nowhere to walk to.
+  /// The next action; empty on arrival, and without a reachable outlook.
   std::optional<Action> Next(const PlacedMap& map, const Body& body, const LocalScan& scan,
                              const Belief& belief, const AgentPose& foot_odom);
 

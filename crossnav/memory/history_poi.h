@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "crossnav/core/box.h"
+#include "crossnav/core/setting.h"
 #include "crossnav/memory/semantic_memory.h"
 
 namespace crossnav::memory {
@@ -31,14 +32,14 @@ struct QueryConfig {
 
 template <class V>
 void Visit(V& visit, QueryConfig& c) {
-  visit("top_k", c.top_k, 1, 1000);
-  visit("relevancy", c.relevancy, {"cosine", "contrastive"});
-  visit("min_similarity", c.min_similarity, -1.0, 1.0);
-  visit("min_z_score", c.min_z_score, 0.0, 100.0);
-  visit("min_peak_share", c.min_peak_share, 0.0, 1.0);
-  visit("contrast", c.contrast, 0.1, 1000.0);
-  visit("min_voxels", c.min_voxels, 1, 100000);
-  visit("cluster_radius_vox", c.cluster_radius_vox, 1.0, 20.0);
+  visit(CROSSNAV_SETTING(c, top_k), 1, 1000);
+  visit(CROSSNAV_SETTING(c, relevancy), {"cosine", "contrastive"});
+  visit(CROSSNAV_SETTING(c, min_similarity), -1.0, 1.0);
+  visit(CROSSNAV_SETTING(c, min_z_score), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, min_peak_share), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, contrast), 0.1, 1000.0);
+  visit(CROSSNAV_SETTING(c, min_voxels), 1, 100000);
+  visit(CROSSNAV_SETTING(c, cluster_radius_vox), 1.0, 20.0);
 }
 
 /// Background prompts that compete with a goal in the contrastive relevancy.

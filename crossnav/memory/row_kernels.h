@@ -36,7 +36,7 @@ struct CellShare {
 };
 
 /// row = keep * row + sum_i share_i * grid[cell_i], rounded to the row's type. Returns the squared
-/// norm of what was stored. `grid` holds cells of `dim` floats, not padded.
+/// norm of the stored row. `grid` holds cells of `dim` floats, not padded.
 float FuseRow(std::uint16_t* row, int dim, float keep, const float* grid,
               std::span<const CellShare> shares);
 float FuseRow(float* row, int dim, float keep, const float* grid,

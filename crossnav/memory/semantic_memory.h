@@ -15,6 +15,7 @@
 #include "crossnav/core/camera.h"
 #include "crossnav/core/image.h"
 #include "crossnav/core/pose.h"
+#include "crossnav/core/setting.h"
 #include "crossnav/geometry/voxel_key.h"
 #include "crossnav/geometry/voxel_map.h"
 
@@ -38,13 +39,13 @@ struct FusionConfig {
 
 template <class V>
 void Visit(V& visit, FusionConfig& c) {
-  visit("gamma", c.gamma, 0.0, 100.0);
-  visit("preferred_depth_m", c.preferred_depth_m, 0.0, 100.0);
-  visit("depth_scale_m", c.depth_scale_m, 0.01, 100.0);
-  visit("gradient_scale", c.gradient_scale, 0.0, 1e6);
-  visit("epsilon", c.epsilon, 0.0, 1.0);
-  visit("max_rows", c.max_rows, 0, 1000000000);
-  visit("storage", c.storage, {"half", "float"});
+  visit(CROSSNAV_SETTING(c, gamma), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, preferred_depth_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, depth_scale_m), 0.01, 100.0);
+  visit(CROSSNAV_SETTING(c, gradient_scale), 0.0, 1e6);
+  visit(CROSSNAV_SETTING(c, epsilon), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, max_rows), 0, 1000000000);
+  visit(CROSSNAV_SETTING(c, storage), {"half", "float"});
 }
 
 /// Dense features of one frame; a view of perception's grid, because this room may not include

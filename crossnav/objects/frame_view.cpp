@@ -8,7 +8,7 @@ namespace crossnav::objects {
 namespace {
 
 constexpr double kSlack_vox = 2.0;  // chosen: a voxel's diagonal and the noise of depth
-constexpr double kNear_m = 0.1;     // chosen: nothing nearer is in a picture
+constexpr double kNear_m = 0.1;     // chosen: least depth in a picture
 
 }  // namespace
 

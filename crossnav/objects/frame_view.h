@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How one depth image shows a remembered set of voxels: seen free, a surface there, or hidden.
-// World frame, metres.
+// View of remembered voxels in one depth image: seen free, at a surface, or hidden. World frame,
+// metres.
 #pragma once
 
 #include <span>
@@ -10,8 +10,7 @@
 
 namespace crossnav::objects {
 
-/// Shares of the sampled voxels [0, 1]; what is missing to 1 lies outside the picture or has no
-/// depth.
+/// Shares of the sampled voxels [0, 1]; the remainder lies outside the picture or has no depth.
 struct FrameView {
   double free = 0;        ///< the ray goes through the voxel and on
   double surface = 0;     ///< the ray ends at the voxel
@@ -22,7 +21,7 @@ struct FrameView {
   double Visible() const { return free + surface; }
 };
 
-/// Looks at up to `samples` of `voxels`, evenly chosen. Cost O(samples).
+/// Samples up to `samples` of `voxels` evenly. Cost O(samples).
 FrameView ViewOf(std::span<const geometry::VoxelKey> voxels, const Observation& obs, double voxel_m,
                  int samples = 64);
 

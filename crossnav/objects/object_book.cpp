@@ -14,21 +14,21 @@ using geometry::VoxelKey;
 
 namespace {
 
-constexpr double kMostBelief = 0.98;    // chosen: nothing is certain tomorrow
-constexpr double kLeastBelief = 0.001;  // chosen: nor impossible
-constexpr double kUnsure = 0.5;         // chosen: of what is seen for the first time, or again
-constexpr double kSighting = 3.0;       // chosen: odds of a sure detection, less one
-constexpr double kSeenFree = 0.05;      // chosen: odds after a good view of nothing
-constexpr double kNotDetected = 0.25;   // chosen: a detector misses one object in a few
-constexpr double kSameOverlap = 0.3;    // chosen: of the smaller box
-constexpr double kTwinOverlap = 0.5;    // chosen: likewise, of two records
-constexpr double kPictureGain = 1.5;    // chosen: times the pixels, before a picture is made anew
-constexpr double kMoved_m = 0.25;       // chosen: one step: another view
-constexpr double kTurnedCos = 0.97;     // chosen: or 15 degrees
-constexpr double kLeastVisible = 0.3;   // chosen: one side of a thing that hides its others
-constexpr double kMostSurface = 0.2;    // chosen: of a place that is free
-constexpr double kLeastPixels = 300;    // chosen: of a thing that a detector finds ...
-constexpr double kLeastImage = 0.002;   // chosen: ... and of the image
+constexpr double kMostBelief = 0.98;    // chosen: presence is never certain
+constexpr double kLeastBelief = 0.001;  // chosen: nor is absence
+constexpr double kUnsure = 0.5;        // chosen: before a first sighting, or a new one after doubts
+constexpr double kSighting = 3.0;      // chosen: odds of a sure detection, less one
+constexpr double kSeenFree = 0.05;     // chosen: odds factor of a good view of free space
+constexpr double kNotDetected = 0.25;  // chosen: a detector misses one object in a few
+constexpr double kSameOverlap = 0.3;   // chosen: of the smaller box
+constexpr double kTwinOverlap = 0.5;   // chosen: likewise, of two records
+constexpr double kPictureGain = 1.5;   // chosen: times the pixels, for a new picture
+constexpr double kMoved_m = 0.25;      // chosen: one step: another view
+constexpr double kTurnedCos = 0.97;    // chosen: or 15 degrees
+constexpr double kLeastVisible = 0.3;  // chosen: one side of an object hides the others
+constexpr double kMostSurface = 0.2;   // chosen: of a free place
+constexpr double kLeastPixels = 300;   // chosen: of an object that a detector finds ...
+constexpr double kLeastImage = 0.002;  // chosen: ... and of the image
 
 double BeliefTimes(double belief, double factor) {
   const double odds = factor * belief / (1 - belief);
@@ -63,9 +63,9 @@ std::vector<VoxelKey> UnionOf(const std::vector<VoxelKey>& a, const std::vector<
   return all;
 }
 
-/// Takes away what the frame looks through: the object stood a little elsewhere. Where that is more
-/// than what it shows, the rest of what it shows goes, too: the ground behind a foot is no surface
-/// of the object.
+/// Removes older voxels that the frame sees through: the object stood a little elsewhere. If these
+/// outnumber the older voxels at a surface, both are removed, because the ground behind a foot is
+/// no surface of the object.
 void Prune(std::vector<VoxelKey>& voxels, const std::vector<VoxelKey>& kept, const Observation& obs,
            double voxel_m) {
   std::vector<VoxelKey> old;
@@ -133,7 +133,7 @@ void ObjectBook::Merge(ObjectRecord& record, Watch& watch, const SeenObject& see
   record.picture_png = PictureOf(obs.rgb, seen.box);
 }
 
-/// A record that has grown over another one of its category is the same object.
+/// Merges a record with a record of the same category that it has grown over.
 int ObjectBook::MergeTwins(int index) {
   for (std::size_t i = 0; i < records_.size(); ++i) {
     ObjectRecord& record = records_[index];
@@ -192,7 +192,7 @@ std::vector<int> ObjectBook::Note(std::span<const SeenObject> seen, const Observ
     const int older = MergeTwins(index);
     ids.push_back(older >= 0 ? older : id);
   }
-  // A twin may have gone, and records behind it moved up.
+  // MergeTwins may have erased a record and shifted later indices.
   for (int& id : ids) {
     const auto it = std::find_if(records_.begin(), records_.end(),
                                  [&](const ObjectRecord& record) { return record.id == id; });
@@ -281,7 +281,7 @@ void ObjectBook::Load(std::vector<ObjectRecord> records) {
   for (std::size_t i = 0; i < records_.size(); ++i) {
     next_id_ = std::max(next_id_, records_[i].id + 1);
     watches_[i].colour_views = std::min(records_[i].views, 20);
-    // A picture of before stays until something sees the object as large.
+    // A saved picture stays until a sighting has at least as many pixels.
     if (!records_[i].picture_png.empty())
       watches_[i].picture_px = kPictureSide_px * kPictureSide_px;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The records of all objects, kept over frames and days. Sightings of one category at one place are
-// one record; what contradicts a record lowers its confidence. Belief is kept as odds: a sighting
-// multiplies them, a good view of the place without the object divides them. World frame, metres.
+// Records of all objects over frames and days. Sightings of one category at one place share a
+// record; contradictions lower its confidence. A sighting multiplies the odds of presence, a good
+// view of the place without the object divides them. World frame, metres.
 #pragma once
 
 #include <span>
@@ -14,12 +14,12 @@
 
 namespace crossnav::objects {
 
-/// Settings of `memory.*` that records follow.
+/// Limits of records; some are settings of `memory.*`.
 struct BookConfig {
-  double range_m = 5.0;        // chosen: as policy.explore.inspect_range_m
-  double good_view = 0.5;      // chosen: share of the place in view before it contradicts
-  double gone = 0.3;           // chosen: belief under which an object counts as gone
-  int least_views = 2;         // chosen: frames that make a record, as policy.object.stable_frames
+  double range_m = 5.0;    // chosen: as policy.explore.inspect_range_m
+  double good_view = 0.5;  // chosen: least share of the place in view for a contradiction
+  double gone = 0.3;       // chosen: an object below this belief counts as gone
+  int least_views = 2;     // chosen: least frames of a saved record, as policy.object.stable_frames
   double same_place_m = 0.25;  // chosen: between the centres; chairs at a table stand farther apart
 };
 
@@ -43,33 +43,33 @@ class ObjectBook {
   explicit ObjectBook(double voxel_m = 0.1, const BookConfig& config = {})
       : voxel_m_(voxel_m), config_(config) {}
 
-  /// Sightings of one frame; two of them are two objects. Returns the record of each, by index into
+  /// Notes the sightings of one frame; two sightings are two objects. Returns the index of each in
   /// records().
   std::vector<int> Note(std::span<const SeenObject> seen, const Observation& obs,
                         const Moment& when);
 
-  /// Objects whose place this frame shows well, from near, and that it does not show. `category` is
-  /// the one that the detector was asked for: of others only the place seen free counts. Records of
-  /// this frame's Note are left alone. Returns the indices of records that fell below `gone`.
+  /// Doubts objects whose place this frame shows well and from near, without the object. `category`
+  /// is the detector's query: for other categories only free space at the place counts. Skips
+  /// records of this frame's Note. Returns indices of records that fell below `gone`.
   std::vector<int> Doubt(const std::string& category, const Observation& obs, const Moment& when);
 
   /// A claim about the object was refuted: `voxels` show something else.
   void Refute(const std::string& category, std::span<const geometry::VoxelKey> voxels);
 
-  /// Looked at from near, and nothing was found: `voxels` are no place of the category. Where no
-  /// record lies there, one without views says so.
+  /// Notes a fruitless look from near: `voxels` are no place of the category. Without a record
+  /// there, a new record with 0 views stands for the disproved place.
   void Disprove(const std::string& category, std::vector<geometry::VoxelKey> voxels,
                 const Moment& when);
 
-  /// In no order; those of a single frame, too.
+  /// Unordered; includes records of a single frame.
   const std::vector<ObjectRecord>& records() const { return records_; }
   /// Records to save, by id: objects confirmed by enough frames, and disproved places.
   std::vector<ObjectRecord> Confirmed() const;
   bool IsGone(const ObjectRecord& record) const { return record.confidence < config_.gone; }
 
-  /// Goes on from saved records. Errors of ids are the reader's to find.
+  /// Continues with saved records. The reader must have checked their ids.
   void Load(std::vector<ObjectRecord> records);
-  /// Floor and room of every record, as `place(record, &floor, &room)` says.
+  /// Sets floor and room of every record by `place(record, &floor, &room)`.
   template <class Place>
   void Locate(const Place& place) {
     for (ObjectRecord& record : records_) place(record, &record.floor, &record.room);
@@ -82,13 +82,13 @@ class ObjectBook {
     std::int64_t noted_step = -1;                        ///< of the last Note in this run
     double picture_px = 0;                               ///< pixels behind the picture
     Vector3d p_doubted_world = Vector3d::Constant(1e9);  ///< camera of the last contradiction
-    Vector3d doubted_along = Vector3d::Zero();           ///< and where it looked
+    Vector3d doubted_along = Vector3d::Zero();           ///< and its direction
     std::int64_t colour_views = 0;
   };
 
   int FindFor(const SeenObject& seen, const Vector3d& centre, std::int64_t step) const;
   void Merge(ObjectRecord& record, Watch& watch, const SeenObject& seen, const Observation& obs);
-  int MergeTwins(int index);  // the id of both, or -1
+  int MergeTwins(int index);  // id of the merged record, or -1
 
   double voxel_m_;
   BookConfig config_;

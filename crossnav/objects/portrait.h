@@ -18,8 +18,8 @@ struct PictureBox {
   int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
 };
 
-/// Mean red, green, blue of the pixels of `mask` in the box; empty without any, or where all are
-/// black: a simulator that was not asked for colours shows none.
+/// Mean red, green, blue of the pixels of `mask` in the box; empty without pixels, or if all are
+/// black: a simulator without colours renders black.
 std::optional<std::array<std::uint8_t, 3>> MeanColour(const RgbImage& rgb, const MaskImage& mask,
                                                       const PictureBox& box);
 

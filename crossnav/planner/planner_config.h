@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "crossnav/core/setting.h"
+
 namespace crossnav::planner {
 
 /// tab:supp_configuration, rows "Planner"; the type penalties are in geometry/voxel_states.h.
@@ -18,14 +20,14 @@ struct PlannerConfig {
 
 template <class V>
 void Visit(V& visit, PlannerConfig& c) {
-  visit("stair_edge_radius_m", c.stair_edge_radius_m, 0.1, 5.0);
-  visit("inflated_cost_factor", c.inflated_cost_factor, 1.0, 100.0);
-  visit("touch_cost_factor", c.touch_cost_factor, 1.0, 1000.0);
-  visit("high_step_cost", c.high_step_cost, 0.0, 1000.0);
-  visit("bridge_cost_factor", c.bridge_cost_factor, 1.0, 1000.0);
-  visit("one_way_m", c.one_way_m, 0.0, 100000.0);
-  visit("doubtful_m", c.doubtful_m, 0.0, 100000.0);
-  visit("max_expansions", c.max_expansions, 0, 2000000000);
+  visit(CROSSNAV_SETTING(c, stair_edge_radius_m), 0.1, 5.0);
+  visit(CROSSNAV_SETTING(c, inflated_cost_factor), 1.0, 100.0);
+  visit(CROSSNAV_SETTING(c, touch_cost_factor), 1.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, high_step_cost), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, bridge_cost_factor), 1.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, one_way_m), 0.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, doubtful_m), 0.0, 100000.0);
+  visit(CROSSNAV_SETTING(c, max_expansions), 0, 2000000000);
 }
 
 }  // namespace crossnav::planner

@@ -21,10 +21,10 @@ std::optional<int> FloorAt(const SceneGraph& graph, const Vector3d& p_world);
 /// Room of a point on a floor, within half a metre; empty without a room.
 std::optional<int> RoomAt(const SceneGraph& graph, int floor, const Vector3d& p_world);
 
-/// Floor and room of every record by the graph.
+/// Sets floor and room of every record by the graph.
 void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& records);
 
-/// The records that are believed from `least` on, as objects of the graph.
+/// Adds records with a confidence of `least` or more as objects.
 void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
                 double least = 0.5);
 

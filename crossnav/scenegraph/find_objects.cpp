@@ -10,7 +10,7 @@
 namespace crossnav::scenegraph {
 namespace {
 
-/// A record of the category lies there.
+/// Whether a record of the category lies at the place.
 bool IsRecorded(const SceneGraph& graph, const std::string& category, const Box3& box) {
   return std::any_of(graph.objects.begin(), graph.objects.end(), [&](const auto& object) {
     return object.record >= 0 && CanonicalName(object.category) == CanonicalName(category) &&
@@ -24,7 +24,7 @@ bool IsRecorded(const SceneGraph& graph, const std::string& category, const Box3
 void FindObjects(SceneGraph& graph, const memory::SemanticMemory& memory,
                  const AskedCategory& category, memory::QueryConfig query,
                  std::optional<double> present_from) {
-  query.top_k = 1000;  // all that stand out
+  query.top_k = 1000;  // every match
   const auto found = memory::Query(memory, category.text, query, category.background);
   const auto match = memory::MatchOf(memory, category.text, found);
   graph.asked.push_back(category.name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Objects of a graph as the memory answers for them: places at which it matches a name.
+// Objects of a graph from the memory: places that match a name.
 #pragma once
 
 #include <optional>
@@ -20,9 +20,8 @@ struct AskedCategory {
   std::span<const std::vector<float>> background;  ///< for query.relevancy = contrastive
 };
 
-/// Adds the places that match at least as well as `present_from` (memory/query_match.h); all of
-/// them where it is not known. A place on a record of the category is no second object. Relations
-/// are not made yet.
+/// Adds the places with a match of `present_from` or more (memory/query_match.h), or every place if
+/// it is empty. A place on a record of the category adds no second object. Computes no relations.
 void FindObjects(SceneGraph& graph, const memory::SemanticMemory& memory,
                  const AskedCategory& category, memory::QueryConfig query,
                  std::optional<double> present_from);

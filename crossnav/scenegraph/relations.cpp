@@ -7,7 +7,7 @@
 namespace crossnav::scenegraph {
 namespace {
 
-/// Whether `a` lies over or inside `b`; empty where neither holds.
+/// Relation of an object over or inside another; empty if neither holds.
 std::optional<RelationKind> OverOf(const Box3& a, const Box3& b) {
   if (CoverOf(a, b) < kCovered) return std::nullopt;
   if (std::abs(a.min.z() - b.max.z()) <= kTouch_m) return RelationKind::kOn;

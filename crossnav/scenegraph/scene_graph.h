@@ -38,8 +38,8 @@ struct GraphObject {
   std::optional<int> floor, room;    ///< ids; empty = no floor or room found
   double match = 0;                  ///< 0 chance, 1 the name itself (memory/query_match.h)
   bool is_certain = false;           ///< the match is above the calibrated threshold of presence
-  int record = -1;                   ///< id of the record it is made of; -1 = the memory's features
-  std::optional<double> confidence;  ///< of the record: that it is still there [0, 1]
+  int record = -1;                   ///< id of the object's record; -1 = from features only
+  std::optional<double> confidence;  ///< of the record: that the object is still there [0, 1]
 };
 
 /// Two rooms that meet: a door, an archway.
@@ -71,7 +71,7 @@ struct SceneGraph {
   std::vector<GraphRoom> rooms;
   std::vector<GraphPassage> passages;
   std::vector<GraphStair> stairs;
-  std::vector<std::string> asked;  ///< categories that were asked for, found or not
+  std::vector<std::string> asked;  ///< queried categories, found or not
   std::vector<GraphObject> objects;
   std::vector<GraphRelation> relations;
   /// For each floor: room of each column, -1 = none. Not written to files.

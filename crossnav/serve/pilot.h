@@ -72,7 +72,7 @@ class Pilot {
   std::optional<localization::Awakening> awakening_;  // until it is over
   Pose T_agent_world_ = Pose::Identity();             // from the client's frame to the agent's
   double camera_height_m_ = 0;                        // of agent_
-  bool restore_ = false;                              // what the next agent starts with
+  bool restore_ = false;                              // start of the next agent
   State state_;
   std::optional<Answer> last_;              // to the observation state_.last_sequence
   std::optional<CameraIntrinsics> camera_;  // of this connection; empty before Hello

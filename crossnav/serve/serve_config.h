@@ -2,6 +2,8 @@
 // Settings of a live run (docs/live.md).
 #pragma once
 
+#include "crossnav/core/setting.h"
+
 namespace crossnav::serve {
 
 struct ServeConfig {
@@ -11,8 +13,8 @@ struct ServeConfig {
 
 template <class V>
 void Visit(V& visit, ServeConfig& c) {
-  visit("period_s", c.period_s, 0.01, 60.0);
-  visit("watchdog_s", c.watchdog_s, 0.02, 600.0);
+  visit(CROSSNAV_SETTING(c, period_s), 0.01, 60.0);
+  visit(CROSSNAV_SETTING(c, watchdog_s), 0.02, 600.0);
 }
 
 }  // namespace crossnav::serve

@@ -13,7 +13,7 @@
 
 namespace crossnav::store {
 
-/// Replaces what the file holds. Inside a transaction.
+/// Replaces the file's records. Inside a transaction.
 Result<void> WriteObjects(Database& db, const std::vector<objects::ObjectRecord>& records);
 
 /// Empty where there is no table. A record that is damaged is left out and named in `damaged`.

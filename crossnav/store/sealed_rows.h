@@ -21,8 +21,8 @@ Result<void> InsertRow(Database& db, const char* table, std::int64_t id, const B
 std::optional<Bytes> Unsealed(Statement& row, const char* table, std::int64_t id,
                               std::size_t max_bytes);
 
-/// Every row of `table`, in order; `take(id, bytes)` says whether they are a record, and what is
-/// none is named in `damaged`. A table that is not there has none.
+/// Every row of `table`, in order; `take(id, bytes)` returns whether they are a record; other rows
+/// are named in `damaged`. A missing table has no rows.
 template <class Take>
 void ForEachRow(Database& db, const char* table, std::size_t max_bytes,
                 std::vector<std::string>& damaged, Take take) {

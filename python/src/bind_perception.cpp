@@ -174,7 +174,7 @@ class PythonEncoder : public DenseEncoder {
 
 #undef CROSSNAV_CALL_PYTHON
 
-// --- What an agent gets: forwards to objects that Python owns -----------------------------------
+// --- Perception of an agent: forwards to objects that Python owns ------------------------------
 
 struct DetectorLink : Detector {
   explicit DetectorLink(Detector& to) : target(to) {}

@@ -22,7 +22,7 @@ BLOCKS = [
     for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
     for number, text in enumerate(re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.S))
 ]
-# What does not run here: a bag, a network of torch, a robot (test_live.py), a window (test_rerun.py).
+# Blocks not run here: a bag, a network of torch, a robot (test_live.py), a window (test_rerun.py).
 NAMES_ONLY = {"read_recording(", "torch.from_numpy", "live.Client(", "rerun.init("}
 
 
@@ -104,7 +104,7 @@ class OneStepEnvironment:
 
 
 def prepared(scene: crossnav.Scene, wall: Any) -> dict[str, Any]:
-    """What the blocks take from the text around them."""
+    """Names that the blocks take from the text around them."""
     simulator = crossnav.Simulator(scene)
     simulator.reset(crossnav.AgentPose(scene.random_point(seed=1)))
     observations = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A long room with a grey and a red couch: which one is claimed is up to what was said.
+// A long room with a grey and a red couch: the description decides which couch is claimed.
 #include <gtest/gtest.h>
 
 #include "agent/two_rooms.h"

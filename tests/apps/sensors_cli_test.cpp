@@ -14,7 +14,7 @@ using test::Outcome;
 
 class RealFrames : public SensorsCli {
  protected:
-  /// What `bench sensors` says of the real frames; null where they are not here.
+  /// Result of `bench sensors` on the real frames; null without these frames.
   Json Trials() {
     const std::string data = test::SharedPath("data");
     if (!std::filesystem::exists(data + "/hololens")) return nullptr;

@@ -11,7 +11,7 @@ namespace {
 
 struct Resolving : SmallHome, testing::Test {
   Resolution Of(const std::string& text) { return Resolve(ParseDescription(text).value(), home); }
-  /// The one that is meant, or -1.
+  /// Index of the found thing, or -1.
   int One(const std::string& text) {
     const Resolution r = Of(text);
     return r.outcome == Outcome::kFound ? r.things.at(0) : -1;

@@ -17,7 +17,7 @@ inline SensorConfig SmallSensor() {
   return sensor;
 }
 
-/// What a camera at the walkers' height sees from stands `apart_m` apart on each storey.
+/// Views of a camera at the walkers' height from places `apart_m` apart on each storey.
 inline geometry::VoxelMap MapOf(const crossnav::testing::BoxRooms& rooms, int storeys = 1,
                                 double apart_m = 1.3) {
   constexpr double kStorey_m = 2.8;  // as MakeBoxHouse

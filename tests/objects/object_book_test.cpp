@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records of objects in rooms of boxes: what makes one, what keeps it, what contradicts it.
+// Records of objects in rooms of boxes: creation, confirmation, contradiction.
 #include "crossnav/objects/object_book.h"
 
 #include <gtest/gtest.h>

@@ -91,7 +91,7 @@ class CheapCommands(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def run_page(self, name):
-        """(how many commands of a page were run, those that failed)."""
+        """(count of a page's commands that were run, failed commands)."""
         folder = self.folder / name.replace("/", "_")
         shutil.copytree(self.folder / "prepared", folder)
         ran, failed = 0, []

@@ -85,7 +85,7 @@ class HeldPort {
   int port_ = 0;
 };
 
-/// One that is free.
+/// A free port.
 inline int FreePort() {
   return HeldPort().port();
 }

@@ -63,6 +63,18 @@ export function floorOf(levels, z) {
   return floor;
 }
 
+/// Whether a step has the result of a verification. An approach is active before its first frame is
+/// checked; its figures are zeros then.
+export function isChecked(verification) {
+  return verification.is_active && (verification.passed || verification.failed_check !== "");
+}
+
+/// A figure of a verification; a dash where no detection in the frame gave one.
+export function checkFigure(verification, key, decimals) {
+  const isMissing = verification.failed_check === "not detected" && key !== "distance_m";
+  return figure(isMissing ? null : verification[key], decimals);
+}
+
 /// Known flights of stairs after a step: records hold them only after a change.
 export function flightsAt(steps, index) {
   for (let i = index; i >= 0; --i) if (steps[i].flights) return steps[i].flights;

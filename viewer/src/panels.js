@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Panels beside the 3D view: camera images, decisions of the agent and their reasons.
-import { figure, floorOf, logLines, words } from "./data.js";
+import { checkFigure, figure, floorOf, isChecked, logLines, words } from "./data.js";
 import { GOAL_COLOURS, MODE_COLOURS, kindOf } from "./scene.js";
 
 export function byId(id) {
@@ -176,34 +176,35 @@ export class CandidatesPanel {
   }
 }
 
+/// Key, label, decimals, unit.
 const CHECKS = [
-  ["confidence", "Confidence", (v) => figure(v, 2)],
-  ["mask_quality", "Mask quality", (v) => figure(v, 2)],
-  ["visibility", "Visibility", (v) => figure(v, 2)],
-  ["view_angle_deg", "View angle", (v) => `${figure(v, 0)}°`],
-  ["distance_m", "Distance", (v) => `${figure(v, 2)} m`],
+  ["confidence", "Confidence", 2, ""],
+  ["mask_quality", "Mask quality", 2, ""],
+  ["visibility", "Visibility", 2, ""],
+  ["view_angle_deg", "View angle", 0, "°"],
+  ["distance_m", "Distance", 2, " m"],
 ];
 
 export class VerificationPanel {
   constructor(replay) {
     this.replay = replay;
-    // For each step the last step up to it, within the goal, with a verification.
-    this.lastActive = [];
+    // For each step the last checked step up to it, within the goal; -1 = none.
+    this.lastChecked = [];
     this.grow();
   }
 
   /// Called after steps were added.
   grow() {
     const { steps } = this.replay;
-    for (let i = this.lastActive.length; i < steps.length; ++i) {
+    for (let i = this.lastChecked.length; i < steps.length; ++i) {
       const isSameGoal = i > 0 && steps[i - 1].goal_index === steps[i].goal_index;
-      const before = isSameGoal ? this.lastActive[i - 1] : -1;
-      this.lastActive.push(steps[i].verification.is_active ? i : before);
+      const before = isSameGoal ? this.lastChecked[i - 1] : -1;
+      this.lastChecked.push(isChecked(steps[i].verification) ? i : before);
     }
   }
 
   show(index) {
-    const at = this.lastActive[index];
+    const at = this.lastChecked[index];
     const head = byId("verification-state"), list = byId("verification");
     if (at < 0) {
       head.textContent = "not yet for this goal";
@@ -213,13 +214,14 @@ export class VerificationPanel {
     }
     const v = this.replay.steps[at].verification;
     const when = at === index ? "now" : `step ${this.replay.steps[at].step}`;
-    const result = v.passed ? "passed" : v.failed_check ? `failed: ${words(v.failed_check)}` : "running";
+    const result = v.passed ? "passed" : `failed: ${words(v.failed_check)}`;
     head.textContent = `${result} (${when})`;
-    head.className = v.passed ? "good" : v.failed_check ? "bad" : "muted";
-    list.replaceChildren(...CHECKS.map(([key, label, format]) => {
+    head.className = v.passed ? "good" : "bad";
+    list.replaceChildren(...CHECKS.map(([key, label, decimals, unit]) => {
+      const text = checkFigure(v, key, decimals);
       const isFailed = !v.passed && failsOf(v.failed_check, key);
       return make("div", "check" + (isFailed ? " bad" : v.passed ? " good" : ""),
-        [make("b", "", format(v[key])), make("span", "", label)]);
+        [make("b", "", text + (text === "–" ? "" : unit)), make("span", "", label)]);
     }));
   }
 }

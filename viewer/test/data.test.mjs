@@ -4,7 +4,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { partingOf, runNames } from "../src/compare.js";
-import { flightsAt, floorLevels, floorOf, forEachRunVoxel, logLines, openingOf, segments } from "../src/data.js";
+import {
+  checkFigure, flightsAt, floorLevels, floorOf, forEachRunVoxel, isChecked, logLines, openingOf, segments,
+} from "../src/data.js";
 import { addStep, replayOf } from "../src/live.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
 
@@ -14,6 +16,26 @@ const RUNS = [0x02, 0x01, 0x04, 0x02, 0x01, 0x00, 0x02, 0x03, 0x01, 0x0a];
 test("flights hold until a record has others", () => {
   const steps = [{}, { flights: [{ id: 0 }] }, {}, { flights: [{ id: 0 }, { id: 1 }] }, {}];
   assert.deepEqual([0, 1, 2, 3, 4].map((i) => flightsAt(steps, i).length), [0, 1, 1, 2, 2]);
+});
+
+const UNCHECKED = {
+  is_active: true, passed: false, confidence: 0, mask_quality: 0, visibility: 0, view_angle_deg: 0,
+  distance_m: 0, failed_check: "",
+};
+
+test("an approach whose frame was not checked is no verification", () => {
+  assert.equal(isChecked(UNCHECKED), false);
+  assert.equal(isChecked({ ...UNCHECKED, failed_check: "confidence" }), true);
+  assert.equal(isChecked({ ...UNCHECKED, passed: true }), true);
+  assert.equal(isChecked({ ...UNCHECKED, is_active: false, passed: true }), false);
+});
+
+test("a check without a detection has a distance and no other figure", () => {
+  const missed = { ...UNCHECKED, failed_check: "not detected", distance_m: 1.25 };
+  assert.equal(checkFigure(missed, "confidence", 2), "–");
+  assert.equal(checkFigure(missed, "view_angle_deg", 0), "–");
+  assert.equal(checkFigure(missed, "distance_m", 2), "1.25");
+  assert.equal(checkFigure({ ...missed, failed_check: "confidence" }, "confidence", 2), "0.00");
 });
 
 test("runs decode to the voxels that the C++ side encoded", () => {

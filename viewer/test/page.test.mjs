@@ -114,6 +114,25 @@ test("a replay with a goal that failed opens there and names it", { skip }, asyn
   await page.close();
 });
 
+test("steps of an approach that checked no frame show no figures", { skip }, async () => {
+  derive("unchecked.html", (replay) => {
+    const unchecked = { passed: false, confidence: 0, mask_quality: 0, visibility: 0, view_angle_deg: 0,
+      distance_m: 0, failed_check: "" };
+    for (const [i, step] of replay.steps.entries()) {
+      if (!step.verification.is_active) Object.assign(step.verification, unchecked, { is_active: i > 0 });
+    }
+  });
+  const { page, trouble } = await show("unchecked.html", "#step=1");
+  assert.equal(await page.textContent("#verification-state"), "not yet for this goal");
+  assert.equal(await page.locator("#verification .check").count(), 0);
+  await press(page, "End", await page.evaluate(() => JSON.parse(
+    document.getElementById("replay-data").textContent).steps.length - 1));
+  assert.match(await page.textContent("#verification-state"), /passed/);
+  assert.equal(await page.locator("#verification .check").count(), 5);
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
 test("playing moves on and stops at the end", { skip }, async () => {
   const { page, trouble } = await show("sample.html", "#step=125");
   await page.selectOption("#speed", "25");

@@ -17,9 +17,9 @@ struct HeldOutResult {
   std::int64_t violations = 0;   ///< of `known`: they end where the map and all around is free
 };
 
-/// Every fourth pixel of a row and column. A ray predicts where it meets the plane through the
-/// surface around its first surface voxel (geometry/surface_plane.h), or the middle of its way
-/// through that voxel where there is none; nothing where it meets what is unknown before one.
+/// Every fourth pixel of a row and column. A ray predicts its intersection with the plane through
+/// the surface around its first surface voxel (geometry/surface_plane.h), or, without a plane, the
+/// middle of its path through that voxel. A ray that meets unknown space first predicts no depth.
 void AddHeldOut(const geometry::VoxelMap& map, const Observation& obs, HeldOutResult* result);
 
 }  // namespace crossnav::evaluation

@@ -11,14 +11,14 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr double kDetour_m = 1.5;     // chosen: a closed door that makes the way so much longer
-constexpr double kStaleNear_m = 1.5;  // as of a STOP: an instance within it is not gone
-constexpr double kMinStart_m = 1.0;   // as dataset.min_first_goal_m
-constexpr int kStarts = 60;           // chosen: draws of a start
-constexpr int kMostStatic = 3;        // chosen: of the goals of a later day, where others are there
-constexpr double kStartRounding_m = 1e-4;  // files keep it
+constexpr double kDetour_m = 1.5;          // chosen: least detour around a closed door
+constexpr double kStaleNear_m = 1.5;       // as for STOP: a nearer instance is not gone
+constexpr double kMinStart_m = 1.0;        // as dataset.min_first_goal_m
+constexpr int kStarts = 60;                // chosen: draws of a start
+constexpr int kMostStatic = 3;             // chosen: static goals of a later day with other goals
+constexpr double kStartRounding_m = 1e-4;  // precision of the files
 
-/// Instances that a goal means.
+/// Instances of a goal.
 int CountOf(const sim::Scene& scene, const std::string& goal, bool is_category) {
   return static_cast<int>(
       std::count_if(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
@@ -26,7 +26,7 @@ int CountOf(const sim::Scene& scene, const std::string& goal, bool is_category) 
       }));
 }
 
-/// Name that means the changed object alone, before and after; empty = none does.
+/// Name of the changed object alone, before and after; empty without such a name.
 std::string GoalOf(const world::Change& change, const sim::Scene& before, const sim::Scene& after) {
   const int now = change.kind == world::ChangeKind::kRemoved ? 0 : 1;
   const auto is_only = [&](const std::string& goal, bool is_category) {
@@ -79,7 +79,7 @@ class Maker {
     return goals;
   }
 
-  /// Goals none of whose instances changed in this night.
+  /// Goals without a changed instance in this night.
   bool IsStatic(std::size_t day, const std::string& goal) const {
     return std::none_of(days_[day].list.changes.begin(), days_[day].list.changes.end(),
                         [&](const world::Change& change) {
@@ -87,7 +87,7 @@ class Maker {
                         });
   }
 
-  /// Where instances of the goal stood on an earlier day and none stands on `day`.
+  /// Stale places: an instance of the goal stood there on an earlier day, none on `day`.
   std::vector<Vector3d> StalePlaces(std::size_t day, const std::string& goal) const {
     std::vector<Vector3d> stale;
     for (std::size_t d = 1; d <= day; ++d) {
@@ -147,7 +147,7 @@ class Maker {
     return before_m && now_m && *now_m > *before_m + kDetour_m ? "doors" : "static";
   }
 
-  /// The place of the goal that a search from `from_world` would end at.
+  /// End of a search for the goal from `from_world`.
   Vector3d StopOf(std::size_t day, const Vector3d& from_world, const std::string& goal) const {
     std::vector<Vector3d> places;
     for (const Target& target : At(day).TargetsOf(goal)) {
@@ -180,7 +180,7 @@ class Maker {
     return std::nullopt;
   }
 
-  /// Orders the goals, each from the stop of the one before; names the tracks of those that stayed.
+  /// Orders the goals, each from the previous stop; sets the tracks of goals that stayed.
   void Arrange(std::size_t day, HouseVisit& visit, Rng& rng) const {
     rng.Shuffle(visit.goals);
     const auto far_enough = std::find_if(visit.goals.begin(), visit.goals.end(), [&](auto& goal) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Visits of a house from its days and their lists of changes. Each goal is certified: what is to be
-// found can be reached and observed (and confirmed, under dataset.certificate = detection), what
-// is gone has no instance. World frame, metres.
+// Makes the visits of a house from its days and their lists of changes. Certificates: a present
+// goal can be reached and observed (and confirmed, under dataset.certificate = detection), an
+// absent goal has no instance. World frame, metres.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace crossnav::evaluation {
 
-/// A house on one day; the first has no changes.
+/// A house on one day; the first day has no changes.
 struct VisitDay {
   std::string scene_id;
   std::unique_ptr<SceneContext> context;
@@ -23,11 +23,11 @@ struct VisitDay {
 
 inline constexpr int kLeastVisitGoals = 5, kMostVisitGoals = 10;
 
-/// A visit a day. Goals of the first are what will change later, and what stays. Error: a day with
-/// fewer than five goals.
+/// One visit per day. Goals of the first day are objects that change later, and objects that stay.
+/// Error: a day with fewer than five goals.
 Result<std::vector<HouseVisit>> MakeVisits(const std::vector<VisitDay>& days, std::uint64_t seed);
 
-/// Everything in a visit's certificate that does not hold, in words; empty = proven.
+/// Violations of a visit's certificate, in words; empty = proven.
 std::vector<std::string> CheckVisit(const SceneContext& context, const HouseVisit& visit);
 
 }  // namespace crossnav::evaluation

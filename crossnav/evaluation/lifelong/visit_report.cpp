@@ -28,7 +28,7 @@ double MeanOf(const std::vector<double>& values) {
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-/// Mean over goals; houses are drawn with all their goals, goals where there is one house only.
+/// Mean over goals. The bootstrap draws houses with all their goals, or goals of a single house.
 Figure MeanByHouses(const std::vector<Sample>& samples, const BootstrapConfig& bootstrap) {
   std::map<std::string, std::vector<double>> by_house;
   std::vector<double> all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of visits by track, with intervals, and runs of different memory in pairs: whole houses
-// are drawn, because visits of a house are alike. Pure and seeded.
+// Figures of visits by track, with intervals, and paired comparisons of runs. The bootstrap draws
+// whole houses, because visits of a house are correlated. Pure and seeded.
 #pragma once
 
 #include <map>
@@ -22,18 +22,18 @@ struct Figure {
 struct TrackFigures {
   int visits = 0, goals = 0;
   Figure success;             ///< Wilson's interval
-  std::optional<Figure> spl;  ///< from the previous stop; not of absent goals
-  Figure unspent;             ///< share of the budget that was left
-  double stale_visits = 0;    ///< a goal, mean
-  int revised = 0;            ///< goals for which a stale place was set out for
-  double revised_after = 0;   ///< actions, mean over these
+  std::optional<Figure> spl;  ///< from the previous stop; without absent goals
+  Figure unspent;             ///< remaining share of the budget
+  double stale_visits = 0;    ///< mean per goal
+  int revised = 0;            ///< goals with a visit to a stale place
+  double revised_after = 0;   ///< actions, mean over the revised goals
 };
 
 /// By track, in the order of kVisitTracks; tracks without goals are left out.
 std::vector<std::pair<std::string, TrackFigures>> FiguresOf(const VisitResults& results,
                                                             const BootstrapConfig& bootstrap = {});
 
-/// Differences b - a on the goals that both played.
+/// Differences b - a on goals played in both runs.
 struct TrackDifference {
   int goals = 0, houses = 0;
   Figure success;

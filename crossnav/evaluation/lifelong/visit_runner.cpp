@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAtPlace_m = 1.0, kAtHeight_m = 1.5;  // chosen: a remembered place's spread
 
-/// Everything that lives as long as one visit.
+/// State of one visit.
 class GoalSearch {
  public:
   GoalSearch(const SceneContext& context, const RunConfig& config, sim::Simulator& simulator,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plays one visit: its goals in order, each with a budget of its own, each from where the search
-// before it ended, whether or not that one found its goal. World frame, metres.
+// Plays one visit: its goals in order, each with its own budget, each from the end of the previous
+// search, successful or not. World frame, metres.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@
 
 namespace crossnav::evaluation {
 
-/// Follows the search for one goal for the places that the agent sets out for though the goal stood
-/// there on an earlier day only.
+/// Counts departures for stale places during the search for one goal: places where the goal stood
+/// on an earlier day only.
 class StaleWatch {
  public:
   explicit StaleWatch(std::vector<Vector3d> stale_world) : stale_world_(std::move(stale_world)) {}
@@ -26,10 +26,10 @@ class StaleWatch {
  private:
   std::vector<Vector3d> stale_world_;
   int steps_ = 0, visits_ = 0, revised_after_ = 0;
-  int last_ = -1;  // stale place of the step before; -1 = none
+  int last_ = -1;  // stale place of the previous step; -1 = none
 };
 
-/// Memory at the begin and the end of a visit.
+/// Memory at the start and the end of a visit.
 struct VisitHooks {
   std::function<Result<void>(agent::Agent&)> begin = [](agent::Agent&) { return Result<void>(); };
   std::function<Result<void>(const agent::Agent&)> end = [](const agent::Agent&) {
@@ -37,8 +37,7 @@ struct VisitHooks {
   };
 };
 
-/// Errors: a start off the navmesh, a goal that cannot be reached from where its search starts, a
-/// malformed observation, a failing hook.
+/// Errors: a start off the navmesh, an unreachable goal, a malformed observation, a failing hook.
 Result<VisitRecord> PlayVisit(const SceneContext& context, const HouseVisit& visit,
                               const RunConfig& config, const VisitHooks& hooks,
                               const MakePerception& make_perception = {});

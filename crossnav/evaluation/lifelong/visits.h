@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Visits to houses on several days, and what came of them. A visit has goals of its own tracks: a
-// goal that stayed, one that was moved overnight, one that is gone, one behind a door that was
-// closed. Files: docs/formats/visits.md. World frame, metres.
+// Visits to houses on several days, and their results. Each goal has a track: stayed, moved
+// overnight, gone, or behind a closed door. Files: docs/formats/visits.md. World frame, metres.
 #pragma once
 
 #include <array>
@@ -16,7 +15,7 @@
 
 namespace crossnav::evaluation {
 
-/// Goals of the first day are of the track "first": nothing can be remembered yet.
+/// Goals of the first day have the track "first", because no memory exists yet.
 inline constexpr std::array<std::string_view, 8> kVisitTracks = {
     "first",      "static",      "same_furniture", "other_furniture",
     "other_room", "other_floor", "removed",        "doors"};
@@ -24,9 +23,9 @@ inline constexpr std::array<std::string_view, 8> kVisitTracks = {
 struct VisitGoal {
   std::string goal;  ///< a category, or a raw name
   std::string track;
-  bool is_absent = false;             ///< right is to say so: no candidate is left
-  std::vector<int> floors;            ///< certificate: floors with an instance that can be reached
-  std::vector<Vector3d> stale_world;  ///< where an instance stood on an earlier day, and none now
+  bool is_absent = false;             ///< success = declared absent: no candidate is left
+  std::vector<int> floors;            ///< certificate: floors with a reachable instance
+  std::vector<Vector3d> stale_world;  ///< places of an instance on an earlier day, none now
   friend bool operator==(const VisitGoal&, const VisitGoal&) = default;
 };
 
@@ -40,7 +39,7 @@ struct HouseVisit {
   std::string Id() const { return house + "/" + std::to_string(day); }
 };
 
-/// Visits of a house follow each other, by day.
+/// Visits of a house are consecutive, by day.
 struct VisitFile {
   std::vector<HouseVisit> visits;
   std::string content_hash;  ///< of the text
@@ -55,13 +54,13 @@ Result<VisitFile> ReadVisits(const std::filesystem::path& path);
 struct GoalRecord {
   std::string goal, track;
   bool is_absent = false;
-  Outcome outcome = Outcome::kOutOfTime;  ///< of an absent goal, success = it was said to be gone
+  Outcome outcome = Outcome::kOutOfTime;  ///< for an absent goal, success = declared absent
   bool success = false;
   double shortest_m = 0;  ///< from the previous stop; 0 for an absent goal
   double length_m = 0;
   int actions = 0, budget = 0;
-  int stale_visits = 0;   ///< how often the agent set out for a stale place
-  int revised_after = 0;  ///< actions until it set out for none any more; 0 = it never did
+  int stale_visits = 0;   ///< departures for a stale place
+  int revised_after = 0;  ///< actions until the last pursuit of a stale place; 0 = none
   friend bool operator==(const GoalRecord&, const GoalRecord&) = default;
 
   double Spl() const;  ///< 0 without success
@@ -71,8 +70,8 @@ struct VisitRecord {
   std::string house;
   int day = 0;
   std::vector<GoalRecord> goals;
-  std::int64_t map_bytes = 0;  ///< of the memory that was saved after it
-  std::string failure;         ///< why it has no goals; empty = it was played
+  std::int64_t map_bytes = 0;  ///< of the memory saved after the visit
+  std::string failure;         ///< reason of a visit without goals; empty = played
 };
 
 /// Fields that must be equal for two runs to be compared.
@@ -86,7 +85,7 @@ struct VisitResults {
   std::vector<VisitRecord> records;  ///< by house and day
 };
 
-/// JSON Lines: the run, then a line for each visit.
+/// JSON Lines: the run, then one line per visit.
 std::string VisitResultsText(const VisitResults& results);
 Result<VisitResults> ParseVisitResults(std::string_view text, const std::string& where);
 std::string VisitLine(const VisitRecord& record);

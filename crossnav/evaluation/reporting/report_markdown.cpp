@@ -176,7 +176,7 @@ std::string CauseTableText(const ReportRun& run) {
   return text;
 }
 
-/// For runs from pixels: what would have to be better.
+/// Causes of failures in runs from pixels.
 std::string PixelCauseText(const ReportRun& run) {
   const auto counts = CountPixelCauses(run.episodes);
   if (run.perception.find("networks") == std::string::npos || counts.empty()) return {};

@@ -100,7 +100,7 @@ class EpisodeRun {
   // The frame that the agent's poses are in. Another than the world's after waking up lost: the
   // map's, as far as the localisation is right, or that of the start.
   Pose T_agent_world_ = Pose::Identity();
-  Pose T_world_claims_ = Pose::Identity();  // of what the agent says; a map's frame is the world's
+  Pose T_world_claims_ = Pose::Identity();  // of the agent's claims; a map's frame is the world's
 };
 
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
@@ -308,7 +308,7 @@ bool EpisodeRun::IsClaimNear(const std::string& goal, const Vector3d& p_claimed_
   return false;
 }
 
-/// Another object beside the one that was described is a wrong one.
+/// An object beside the described object is a wrong object.
 bool EpisodeRun::IsClaimOf(const std::string& goal, const Vector3d& p_claimed_world) const {
   constexpr double kAtBox_m = 0.3;  // chosen: three voxels
   const auto& targets = context_.TargetsOf(goal);

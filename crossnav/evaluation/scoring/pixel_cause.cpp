@@ -6,7 +6,7 @@
 namespace crossnav::evaluation {
 namespace {
 
-constexpr double kSeenAll = 0.9;  // chosen: what is left are corners
+constexpr double kSeenAll = 0.9;  // chosen: the rest are corners
 
 bool Has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Why a stage failed, as somebody sorts it who wants better eyes: what the network, its masks, the
-// memory or the legs did. Coarser than cause.h, from the same records.
+// Cause of a failed stage in runs from pixels: the network, its masks, the memory or the motion.
+// Coarser than cause.h, from the same records.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ inline constexpr std::array<std::string_view, 7> kPixelCauses = {
 /// too far from the right one, where its mask put it (mask); the last pursuit ended by a refuted
 /// claim (memory); the goal was in view within the success radius and unclaimed, or nine tenths of
 /// the house were seen without it (missed); no ground of the flight to it is in the map (stairs
-/// unseen); the flight, or the last target, could not be reached (reach); else what is left of the
-/// budget was not enough (search).
+/// unseen); the flight, or the last target, could not be reached (reach); else the budget was too
+/// small (search).
 std::string_view PixelCauseOf(const StageRecord& stage);
 
 struct PixelCauseCount {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "crossnav/agent/config.h"
+#include "crossnav/core/setting.h"
 #include "crossnav/inference/networks_config.h"
 #include "crossnav/serve/serve_config.h"
 #include "crossnav/sim/navmesh/navmesh.h"
@@ -55,27 +56,27 @@ struct RunConfig {
 
 template <class V>
 void Visit(V& visit, EvalConfig& c) {
-  visit("action_budget", c.action_budget, 1, 1000000);
-  visit("budget_scope", c.budget_scope, {"episode", "goal"});
-  visit("success_radius_m", c.success_radius_m, 0.01, 100.0);
-  visit("success", c.success, {"box", "viewpoint"});
-  visit("viewpoint_radius_m", c.viewpoint_radius_m, 0.01, 100.0);
-  visit("stuck_steps", c.stuck_steps, 1, 1000000);
-  visit("stuck_m", c.stuck_m, 0.0, 100.0);
-  visit("seen_px", c.seen_px, 1, 1000000000);
-  visit("perception", c.perception, {"oracle", "networks"});
-  visit("episode_seconds", c.episode_seconds, 0.0, 1e6);
-  visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
+  visit(CROSSNAV_SETTING(c, action_budget), 1, 1000000);
+  visit(CROSSNAV_SETTING(c, budget_scope), {"episode", "goal"});
+  visit(CROSSNAV_SETTING(c, success_radius_m), 0.01, 100.0);
+  visit(CROSSNAV_SETTING(c, success), {"box", "viewpoint"});
+  visit(CROSSNAV_SETTING(c, viewpoint_radius_m), 0.01, 100.0);
+  visit(CROSSNAV_SETTING(c, stuck_steps), 1, 1000000);
+  visit(CROSSNAV_SETTING(c, stuck_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, seen_px), 1, 1000000000);
+  visit(CROSSNAV_SETTING(c, perception), {"oracle", "networks"});
+  visit(CROSSNAV_SETTING(c, episode_seconds), 0.0, 1e6);
+  visit(CROSSNAV_SETTING(c, seed), std::uint64_t{0}, ~std::uint64_t{0});
 }
 
 template <class V>
 void Visit(V& visit, DatasetConfig& c) {
-  visit("goals", c.goals, 1, 100);
-  visit("allow_repeats", c.allow_repeats);
-  visit("min_first_goal_m", c.min_first_goal_m, 0.0, 100.0);
-  visit("max_start_step_m", c.max_start_step_m, 0.0, 10.0);
-  visit("tries_per_episode", c.tries_per_episode, 1, 1000000);
-  visit("certificate", c.certificate, {"coverage", "detection"});
+  visit(CROSSNAV_SETTING(c, goals), 1, 100);
+  visit(CROSSNAV_SETTING(c, allow_repeats));
+  visit(CROSSNAV_SETTING(c, min_first_goal_m), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, max_start_step_m), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, tries_per_episode), 1, 1000000);
+  visit(CROSSNAV_SETTING(c, certificate), {"coverage", "detection"});
 }
 
 template <class V>

@@ -58,7 +58,7 @@ std::map<int, ShownObject> ShownIn(const Observation& obs, const InstanceImage& 
   return shown;
 }
 
-/// Room of the plan, those of one open group alike; -1 = none.
+/// Room of the plan; rooms of one open group share an id; -1 = none.
 int PlanRoomOf(const world::HousePlan& plan, const Vector3d& p) {
   int found = -1;
   double best_m = -1e9;
@@ -87,7 +87,7 @@ scenegraph::SceneGraph TrueObjects(const ObjectSurvey& survey, const sim::Scene&
     object.category = named.first;
     object.box = instance.box;
     object.p_center_world = instance.box.Center();
-    object.floor = 0;  // rooms tell floors apart, what lies over what is near
+    object.floor = 0;  // rooms tell floors apart
     object.room = PlanRoomOf(plan, object.p_center_world);
     truth.objects.push_back(std::move(object));
   }

@@ -35,7 +35,7 @@ class ObjectSurvey {
  public:
   ObjectSurvey(const SceneContext& context, const RunConfig& config);
 
-  /// Notes what ground truth detects in the simulator's last frame.
+  /// Notes the ground-truth detections in the simulator's last frame.
   void Look(const Observation& obs, const sim::Simulator& simulator);
   const objects::ObjectBook& book() const { return book_; }
   double seconds() const { return seconds_; }  ///< of the records' work alone

@@ -47,7 +47,7 @@ struct RetrievalTrial {
   std::vector<RetrievalCount> counts;  ///< one for each choice
 };
 
-/// An encoder for what `simulator` shows; `keep` holds whatever it stands on.
+/// An encoder for the views of `simulator`; `keep` owns its dependencies.
 struct HeldEncoder {
   perception::DenseEncoder* encoder = nullptr;
   std::shared_ptr<void> keep;

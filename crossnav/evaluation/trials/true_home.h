@@ -19,8 +19,8 @@ struct TrueHome {
   std::vector<int> instances;  ///< id of each thing
 };
 
-/// The instances of `seen`, but for what belongs to the shell. Rooms with no wall between them are
-/// one room of several types.
+/// The instances of `seen`, without the shell. Rooms with no wall between them are one room of
+/// several types.
 TrueHome TrueHomeOf(const world::HousePlan& plan, const sim::Scene& scene,
                     const std::set<int>& seen);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Descriptions of things in generated houses, drawn from the truth, against what a survey of the
-// house knows: records of objects by ground-truth perception, rooms cut from the map's geometry.
+// Descriptions of things in generated houses, drawn from the truth and resolved by a survey of the
+// house: records of objects by ground-truth perception, rooms cut from the map's geometry.
 #pragma once
 
 #include <cstdint>

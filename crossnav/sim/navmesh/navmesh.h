@@ -17,6 +17,7 @@
 #include "crossnav/core/pose.h"
 #include "crossnav/core/result.h"
 #include "crossnav/core/rng.h"
+#include "crossnav/core/setting.h"
 #include "crossnav/sim/scene/scene.h"
 
 namespace crossnav::sim {
@@ -35,14 +36,14 @@ struct NavMeshSettings {
 
 template <class V>
 void Visit(V& visit, NavMeshSettings& c) {
-  visit("agent_height_m", c.agent_height_m, 0.1, 3.0);
-  visit("agent_radius_m", c.agent_radius_m, 0.0, 2.0);
-  visit("max_climb_m", c.max_climb_m, 0.0, 2.0);
-  visit("max_slope_deg", c.max_slope_deg, 0.0, 90.0);
-  visit("cell_m", c.cell_m, 0.005, 1.0);
-  visit("cell_height_m", c.cell_height_m, 0.005, 1.0);
-  visit("min_island_m2", c.min_island_m2, 0.0, 100.0);
-  visit("source", c.source, {"build", "habitat"});
+  visit(CROSSNAV_SETTING(c, agent_height_m), 0.1, 3.0);
+  visit(CROSSNAV_SETTING(c, agent_radius_m), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, max_climb_m), 0.0, 2.0);
+  visit(CROSSNAV_SETTING(c, max_slope_deg), 0.0, 90.0);
+  visit(CROSSNAV_SETTING(c, cell_m), 0.005, 1.0);
+  visit(CROSSNAV_SETTING(c, cell_height_m), 0.005, 1.0);
+  visit(CROSSNAV_SETTING(c, min_island_m2), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, source), {"build", "habitat"});
 }
 
 /// A storey: navmesh area of about one height (clusters of connected flat area), together with the
@@ -89,8 +90,9 @@ class NavMesh {
   /// As Build, cached as `<hash>.crossnav.navmesh` (scene_cache.h), a hash of mesh and settings.
   static Result<NavMesh> BuildCached(const Scene& scene, const NavMeshSettings& settings);
 
-  /// The navmesh of habitat-sim at `file`, as it was built there (agent, islands). `settings` are
-  /// those that it is said to have. Errors: not there, not a navmesh, damaged, without ground.
+  /// The navmesh of habitat-sim at `file`, as it was built there (agent, islands). `settings`: the
+  /// settings of its build, as declared by the caller. Errors: missing, no navmesh, damaged,
+  /// without ground.
   static Result<NavMesh> ReadHabitat(const std::filesystem::path& file,
                                      const NavMeshSettings& settings);
   /// As `settings.source` says: BuildCached, or ReadHabitat of the file beside the scene.

@@ -83,8 +83,8 @@ DetourMesh LoadTiles(const std::vector<std::uint8_t>& bytes, std::uint64_t key);
 inline constexpr std::int32_t kHabitatMagic = 'M' << 24 | 'S' << 16 | 'E' << 8 | 'T';
 inline constexpr std::int32_t kHabitatVersion = 1;
 
-/// Tiles of a file of habitat-sim in our Recast frame (navmesh_habitat_read.cpp). Each is checked:
-/// the file may come from anywhere. Error kMalformed: `where` and what is wrong.
+/// Tiles of a file of habitat-sim in our Recast frame (navmesh_habitat_read.cpp). Each tile is
+/// checked, because the file is untrusted. Error kMalformed: `where` and the fault.
 Result<DetourMesh> ReadHabitatTiles(std::string_view file, const std::string& where);
 
 /// Floors derived from the finished mesh (navmesh_floors.cpp).

@@ -131,7 +131,7 @@ Problem ReadTile(std::string_view data, Tile& tile) {
   return nullptr;
 }
 
-/// What dtCreateNavMeshData is given, turned.
+/// Input of dtCreateNavMeshData, rotated.
 struct TurnedTile {
   std::vector<unsigned short> vertices, polys, flags;
   std::vector<unsigned char> areas, triangles;

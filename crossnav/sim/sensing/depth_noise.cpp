@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NoisyDepth: each kind of noise is a pass over the pixels with a stream of its own.
+// NoisyDepth: each kind of noise is a pass over the pixels with its own random stream.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,13 +9,13 @@
 namespace crossnav::sim {
 namespace {
 
-// chosen: side of a patch without depth; shiny and dark things are about so large [px of 640]
+// chosen: side of a patch without depth, like shiny and dark objects [px of 640]
 constexpr int kPatch_px = 16;
 // chosen: neighbours whose depths differ by this share are on both sides of an edge
 constexpr double kEdgeShare = 0.05;
 constexpr double kFullAngle_rad = 1.48;    // chosen: 85 degrees; Nguyen's law has a pole at 90
-constexpr double kGrazing_rad = M_PI / 3;  // chosen: up to 60 degrees nothing is lost by the angle
-constexpr double kDark = 255.0 / 8;        // chosen: brighter things send enough light back
+constexpr double kGrazing_rad = M_PI / 3;  // chosen: no loss up to 60 degrees
+constexpr double kDark = 255.0 / 8;        // chosen: brighter surfaces return enough light
 constexpr std::array<std::string_view, 3> kGlass = {"window", "glass", "mirror"};
 constexpr std::array<std::string_view, 5> kOpaque = {"curtain", "frame", "blind", "sill", "seat"};
 
@@ -59,7 +59,8 @@ float BeyondEdge(const DepthImage& depth_m, int u, int v) {
   return 0;
 }
 
-/// Light of both sides of an edge comes back to one pixel; the sensor reads a depth between.
+/// Flying pixels: light from both sides of an edge reaches one pixel, and the sensor reads a depth
+/// between.
 void MixEdges(const DepthImage& perfect_m, double probability, Rng rng, DepthImage& depth_m) {
   ForEachPixel(perfect_m, [&](int u, int v) {
     const float there = BeyondEdge(perfect_m, u, v);
@@ -105,7 +106,7 @@ std::vector<float> AnglesOf(const DepthImage& depth_m, const CameraIntrinsics& c
   return angles;
 }
 
-/// What sends too little light back: dark, or seen at a grazing angle.
+/// Loses pixels with too little returned light: dark surfaces, and grazing angles.
 void LoseDim(const NoiseConfig& noise, const Scenery& scenery, const std::vector<float>& angles,
              Rng rng, DepthImage& depth_m) {
   for (std::size_t i = 0; i < depth_m.data.size(); ++i) {
@@ -129,7 +130,7 @@ void LoseGlass(double probability, const Scenery& scenery, Rng rng, DepthImage& 
       depth_m.data[i] = 0;
 }
 
-/// Nguyen et al. 2012, eq. 3: what the angle adds to sigma.
+/// Nguyen et al. 2012, eq. 3: term of sigma that depends on the angle.
 double AngleSigma(const NoiseConfig& noise, double z_m, double angle_rad) {
   const double a = std::min(angle_rad, kFullAngle_rad), share = a / (M_PI_2 - a);
   return noise.depth_angle_sigma_m * share * share / std::sqrt(z_m);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "crossnav/core/setting.h"
 #include "crossnav/perception/perception.h"
 #include "crossnav/sim/sensing/simulator.h"
 
@@ -27,15 +28,15 @@ struct GroundTruthConfig {
 
 template <class V>
 void Visit(V& visit, GroundTruthConfig& c) {
-  visit("max_distance_m", c.max_distance_m, 0.1, 100.0);
-  visit("min_visible_px", c.min_visible_px, 1, 1000000);
-  visit("feature_dim", c.feature_dim, 8, 4096);
-  visit("feature_rows", c.feature_rows, 1, 256);
-  visit("feature_cols", c.feature_cols, 1, 256);
-  visit("feature_noise", c.feature_noise, 0.0, 10.0);
-  visit("confusion", c.confusion, 0.0, 0.99);
-  visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
-  visit("clip_dir", c.clip_dir);
+  visit(CROSSNAV_SETTING(c, max_distance_m), 0.1, 100.0);
+  visit(CROSSNAV_SETTING(c, min_visible_px), 1, 1000000);
+  visit(CROSSNAV_SETTING(c, feature_dim), 8, 4096);
+  visit(CROSSNAV_SETTING(c, feature_rows), 1, 256);
+  visit(CROSSNAV_SETTING(c, feature_cols), 1, 256);
+  visit(CROSSNAV_SETTING(c, feature_noise), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, confusion), 0.0, 0.99);
+  visit(CROSSNAV_SETTING(c, seed), std::uint64_t{0}, ~std::uint64_t{0});
+  visit(CROSSNAV_SETTING(c, clip_dir));
 }
 
 /// View of one instance in a picture.

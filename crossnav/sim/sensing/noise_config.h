@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// How imperfect the simulated sensors and wheels are. All off by default: the simulator is perfect
-// unless a profile or a single setting says otherwise. docs/noise.md has the models.
+// Noise of the simulated sensors and wheels. All off by default; a profile or a single setting
+// turns it on. Models: docs/noise.md.
 #pragma once
 
 #include <cstdint>
 #include <string>
+
+#include "crossnav/core/setting.h"
 
 namespace crossnav::sim {
 
@@ -15,7 +17,7 @@ struct NoiseConfig {
   double depth_sigma_m = 0;
   double depth_sigma_per_m2 = 0;
   double depth_step_per_m2 = 0;    ///< depths are multiples of this * z^2 [m]: steps of disparity
-  double depth_shift_px = 0;       ///< std. dev. of where a pixel really looks: ragged edges
+  double depth_shift_px = 0;       ///< std. dev. of the direction of a pixel: ragged edges
   double depth_edge_hole = 0;      ///< probability that a pixel beside a jump in depth is lost
   double depth_hole_share = 0;     ///< share of the picture that is lost in patches
   double depth_max_m = 0;          ///< beyond it there is no depth; 0 = no limit
@@ -25,13 +27,13 @@ struct NoiseConfig {
   double depth_grazing_hole = 0;   ///< probability that a pixel is lost at 90 deg, from 60 deg on
   double depth_dark_hole = 0;      ///< probability that a black pixel is lost; none above 1/8 white
   double depth_glass_hole = 0;     ///< probability that a pixel of glass or a mirror is lost
-  // Pose as the agent is told it. Standard deviations per executed step.
+  // Reported pose. Standard deviations per executed step.
   double drift_xy_m = 0;           ///< each horizontal axis, a move
   double drift_z_m = 0;            ///< a move
   double drift_yaw_deg = 0;        ///< a move or a turn
   int loop_closure_steps = 0;      ///< mean number of steps between two closures; 0 = never
   double loop_closure_gain = 0.8;  // chosen: share of the error that a closure takes back
-  // Actions as they are executed.
+  // Executed actions.
   double forward_sigma = 0;   ///< std. dev. of a move, as a share of its length
   double turn_sigma_deg = 0;  ///< std. dev. of a turn
   double slip = 0;            ///< probability that the wheels spin and a move leads nowhere
@@ -45,35 +47,35 @@ struct NoiseConfig {
 
 template <class V>
 void Visit(V& visit, NoiseConfig& c) {
-  visit("profile", c.profile, {"none", "realsense", "kinect", "spot"});
-  visit("seed", c.seed, std::uint64_t{0}, ~std::uint64_t{0});
-  visit("depth_sigma_m", c.depth_sigma_m, 0.0, 1.0);
-  visit("depth_sigma_per_m2", c.depth_sigma_per_m2, 0.0, 1.0);
-  visit("depth_step_per_m2", c.depth_step_per_m2, 0.0, 1.0);
-  visit("depth_shift_px", c.depth_shift_px, 0.0, 100.0);
-  visit("depth_edge_hole", c.depth_edge_hole, 0.0, 1.0);
-  visit("depth_hole_share", c.depth_hole_share, 0.0, 1.0);
-  visit("depth_max_m", c.depth_max_m, 0.0, 1000.0);
-  visit("depth_angle_sigma_m", c.depth_angle_sigma_m, 0.0, 1.0);
-  visit("depth_flying", c.depth_flying, 0.0, 1.0);
-  visit("depth_grazing_hole", c.depth_grazing_hole, 0.0, 1.0);
-  visit("depth_dark_hole", c.depth_dark_hole, 0.0, 1.0);
-  visit("depth_glass_hole", c.depth_glass_hole, 0.0, 1.0);
-  visit("drift_xy_m", c.drift_xy_m, 0.0, 1.0);
-  visit("drift_z_m", c.drift_z_m, 0.0, 1.0);
-  visit("drift_yaw_deg", c.drift_yaw_deg, 0.0, 90.0);
-  visit("loop_closure_steps", c.loop_closure_steps, 0, 1000000);
-  visit("loop_closure_gain", c.loop_closure_gain, 0.0, 1.0);
-  visit("forward_sigma", c.forward_sigma, 0.0, 1.0);
-  visit("turn_sigma_deg", c.turn_sigma_deg, 0.0, 90.0);
-  visit("slip", c.slip, 0.0, 1.0);
-  visit("drop", c.drop, 0.0, 1.0);
-  visit("exposure_stops", c.exposure_stops, 0.0, 10.0);
-  visit("blur_px", c.blur_px, 0.0, 200.0);
-  visit("rolling_px", c.rolling_px, 0.0, 200.0);
+  visit(CROSSNAV_SETTING(c, profile), {"none", "realsense", "kinect", "spot"});
+  visit(CROSSNAV_SETTING(c, seed), std::uint64_t{0}, ~std::uint64_t{0});
+  visit(CROSSNAV_SETTING(c, depth_sigma_m), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_sigma_per_m2), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_step_per_m2), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_shift_px), 0.0, 100.0);
+  visit(CROSSNAV_SETTING(c, depth_edge_hole), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_hole_share), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_max_m), 0.0, 1000.0);
+  visit(CROSSNAV_SETTING(c, depth_angle_sigma_m), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_flying), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_grazing_hole), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_dark_hole), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, depth_glass_hole), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, drift_xy_m), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, drift_z_m), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, drift_yaw_deg), 0.0, 90.0);
+  visit(CROSSNAV_SETTING(c, loop_closure_steps), 0, 1000000);
+  visit(CROSSNAV_SETTING(c, loop_closure_gain), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, forward_sigma), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, turn_sigma_deg), 0.0, 90.0);
+  visit(CROSSNAV_SETTING(c, slip), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, drop), 0.0, 1.0);
+  visit(CROSSNAV_SETTING(c, exposure_stops), 0.0, 10.0);
+  visit(CROSSNAV_SETTING(c, blur_px), 0.0, 200.0);
+  visit(CROSSNAV_SETTING(c, rolling_px), 0.0, 200.0);
 }
 
-/// The settings that `profile` stands for, with the default seed. Unknown names give none's.
+/// Settings of `profile`, with the default seed; of "none" for unknown names.
 NoiseConfig NoiseOfProfile(const std::string& profile);
 
 }  // namespace crossnav::sim

@@ -34,8 +34,8 @@ Rgb8 Exposed(Rgb8 colour, double gain) {
   return {channel(colour.r), channel(colour.g), channel(colour.b)};
 }
 
-/// Rows are exposed one after the other while the camera turns: each is moved to the side by its
-/// share of `last_px`. What comes in from beside the picture repeats its border.
+/// Rolling exposure while the camera turns: each row is shifted sideways by its share of `last_px`.
+/// Pixels from outside the picture repeat its border.
 void Roll(double last_px, RgbImage& rgb) {
   std::vector<Rgb8> row(static_cast<std::size_t>(rgb.width));
   for (int v = 0; v < rgb.height; ++v) {
@@ -121,7 +121,7 @@ void SensorNoise::Moved(Action action, const AgentPose& true_pose) {
   const Eigen::AngleAxisd turned(off_rad, Vector3d::UnitZ());
   believed_.p_world += turned * (true_pose.p_world - true_pose_.p_world);
   believed_.yaw_rad = true_pose.yaw_rad + off_rad;
-  believed_.pitch_rad = true_pose.pitch_rad;  // gravity is felt
+  believed_.pitch_rad = true_pose.pitch_rad;  // gravity is measured
   if (action == Action::kMoveForward) {
     believed_.p_world.x() += noise_.drift_xy_m * drift_rng_.Normal();
     believed_.p_world.y() += noise_.drift_xy_m * drift_rng_.Normal();

@@ -23,10 +23,10 @@ inline double DepthSigma(const NoiseConfig& noise, double z_m) {
   return noise.depth_sigma_m + noise.depth_sigma_per_m2 * z_m * z_m;
 }
 
-/// Whether a depth camera looks through things of this name, or sees another place in them.
+/// Whether objects of this name are glass or mirrors for a depth camera.
 bool IsGlass(std::string_view name);
 
-/// What depth noise depends on besides depth. What is missing has no effect.
+/// Inputs of depth noise besides depth. Missing inputs have no effect.
 struct Scenery {
   CameraIntrinsics camera;        ///< width 0 = missing
   const RgbImage* rgb = nullptr;  ///< as large as depth
@@ -34,22 +34,22 @@ struct Scenery {
   const std::set<std::int32_t>* glass = nullptr;  ///< instances of glass, and mirrors
 };
 
-/// Shifted pixels, flying pixels, lost edges, patches without depth, what is dark, grazing or of
-/// glass lost, noise, steps, range: in this order. Invalid pixels (0) stay invalid; what noise
-/// takes to 0 or below is invalid.
+/// Applies, in this order: shifted pixels, flying pixels, lost edges, patches without depth, loss
+/// at dark, grazing and glass surfaces, noise, steps, range. Invalid pixels (0) stay invalid;
+/// depths of 0 or below become invalid.
 DepthImage NoisyDepth(const NoiseConfig& noise, const DepthImage& depth_m, std::uint64_t seed,
                       const Scenery& scenery = {});
 
 /// Exposure, rolling exposure, then motion blur.
 RgbImage NoisyColour(const NoiseConfig& noise, const RgbImage& rgb, std::uint64_t seed);
 
-/// One episode's worth of noise.
+/// Noise of one episode.
 class SensorNoise {
  public:
   /// `episode_seed` makes episodes differ; noise.seed is mixed with it.
   SensorNoise(const NoiseConfig& noise, std::uint64_t episode_seed);
 
-  /// Nothing is drawn and nothing is copied where everything is off.
+  /// With all noise off, draws no numbers and copies no images.
   bool IsOn() const { return is_on_; }
 
   /// Executed share of a move's length: 0 = slipped, 1 = perfect.
@@ -61,7 +61,7 @@ class SensorNoise {
   void Start(const AgentPose& true_pose);
   /// Updates the odometry by the true motion of `action`.
   void Moved(Action action, const AgentPose& true_pose);
-  /// Where the agent believes to be: world as it was at the start, drift included.
+  /// Reported pose, with drift, in the world frame of the start.
   const AgentPose& believed() const { return believed_; }
 
   /// Makes a frame imperfect. A lost frame has no depth and no instances and is black. `glass`:

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kChangesFormat = 1;
 constexpr std::size_t kMaxChanges = 10'000;  // chosen: more than any house has objects
 
-/// Millimetres: enough to find an object by, and short to read.
+/// Rounds to millimetres: precise enough to find an object, and short to read.
 Json ToJson(const Vector3d& p) {
   const auto rounded = [](double m) { return std::round(m * 1000) / 1000; };
   return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
@@ -44,7 +44,7 @@ Json ToJson(const std::vector<Change>& changes) {
   return list;
 }
 
-/// Reads values of one document; the first that is not as it must be is the error.
+/// Reads values of one document; the first invalid value is the error.
 class Reader {
  public:
   explicit Reader(const std::string& where) : where_(where) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What differs between two days of a house, as `<hash>.changes.json` beside the later day's scene
+// Differences between two days of a house, as `<hash>.changes.json` beside the later day's scene
 // (docs/formats/changes.md). World frame, metres.
 #pragma once
 
@@ -15,9 +15,9 @@
 
 namespace crossnav::world {
 
-/// What happens to a house overnight.
+/// Kind of a change overnight.
 enum class ChangeKind {
-  kSameFurniture,   ///< moved on the furniture that it stands on, or beside the same piece
+  kSameFurniture,   ///< moved on its furniture, or beside the same piece
   kOtherFurniture,  ///< to other furniture of the room
   kOtherRoom,       ///< to another room of the floor
   kOtherFloor,
@@ -42,13 +42,13 @@ inline bool IsMove(ChangeKind kind) {
   return kind <= ChangeKind::kOtherFloor;
 }
 
-/// Where an object stood or stands, or where a board bars the way.
+/// Place of an object, or of a board that bars a passage.
 struct ChangePlace {
   Vector3d p_world = Vector3d::Zero();  ///< middle of its lower side
   Box3 box;
   int room = -1;    ///< region of the semantic text; -1 = not known
   int floor = -1;   ///< from 0, by height; -1 = not known
-  int support = 0;  ///< instance that it stands on, or beside; 0 = none
+  int support = 0;  ///< instance below or beside it; 0 = none
 };
 
 struct Change {
@@ -58,7 +58,7 @@ struct Change {
   std::optional<ChangePlace> from, to;
 };
 
-/// A night: what differs from the day before.
+/// A night: differences from the previous day.
 struct DayChanges {
   std::string scene, before;  ///< ids
   int day = 0;                ///< from 1

@@ -11,8 +11,8 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kDayReachableShare = 0.6;  // as of a generated house's rooms
-constexpr std::size_t kMinCategories = 5;   // as of a generated house
+constexpr double kDayReachableShare = 0.6;  // as for rooms of a generated house
+constexpr std::size_t kMinCategories = 5;   // as for a generated house
 
 tl::unexpected<Error> RefuseDay(std::string what, std::string where) {
   return Fail(ErrorCode::kInvalid, std::move(what), std::move(where));
@@ -22,7 +22,7 @@ bool IsShut(const ShutRooms& shut, const RoomView& room) {
   return shut.contains({room.floor, room.region});
 }
 
-/// A place of the first day's largest part that can still be stood on and is behind no shut door.
+/// A still walkable place of the first day's largest part, not behind a shut door.
 std::optional<Vector3d> StartOn(const HouseView& first, const sim::NavMesh& navmesh,
                                 const ShutRooms& shut) {
   const RoomView* largest = nullptr;
@@ -39,7 +39,7 @@ std::optional<Vector3d> StartOn(const HouseView& first, const sim::NavMesh& navm
 
 Result<void> CheckRooms(const HouseView& first, const sim::NavMesh& navmesh, const ShutRooms& shut,
                         const Vector3d& start_world) {
-  constexpr std::size_t kEvery = 4;  // chosen: a point in .3 m, as the generator's gate looks
+  constexpr std::size_t kEvery = 4;  // chosen: one point per .3 m, as in the generator's gate
   for (const RoomView& room : first.rooms) {
     if (IsShut(shut, room)) continue;
     int walkable = 0, reached = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The gate of a changed house: what the generator asks of a house (house/house_gate.h), asked of a
-// scene, so that it holds for imported homes, too. Judged against the first day.
+// Gate of a changed house: the generator's requirements (house/house_gate.h), checked on a scene,
+// so that they apply to imported homes, too. The reference is the first day.
 #pragma once
 
 #include <set>

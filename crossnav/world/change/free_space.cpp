@@ -9,11 +9,11 @@
 namespace crossnav::world {
 namespace {
 
-constexpr double kMargin_m = 0.02;   // chosen: nothing is pushed against its neighbour
-constexpr double kRays_m = 0.07;     // chosen: legs and shelves are seldom thinner and apart
+constexpr double kMargin_m = 0.02;   // chosen: objects do not touch their neighbours
+constexpr double kRays_m = 0.07;     // chosen: few legs and shelves are thinner
 constexpr double kSurface_m = 0.04;  // chosen: a rug's pile and the unevenness of scans
 
-/// Places between `low` and `high`, both ends inside, not further apart than kRays_m.
+/// Values from `low` to `high`, both ends inside, at most kRays_m apart.
 std::vector<double> Steps(double low, double high) {
   const int count = std::max(2, static_cast<int>(std::ceil((high - low) / kRays_m)) + 1);
   std::vector<double> steps;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a box of a scene is empty but for one object, asked with single rays. World frame,
+// Tests by single rays whether a box of a scene is empty except for one object. World frame,
 // metres.
 #pragma once
 
@@ -10,18 +10,18 @@
 
 namespace crossnav::world {
 
-/// Footprint and height of an object at a place, and what it may stand on.
+/// Footprint and height of an object at a place, and its permitted supports.
 struct FreeQuestion {
   Box3 box;     ///< its lower side lies on the carrying surface
-  int but = 0;  ///< the object's own instance, where its triangles are still in the scene
+  int but = 0;  ///< ignored instance: the object itself, while it is in the scene
   std::function<bool(int instance)> may_carry;
 };
 
-/// The surface below all of the box is at its lower side and may carry it, and nothing else is in
-/// the box or in a small margin around it.
+/// Whether permitted supports lie below the whole box, at its lower side, and the box with a small
+/// margin is empty.
 bool IsFree(const sim::RayCaster& caster, const FreeQuestion& question);
 
-/// Distance to the first surface that is not of `but`; `max_m` where there is none.
+/// Distance to the first surface of an instance other than `but`; `max_m` without one.
 double FreeLength(const sim::RayCaster& caster, const Vector3d& p_world, const Vector3d& direction,
                   int but, double max_m);
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kAttempts = 12;  // chosen: of draws of one night
+constexpr int kAttempts = 12;  // chosen: draws of one night
 
 std::string DayId(const std::string& first, int day) {
   return day == 0 ? first : fmt::format("{}-day{}", first, day);

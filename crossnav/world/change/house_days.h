@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A house on later days: overnight objects are moved, removed and added, doors closed, passages and
-// flights barred, on plausible places only, and never so that the house cannot be used any more
-// (day_gate.h). Generated houses and imported homes. Same seed, same bytes.
+// A house on later days, generated or imported. Overnight, objects are moved, removed and added,
+// doors closed, passages and flights barred, at plausible places. The house stays usable
+// (day_gate.h). Same seed, same bytes.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ std::vector<ChangeKind> AllChangeKinds();
 struct DaysOptions {
   std::uint64_t seed = 1;
   int days = 1;
-  std::vector<ChangeKind> kinds = AllChangeKinds();  ///< asked for each night, in this order
+  std::vector<ChangeKind> kinds = AllChangeKinds();  ///< applied each night, in this order
   sim::NavMeshSettings navmesh = {};
 };
 
@@ -36,7 +36,7 @@ struct HouseDay {
   int attempts = 0;                    ///< draws until one passed the gate
 };
 
-/// Draws one day after another from a house; nothing is written.
+/// Draws the days of a house in order; writes no files.
 class HouseCalendar {
  public:
   /// Error: as ViewHouse.
@@ -56,8 +56,8 @@ class HouseCalendar {
   std::unique_ptr<sim::Scene> first_;
   HouseView view_;  // of the first day
   DaysOptions options_;
-  sim::Scene evening_;          // of the day before, without what bars the way
-  std::vector<Change> barred_;  // on the day before
+  sim::Scene evening_;          // of the previous day, without its boards
+  std::vector<Change> barred_;  // on the previous day
   int day_ = 0;
 };
 

@@ -56,7 +56,7 @@ std::vector<GroundPoint> GroundPoints(const sim::Scene& scene, const sim::RayCas
   return points;
 }
 
-/// Of a few points spread over all, one that reaches most of the others.
+/// Of a few spread points, the point that reaches most of the others.
 std::optional<Vector3d> StartOf(const std::vector<GroundPoint>& points,
                                 const sim::NavMesh& navmesh) {
   constexpr std::size_t kStarts = 12, kOthers = 40;  // chosen: the largest part is most of a house
@@ -89,7 +89,7 @@ void AddRooms(const std::vector<GroundPoint>& points, HouseView& view) {
   for (auto& [key, room] : rooms) view.rooms.push_back(std::move(room));
 }
 
-/// Corners of an instance's lowest triangles, spread: where it would touch what carries it.
+/// Spread corners of an instance's lowest triangles: possible contacts with its support.
 std::vector<Vector3d> FeetOf(const sim::Scene& scene, const sim::SceneInstance& instance) {
   std::vector<Vector3d> low;
   const sim::TriangleMesh& mesh = scene.mesh;
@@ -115,7 +115,7 @@ std::vector<Vector3d> FeetOf(const sim::Scene& scene, const sim::SceneInstance& 
   return feet;
 }
 
-/// Instance that most of its feet stand on; 0 = it hangs.
+/// Instance below most of the feet; 0 = hanging.
 int SupportOf(const sim::Scene& scene, const sim::RayCaster& caster,
               const sim::SceneInstance& instance) {
   std::map<int, int> votes;
@@ -146,7 +146,7 @@ int RoomOfRegion(const HouseView& view, int region, double z_m) {
   return best;
 }
 
-/// Room of the floor below the middle of an object, whatever lies between.
+/// Room of the floor below the middle of an object, despite objects between.
 int RoomUnder(const sim::Scene& scene, const sim::RayCaster& caster,
               const sim::SceneInstance& instance, const HouseView& view) {
   Vector3d p = instance.box.Center();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A house as its triangles tell it, generated or imported: rooms with the ground that can be walked
-// on, objects with what they stand on, and the narrow places between rooms. World frame, metres.
+// View of a house, generated or imported, from its triangles: rooms with walkable ground, objects
+// with their supports, and narrow places between rooms. World frame, metres.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ inline constexpr double kGroundGrid_m = 0.15;  // chosen: four points across a n
 struct RoomView {
   int region = 0;                ///< of the semantic text
   int floor = 0;                 ///< of the navmesh
-  std::vector<Vector3d> ground;  ///< walkable points on a grid, that the start reaches
+  std::vector<Vector3d> ground;  ///< points on a grid that can be reached from the start
   bool is_bath = false, is_kitchen = false;
 
   double AreaM2() const {
@@ -32,8 +32,8 @@ struct ObjectView {
   int room = -1;    ///< index of RoomView; -1 = none
   int support = 0;  ///< instance below it, 0 = nothing
   bool is_on_ground = false;
-  bool is_carrier = false;  ///< something stands on it
-  int landmark = 0;         ///< of things on the ground: large piece beside it, 0 = none
+  bool is_carrier = false;  ///< carries another object
+  int landmark = 0;         ///< for objects on the ground: large piece beside, 0 = none
 };
 
 struct HouseView {
@@ -46,11 +46,11 @@ struct HouseView {
 /// Error: no navmesh, no instances, no ground with a name.
 Result<HouseView> ViewHouse(const sim::Scene& scene, const sim::NavMeshSettings& settings);
 
-/// Instance and height of the first surface under `p_world` that is not of `but`, within `max_m`.
+/// Instance and height of the first surface under `p_world` within `max_m`, without instance `but`.
 std::optional<sim::RayHit> SurfaceBelow(const sim::RayCaster& caster, const Vector3d& p_world,
                                         int but, double max_m);
 
-/// Large piece on the ground nearest to `box` within 0.7 m, 0 = none; `but` is left out.
+/// Large piece on the ground nearest to `box` within 0.7 m, 0 = none; ignores `but`.
 int LandmarkBeside(const sim::Scene& scene, const Box3& box, int but);
 
 /// Horizontal gap between two boxes, 0 where they overlap from above [m].

@@ -15,8 +15,8 @@ constexpr Rgb8 kLeafColour{206, 190, 164}, kBarrierColour{196, 92, 48};
 constexpr double kLeafHeight_m = 2.0;     // chosen: below every frame's head
 constexpr double kBarrierHeight_m = 1.1;  // chosen: nobody steps over it, a camera looks over it
 constexpr double kBarrierDeep_m = 0.06;
-constexpr double kInPlane_m = 0.1;  // chosen: a frame's half depth; what is beyond is an open leaf
-constexpr double kAround_m = 1.5;   // chosen: less is a way past the board
+constexpr double kInPlane_m = 0.1;  // chosen: a frame's half depth; beyond it hangs an open leaf
+constexpr double kAround_m = 1.5;   // chosen: a shorter detour leads past the board
 constexpr double kShutShare = 0.3;  // chosen: of the house's ground, behind one door
 constexpr int kBarTries = 6;        // chosen: each costs a navmesh
 
@@ -26,7 +26,7 @@ std::set<int> ChangedOf(const DayChanges& list) {
   return changed;
 }
 
-/// Whether its name, or its category, means it alone.
+/// Whether the object's name or category is unique.
 bool IsOnly(const sim::Scene& scene, const sim::SceneInstance& object) {
   const auto count = [&](const auto& is_same) {
     return std::count_if(scene.instances.begin(), scene.instances.end(), is_same);
@@ -108,7 +108,7 @@ bool IsOfKind(const Passage& passage, ChangeKind kind) {
   }
 }
 
-/// Puts the board in; returns the instance that it belongs to.
+/// Inserts the board; returns its instance.
 int Bar(const Passage& passage, ChangeKind kind, sim::Scene& scene) {
   Board board = passage.board;
   int id = passage.leaf;
@@ -129,14 +129,14 @@ int Bar(const Passage& passage, ChangeKind kind, sim::Scene& scene) {
   return id;
 }
 
-/// Whether the board holds: no way leads past it, or a longer one around.
+/// Whether the board blocks: the path is gone, or a longer path leads around.
 bool IsBarred(const Passage& passage, const sim::NavMesh& open, const sim::NavMesh& barred) {
   const auto open_m = open.Geodesic(passage.a_world, passage.b_world);
   const auto around_m = barred.Geodesic(passage.a_world, passage.b_world);
   return open_m && (!around_m || *around_m > *open_m + kAround_m);
 }
 
-/// A room that a door may shut: one alone, a small part of the house, nothing new in it.
+/// Whether a door may shut these rooms: a single room, a small part of the house, without changes.
 bool MayBeShut(const std::vector<int>& rooms, const HouseView& view, const DayChanges& list) {
   if (rooms.empty()) return true;
   if (rooms.size() > 1) return false;
@@ -165,7 +165,7 @@ struct BarWish {
   std::vector<int> shut;
 };
 
-/// Passages with a way around first; a flight without one is never barred.
+/// Passages with a detour first; a flight without a detour is never barred.
 std::vector<BarWish> BarWishes(const std::vector<Passage>& passages, const ChangeWish& wish,
                                const DayChanges& list, Rng& rng) {
   std::vector<BarWish> wishes;

@@ -15,12 +15,12 @@ struct ChangeWish {
   ChangeKind kind;
 };
 
-/// Makes one change of the kind and notes it in the day's list; objects of which the house has one
-/// only come first, so that a search for them is a search for the change. False where the house has
-/// no place for it. Error: no navmesh.
+/// Makes one change of the kind and adds it to the day's list. Unique objects come first, so that a
+/// search for the object tests the change. False if the house has no place for it. Error: no
+/// navmesh.
 Result<bool> ChangeOnce(const ChangeWish& wish, HouseDay& day, Rng& rng);
 
-/// `scene` of a day without the boards that bar its ways: leaves hang as on the evening before.
+/// `scene` of a day without its boards; leaves hang as on the previous evening.
 sim::Scene WithoutBars(const sim::Scene& scene, const sim::Scene& evening, const DayChanges& list);
 
 }  // namespace crossnav::world

@@ -31,7 +31,7 @@ bool Holds(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// "floor lamp" is a lamp: the last word is what a thing is.
+/// "floor lamp" is a lamp: the last word names the kind.
 std::string_view LastWord(std::string_view name) {
   const auto space = name.rfind(' ');
   return space == std::string_view::npos ? name : name.substr(space + 1);

@@ -14,12 +14,12 @@ namespace crossnav::world {
 namespace {
 
 constexpr double kWidest_m = 1.6;      // chosen: two leaves
-constexpr double kNarrowest_m = 0.4;   // chosen: nobody passes anyway
+constexpr double kNarrowest_m = 0.4;   // chosen: too narrow for a body
 constexpr double kOneDoorway_m = 0.9;  // chosen: crossings nearer to each other are one
 constexpr double kLeafNear_m = 0.3;    // chosen: an open leaf touches its doorway
 constexpr double kOnFlight_m = 0.35;   // chosen: above the second tread, below the third
 
-/// Steps of the ground grid from one room into another.
+/// Steps of the ground grid between two rooms.
 struct Crossing {
   int room_a = 0, room_b = 0;
   Vector3d p_world = Vector3d::Zero();
@@ -62,7 +62,7 @@ std::vector<Crossing> CrossingsOf(const HouseView& view) {
   return crossings;
 }
 
-/// Width of the way at `p_world` across `yaw_rad`, and its middle.
+/// Free width at `p_world` across `yaw_rad`, and its middle.
 struct Section {
   double width_m = 1e9;
   Vector3d middle_world = Vector3d::Zero();
@@ -81,11 +81,11 @@ Section SectionAt(const sim::RayCaster& caster, const Vector3d& p_world, double 
   return {left_m + right_m, p_world + side * (0.5 * (left_m - right_m)), yaw_rad};
 }
 
-/// The narrowest of several sections around a place that is passed along `along`; turned by up to
-/// `most_deg`: on a flight, a section far from square would meet treads instead of walls.
+/// Narrowest of several sections across `along` near a place, turned by up to `most_deg`: on a
+/// flight, a section far from square would meet treads instead of walls.
 Section NarrowestSection(const sim::RayCaster& caster, const Vector3d& p_world,
                          const Vector3d& along, int leaf, double most_deg) {
-  constexpr double kWorthIt_m = 0.01;  // chosen: of equal ones the middle one
+  constexpr double kWorthIt_m = 0.01;  // chosen: least gain over the middle section
   const double across_rad = std::atan2(along.y(), along.x()) + std::numbers::pi / 2;
   const std::initializer_list<double> heights_m = {0.3, 0.6, 0.93};
   Section best;
@@ -128,7 +128,7 @@ bool IsBarrable(const Section& section) {
 
 void AddDoorways(const sim::Scene& scene, const sim::RayCaster& caster, const HouseView& view,
                  std::vector<Passage>& passages) {
-  std::vector<std::pair<Crossing, int>> doorways;  // sums of crossings, and how many
+  std::vector<std::pair<Crossing, int>> doorways;  // sums of crossings, and their counts
   for (const Crossing& crossing : CrossingsOf(view)) {
     const auto same = std::find_if(doorways.begin(), doorways.end(), [&](const auto& doorway) {
       const Vector3d middle = doorway.first.p_world / doorway.second;
@@ -155,7 +155,7 @@ void AddDoorways(const sim::Scene& scene, const sim::RayCaster& caster, const Ho
     SetBoard(section, middle.z(), passage);
     passage.a_world = middle - 0.5 * along;
     passage.b_world = middle + 0.5 * along;
-    if (!IsBarrable(section)) passage.board.length_m = 0;  // a way around, but no place to bar
+    if (!IsBarrable(section)) passage.board.length_m = 0;  // a detour, but no place to bar
     passages.push_back(passage);
   }
 }
@@ -175,7 +175,7 @@ int RoomNearest(const HouseView& view, const Vector3d& p_world, Vector3d* ground
   return best;
 }
 
-/// Where a way first is `rise_m` above its lower end, and its direction there.
+/// First point of a path `rise_m` above its lower end, and the direction there.
 std::optional<std::pair<Vector3d, Vector3d>> PointAbove(std::vector<Vector3d> way, double rise_m) {
   if (way.size() < 2) return std::nullopt;
   if (way.front().z() > way.back().z()) std::reverse(way.begin(), way.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Narrow places of a house at which a way can be barred: doorways and passages between rooms, and
-// flights. World frame, metres.
+// Narrow places of a house that can be barred: doorways and passages between rooms, and flights.
+// World frame, metres.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ namespace crossnav::world {
 struct Passage {
   int room_a = -1, room_b = -1;  ///< indices of rooms; of a flight: where it begins and ends
   Vector3d a_world = Vector3d::Zero(), b_world = Vector3d::Zero();  ///< ground on either side
-  Board board;   ///< across it, as wide as it is; its height is the caller's
-  int leaf = 0;  ///< instance of a door that hangs in it; 0 = none
+  Board board;   ///< across the whole width; the caller sets the height
+  int leaf = 0;  ///< instance of its door; 0 = none
   bool is_flight = false;
 };
 
@@ -24,8 +24,8 @@ struct Passage {
 std::vector<Passage> PassagesOf(const sim::Scene& scene, const sim::RayCaster& caster,
                                 const HouseView& view);
 
-/// Rooms that are cut off from the rest without `passages[index]`, as far as rooms, passages and
-/// flights tell: the smaller side, by area; none where a way leads around.
+/// Rooms cut off by a bar at `passages[index]`, in the graph of rooms, passages and flights: the
+/// side of smaller area; empty if a detour exists.
 std::vector<int> CutOffWithout(const std::vector<Passage>& passages, std::size_t index,
                                const HouseView& view);
 

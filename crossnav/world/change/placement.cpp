@@ -12,13 +12,13 @@
 namespace crossnav::world {
 namespace {
 
-constexpr int kPlaceTries = 60;       // chosen: places of a room that are tried for an object
-constexpr double kLong_m = 0.9;       // chosen: what is longer stands at a wall, or where it stood
-constexpr double kWallReach_m = 2.5;  // chosen: a wall further away is another wall's
+constexpr int kPlaceTries = 60;          // chosen: draws of a place in a room
+constexpr double kLong_m = 0.9;          // chosen: longer objects stay at a wall, or at their place
+constexpr double kWallReach_m = 2.5;     // chosen: a wall further away is another wall's
 constexpr double kOffSkirting_m = 0.05;  // chosen: skirting and cables
 constexpr double kMovedOnTop_m = 0.25;   // chosen: further than a hand pushes a thing aside
 constexpr double kMovedBeside_m = 0.5;   // chosen: another side of a table
-constexpr double kMovedAway_m = 1.0;     // chosen: out of the success radius of where it was
+constexpr double kMovedAway_m = 1.0;     // chosen: outside the success radius of its old place
 constexpr double kLowestTop_m = 0.25, kHighestTop_m = 1.4;  // chosen: above the ground
 constexpr double kLoungeArea_m2 = 5;                        // chosen: smaller rooms hold no sofa
 
@@ -74,7 +74,7 @@ class Placer {
     return {foot_, quarter_turns * std::numbers::pi / 2, Vector3d::Zero()};
   }
 
-  /// Free way from a side of `box` at half its height, but for the object itself.
+  /// Free distance from a side of `box` at half its height, without the object itself.
   double FreeFrom(const Box3& box, int side, double max_m, int* instance = nullptr) const {
     const Vector3d& out = kSides[static_cast<std::size_t>(side)];
     Vector3d from = box.Center();
@@ -108,7 +108,7 @@ class Placer {
     return WallSide(object_.box, 0.4);  // chosen: else it stands free in its room
   }
 
-  /// Rooms that the kind of change asks for and that suit the object.
+  /// Rooms permitted by the kind of change and suitable for the object.
   std::vector<int> RoomsAsked() const {
     std::vector<int> rooms;
     for (int i = 0; i < static_cast<int>(night_.view.rooms.size()); ++i) {
@@ -141,7 +141,7 @@ class Placer {
     return !(room.is_bath && object_.category == "chair");
   }
 
-  /// The surroundings make the change one of the kind that was asked for.
+  /// Whether the surroundings agree with the requested kind of change.
   bool IsOfKind(const Box3& box, int beside) const {
     const double moved_m = (FootOf(box) - foot_).head<2>().norm();
     switch (kind_) {
@@ -172,9 +172,9 @@ class Placer {
 
   bool IsChanged(int instance) const { return night_.changed.contains(instance); }
 
-  /// Back to the nearest wall, for what stood so; the turn and the shift towards the wall.
+  /// Backs an object to the nearest wall if it stood so before: turn and shift towards the wall.
   std::optional<std::pair<int, Vector3d>> AgainstWall(Vector3d p_world) const {
-    Box3 probe;  // a thin post: the wall is looked for from the middle of the place
+    Box3 probe;  // a thin post, to find the wall from the middle of the place
     probe.Add(p_world + Vector3d(-0.01, -0.01, 0));
     probe.Add(p_world + Vector3d(0.01, 0.01, 0.8));
     const auto wall = WallSide(probe, kWallReach_m);
@@ -261,7 +261,7 @@ class Placer {
     return StandingAt(turn, p, night_.view.objects.at(top.id).room, top.id);
   }
 
-  /// The object itself is no obstacle to its move, but it is one to its copy.
+  /// The object is no obstacle to its own move, but to its copy.
   int Hidden() const { return kind_ == ChangeKind::kAdded ? 0 : object_.id; }
 
   const Night& night_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where an object of a house may be put: on free ground, or on a free part of a top, turned as
-// people turn things, large ones with their back to a wall again. World frame, metres.
+// Places for an object of a house: free ground, or a free part of a top. Turns are plausible; large
+// objects keep their back to a wall. World frame, metres.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 namespace crossnav::world {
 
 struct Standing {
-  Shift shift;  ///< from where it stood
+  Shift shift;  ///< from its old place
   ChangePlace place;
 };
 
@@ -23,18 +23,18 @@ struct Standing {
 struct Night {
   const HouseView& view;  ///< of the evening
   sim::Scene& scene;
-  std::unique_ptr<sim::RayCaster> caster;  ///< of the scene as it is now: renewed after each edit
-  std::set<int> changed = {};              ///< instances; nothing is put on or beside them
+  std::unique_ptr<sim::RayCaster> caster;  ///< of the current scene: renewed after each edit
+  std::set<int> changed = {};              ///< instances; no object is put on or beside them
 };
 
-/// Where `object` stands, in the words of a list of changes.
+/// Place of `object` for a list of changes.
 ChangePlace PlaceOf(const HouseView& view, const sim::SceneInstance& object);
 
-/// Whether people move it: its name, and that it stands on something and carries nothing.
+/// Whether people move the object: by its name, with a support and without a load.
 bool MayMove(const HouseView& view, const sim::SceneInstance& object);
 
-/// A place for `object` that makes the change one of `kind` (a move, or kAdded: anywhere else).
-/// Nothing where a few dozen draws give none.
+/// Draws a place for `object` by `kind` (a move, or kAdded: anywhere else). Empty after a few dozen
+/// failed draws.
 std::optional<Standing> FindPlace(const Night& night, const sim::SceneInstance& object,
                                   ChangeKind kind, Rng& rng);
 

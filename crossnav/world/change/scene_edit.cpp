@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kRemoved = ~std::uint32_t{0};
 
-/// Copy of vertex `v` with all that belongs to it.
+/// Copy of vertex `v` with all its attributes.
 std::uint32_t CopyVertex(sim::TriangleMesh& mesh, std::uint32_t v) {
   mesh.vertices.push_back(mesh.vertices[v]);
   if (!mesh.uvs.empty()) mesh.uvs.push_back(mesh.uvs[v]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edits of a scene that was read: instances are moved, copied, taken out, boards are put in. World
-// frame, metres. After the last edit of several call Settle(): boxes and hashes follow from it.
+// Edits of a loaded scene: move, copy and remove instances, add boards. World frame, metres. Call
+// Settle() after the last edit; it computes boxes and hashes.
 #pragma once
 
 #include <functional>
@@ -21,16 +21,16 @@ struct Shift {
   Vector3d Of(const Vector3d& p_world) const;
 };
 
-/// Moves the triangles of `id`; vertices that it shares with others stay theirs.
+/// Moves the triangles of `id`; shared vertices stay for the other instances.
 void MoveInstance(sim::Scene& scene, int id, const Shift& shift);
 
 /// Adds a copy of `id` at another place and returns the copy's id.
 int CopyInstance(sim::Scene& scene, int id, const Shift& shift);
 
-/// Takes out its triangles and its name.
+/// Removes its triangles and its name.
 void RemoveInstance(sim::Scene& scene, int id);
 
-/// Takes out the triangles of `id` for whose centre `is_out` holds.
+/// Removes the triangles of `id` whose centre fulfils `is_out`.
 void RemoveTriangles(sim::Scene& scene, int id,
                      const std::function<bool(const Vector3d& centre_world)>& is_out);
 
@@ -40,7 +40,7 @@ struct Board {
   double yaw_rad = 0;                        ///< of its long side; 0 = world x
   double length_m = 1, height_m = 1, thickness_m = 0.04;
 };
-/// Gives the board to instance `id`, which must exist; its colour is a material of its own.
+/// Adds the board to instance `id`, which must exist, with a new material for its colour.
 void AddBoard(sim::Scene& scene, int id, const Board& board, Rgb8 colour);
 
 /// New instance without triangles; returns its id, one above the highest.
