@@ -43,13 +43,13 @@ if words[0] == "report":
 '''
 
 
-def run(root: pathlib.Path, suite: str):
+def run(root: pathlib.Path, suite: str, *options: str):
     """(calls, page) of scripts/results.py for `suite`."""
     program = root / "crossnav"
     program.write_text(PROGRAM.replace("{python}", sys.executable))
     program.chmod(0o755)
     subprocess.run([sys.executable, str(SCRIPT), suite, "--jobs", "3", "--commit", "abc",
-                    "--out", "page.md", "--set", "a=1"], cwd=root, check=True,
+                    "--out", "page.md", *options, "--set", "a=1"], cwd=root, check=True,
                    env={**os.environ, "CROSSNAV": str(program)}, capture_output=True)
     return (root / "calls.txt").read_text(), (root / "page.md").read_text()
 
@@ -84,6 +84,17 @@ class Results(unittest.TestCase):
                      "- `no-history-poi-pure` to `full`", "Measured at `abc`"):
             self.assertIn(part, page)
         self.assertNotIn("Causes of failure", page)
+
+    def test_single_object_runs_get_no_option_that_eval_lacks(self):
+        with tempfile.TemporaryDirectory() as folder:
+            calls, _ = run(pathlib.Path(folder), "suite-x", "--homes", "a.jar", "--furniture=pack",
+                           "--config", "mine.toml")
+        for line in calls.splitlines():
+            if line.startswith("suite run"):
+                self.assertIn("--homes a.jar --furniture=pack --config mine.toml", line)
+            if line.startswith("eval"):
+                self.assertTrue(line.endswith("--jobs 3 --set a=1"), line)
+                self.assertEqual(line.count("--config"), 1)
 
 
 if __name__ == "__main__":
