@@ -61,11 +61,15 @@ def sections(report: str) -> dict:
 
 
 def paper_tables(report: str, methods: tuple) -> list:
-    """The report's tables beside the paper's, one heading level deeper."""
+    """The report's tables beside the paper's, one heading level deeper.
+
+    Without its plots, which stand in files beside it, and without its comparisons: the page has
+    its own.
+    """
     found = sections(report)
     lines = []
     for title, text in found.items():
-        if title not in methods:
+        if title not in methods and title != "Plots" and not title.endswith(", paired"):
             lines += [f"### {title}", "", text, ""]
     for method in methods:
         if method in found and "### Outcomes" in found[method]:
@@ -177,7 +181,10 @@ def run_single(place: Path, episodes: int, jobs: str, options: list) -> list:
                  "--episodes", str(file), "--variant", variant, "--out", str(single / variant),
                  "--jobs", jobs, *single_options(options))
     report_of([single / variant for variant in SINGLE], single / "report")
-    return paper_tables((single / "report/report.md").read_text(encoding="utf-8"), ())[:4]
+    lines = paper_tables((single / "report/report.md").read_text(encoding="utf-8"), ())[:4]
+    note = (f"{episodes} episodes of one goal in the same houses, in the paper's frozen "
+            f"configuration, `{SINGLE_CONFIG.relative_to(ROOT)}`.")
+    return [*lines[:2], note, "", *lines[2:]]
 
 
 def main() -> None:
