@@ -28,7 +28,7 @@ FILES ?= $(SOURCES)
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' Makefile
 	@echo "  Settings: DEMO=1|2  PERCEPTION=oracle|networks  SUITE=$(SUITE)  PRESET=release|dev|ci  JOBS=$(JOBS)"
-	@echo "            FILES='a.cpp b.h' for format and lint (default: all)"
+	@echo "            FILES='a.cpp b.h' for format and lint (default: all)  ARGS='--set KEY=VALUE' for results"
 
 setup:  ## install what the build needs (asks for sudo only when something is missing)
 	@scripts/setup.sh
@@ -63,7 +63,7 @@ bench:  ## timings of the kernels and of the whole step (see BENCHMARKS.md)
 	@build/bench/apps/crossnav/crossnav bench
 
 results: program  ## a suite in every variant, into docs/results.md (the full one: days)
-	@CROSSNAV=$(BUILD)/apps/crossnav/crossnav scripts/results.py $(SUITE) --jobs $(JOBS)
+	@CROSSNAV=$(BUILD)/apps/crossnav/crossnav scripts/results.py $(SUITE) --jobs $(JOBS) $(ARGS)
 
 networks: program  ## render frames, train, export and evaluate the networks (hours on a CPU)
 	@networks/make.sh

@@ -24,6 +24,8 @@ OURS = ("planar", "no-history-poi", "no-history-poi-pure", "full")
 # tab:single_object_results has no row without History POIs: one goal has no history.
 SINGLE = ("onemap", "paper")
 SINGLE_CONFIG = ROOT / "config/objectnav_paper.toml"
+# Options of `suite run` that `eval` lacks, or that the frozen configuration replaces.
+NOT_OF_SINGLE = ("--homes", "--buildings", "--furniture", "--config")
 
 
 def crossnav(*words: str) -> str:
@@ -59,11 +61,15 @@ def sections(report: str) -> dict:
 
 
 def paper_tables(report: str, methods: tuple) -> list:
-    """The report's tables beside the paper's, one heading level deeper."""
+    """The report's tables beside the paper's, one heading level deeper.
+
+    Without its plots, which stand in files beside it, and without its comparisons: the page has
+    its own.
+    """
     found = sections(report)
     lines = []
     for title, text in found.items():
-        if title not in methods:
+        if title not in methods and title != "Plots" and not title.endswith(", paired"):
             lines += [f"### {title}", "", text, ""]
     for method in methods:
         if method in found and "### Outcomes" in found[method]:
@@ -152,6 +158,17 @@ def measured(place: Path) -> tuple:
     return runs, comparisons
 
 
+def single_options(options: list) -> list:
+    """Without NOT_OF_SINGLE, written as "--homes JAR" or as "--homes=JAR"."""
+    kept, is_value = [], False
+    for word in options:
+        is_dropped = is_value or word.split("=")[0] in NOT_OF_SINGLE
+        is_value = word in NOT_OF_SINGLE
+        if not is_dropped:
+            kept.append(word)
+    return kept
+
+
 def run_single(place: Path, episodes: int, jobs: str, options: list) -> list:
     """Single-object navigation in the suite's houses, in the paper's frozen configuration."""
     single = place / "single"
@@ -162,9 +179,12 @@ def run_single(place: Path, episodes: int, jobs: str, options: list) -> list:
     for variant in SINGLE:
         crossnav("eval", "--config", str(SINGLE_CONFIG), "--scenes", str(place / "scenes"),
                  "--episodes", str(file), "--variant", variant, "--out", str(single / variant),
-                 "--jobs", jobs, *options)
+                 "--jobs", jobs, *single_options(options))
     report_of([single / variant for variant in SINGLE], single / "report")
-    return paper_tables((single / "report/report.md").read_text(encoding="utf-8"), ())[:4]
+    lines = paper_tables((single / "report/report.md").read_text(encoding="utf-8"), ())[:4]
+    note = (f"{episodes} episodes of one goal in the same houses, in the paper's frozen "
+            f"configuration, `{SINGLE_CONFIG.relative_to(ROOT)}`.")
+    return [*lines[:2], note, "", *lines[2:]]
 
 
 def main() -> None:

@@ -34,6 +34,7 @@ from crossnav._core import (
     VoxelMap,
     VoxelState,
     ask,
+    category_of,
     generate_house,
     list_scenes,
     load_map,
@@ -55,7 +56,7 @@ __all__ = [
     "Config", "DenseEncoder", "Detection", "Detector", "Episode", "Error", "ExplorationOption",
     "Hooks", "MemoryCluster", "Observation", "Perception", "Record", "Scene", "Segmenter",
     "SemanticMemory", "Settings", "Simulator", "StairSegmenter", "StepResult", "VoxelMap",
-    "VoxelState", "__version__", "ask", "generate_house", "list_scenes", "load_map", "make_episode",
-    "map_header", "metrics", "play", "read_episodes", "read_recording", "run_episode",
-    "save_map", "write_embedded_house",
+    "VoxelState", "__version__", "ask", "category_of", "generate_house", "list_scenes", "load_map",
+    "make_episode", "map_header", "metrics", "play", "read_episodes", "read_recording",
+    "run_episode", "save_map", "write_embedded_house",
 ]

@@ -5,6 +5,7 @@
 #include "common.h"
 #include "crossnav/core/action.h"
 #include "crossnav/core/categories.h"
+#include "crossnav/core/category_table.h"
 #include "crossnav/core/colour_grid.h"
 #include "crossnav/evaluation/settings/config_file.h"
 
@@ -227,6 +228,13 @@ void BindCore(nb::module_& m) {
   nb::list categories;
   for (const std::string_view name : kCategories) categories.append(nb::cast(name));
   m.attr("CATEGORIES") = nb::tuple(categories);
+  m.def(
+      "category_of",
+      [](const std::string& name) {
+        const auto found = DefaultCategories().find(name);
+        return found == DefaultCategories().end() ? std::string() : found->second;
+      },
+      "name"_a, "Goal of a raw name of a scene (\"armchair\": \"chair\"), \"\" without one.");
   BindCamera(m);
   BindPose(m);
   BindConfig(m);

@@ -33,6 +33,7 @@ if words[0] == "report":
     is_single = "single" in words[1]
     text = "# Report\\n\\n" + ("## Single-object navigation\\n\\nsingle rows\\n" if is_single
                                else "## All episodes\\n\\noverall rows\\n")
+    text += "\\n## a against b, paired\\n\\ntwice\\n\\n## Plots\\n\\n![x](x.svg)\\n"
     for name in names:
         text += "\\n## " + name + "\\n\\nof it\\n\\n### Outcomes\\n\\nrows of " + name
         text += "\\n\\n### Causes of failure\\n\\nnone\\n"
@@ -43,13 +44,13 @@ if words[0] == "report":
 '''
 
 
-def run(root: pathlib.Path, suite: str):
+def run(root: pathlib.Path, suite: str, *options: str):
     """(calls, page) of scripts/results.py for `suite`."""
     program = root / "crossnav"
     program.write_text(PROGRAM.replace("{python}", sys.executable))
     program.chmod(0o755)
     subprocess.run([sys.executable, str(SCRIPT), suite, "--jobs", "3", "--commit", "abc",
-                    "--out", "page.md", "--set", "a=1"], cwd=root, check=True,
+                    "--out", "page.md", *options, "--set", "a=1"], cwd=root, check=True,
                    env={**os.environ, "CROSSNAV": str(program)}, capture_output=True)
     return (root / "calls.txt").read_text(), (root / "page.md").read_text()
 
@@ -80,10 +81,24 @@ class Results(unittest.TestCase):
                                     f"{variant} .*--set a=1\n")
         for part in ("### All episodes\n\noverall rows", "### Outcomes of `paper`\n\nrows of paper\n",
                      "### Outcomes of `paper-no-history-poi`\n", "### Outcomes of `onemap`\n",
-                     "### Single-object navigation\n\nsingle rows", "- `onemap` to `paper`: SR 10.0",
+                     "### Single-object navigation\n\n24 episodes of one goal",
+                     "- `onemap` to `paper`: SR 10.0",
                      "- `no-history-poi-pure` to `full`", "Measured at `abc`"):
             self.assertIn(part, page)
-        self.assertNotIn("Causes of failure", page)
+        self.assertRegex(page, r"`config/objectnav_paper.toml`.\n\nsingle rows")
+        for part in ("Causes of failure", "Plots", ".svg", ", paired"):
+            self.assertNotIn(part, page)
+
+    def test_single_object_runs_get_no_option_that_eval_lacks(self):
+        with tempfile.TemporaryDirectory() as folder:
+            calls, _ = run(pathlib.Path(folder), "suite-x", "--homes", "a.jar", "--furniture=pack",
+                           "--config", "mine.toml")
+        for line in calls.splitlines():
+            if line.startswith("suite run"):
+                self.assertIn("--homes a.jar --furniture=pack --config mine.toml", line)
+            if line.startswith("eval"):
+                self.assertTrue(line.endswith("--jobs 3 --set a=1"), line)
+                self.assertEqual(line.count("--config"), 1)
 
 
 if __name__ == "__main__":

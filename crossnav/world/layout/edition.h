@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Distributions of an edition of the generator. Edition 1 is kept byte for byte, because named
-// benchmarks use it. Edition 2 adds shapes of real buildings. A chance of 0 draws no random number,
-// so that an ingredient of a later edition changes no house of an earlier edition.
+// Distributions of an edition of the generator. Edition 1 draws the same plans for ever, because
+// named benchmarks use it. Edition 2 adds shapes of real buildings. A chance of 0 draws no random
+// number, so that an ingredient of a later edition changes no house of an earlier edition.
 #pragma once
 
 #include "crossnav/core/rng.h"

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "crossnav/world/mesh/coplanar.h"
+
 namespace crossnav::world {
 namespace {
 
@@ -187,6 +189,10 @@ void MeshBuilder::AddMesh(const sim::TriangleMesh& part, int material_offset) {
         static_cast<std::uint16_t>(part.triangle_material[t] + material_offset));
     mesh_.triangle_instance.push_back(instance);
   }
+}
+
+void MeshBuilder::RemoveOverlaps() {
+  mesh_ = WithoutOverlaps(std::move(mesh_));
 }
 
 }  // namespace crossnav::world

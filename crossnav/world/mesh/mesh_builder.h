@@ -50,6 +50,9 @@ class MeshBuilder {
   /// instance.
   void AddMesh(const sim::TriangleMesh& part, int material_offset);
 
+  /// Leaves each part of the surface so far to one face (coplanar.h).
+  void RemoveOverlaps();
+
   const sim::TriangleMesh& mesh() const { return mesh_; }
   sim::TriangleMesh TakeMesh() { return std::move(mesh_); }
 

@@ -122,6 +122,7 @@ BuiltHouse BuildHouseWithLights(const HousePlan& plan, const BuildOptions& optio
   BuildWalls(plan, scene);
   BuildStairs(plan, scene);
   BuildBlocks(plan, scene);
+  scene.mesh.RemoveOverlaps();  // walls share their corners
   for (const Placement& p : plan.furniture) scene.Place(p.model, p.T_world_object, p.room);
   return {scene.Finish(plan.id), std::move(scene.glowing)};
 }
