@@ -71,11 +71,10 @@ Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& c
     house["seconds"] = trial->seconds;
     house["record_ms"] = trial->record_ms;
     house["relate_ms"] = trial->relate_ms;
+    house["failures"] = trial->objects.failures;
     houses.push_back(std::move(house));
     console.Log(fmt::format("{}: graph in {:.2f} s; records {:.2f} ms a view, relations {:.2f} ms",
                             trial->house, trial->seconds, trial->record_ms, trial->relate_ms));
-    for (const std::string& failure : trial->objects.failures)
-      if (options.with_failures) console.Log(trial->house + ": " + failure);
     if (options.pictures.empty()) continue;
     const auto folder = std::filesystem::path(options.pictures) / trial->house;
     if (auto ok = WriteFloorPictures(trial->graph, folder); !ok) return ok;

@@ -81,6 +81,20 @@ int PlanRoomOf(const world::HousePlan& plan, const Vector3d& p) {
   return found;
 }
 
+/// Storey of a point, from 0: levels less than 1.5 m apart are one.
+int PlanFloorOf(const world::HousePlan& plan, const Vector3d& p) {
+  constexpr double kStorey_m = 1.5, kUnderFloor_m = 0.3;  // as sim::Floor; as PlanRoomOf
+  int floor = -1;
+  double base_m = 0;
+  for (const world::Level& level : plan.levels) {
+    if (level.floor_m > p.z() + kUnderFloor_m) break;
+    if (floor >= 0 && level.floor_m - base_m < kStorey_m) continue;
+    ++floor;
+    base_m = level.floor_m;
+  }
+  return std::max(0, floor);
+}
+
 /// The graph that the scene itself would make.
 scenegraph::SceneGraph TrueObjects(const ObjectSurvey& survey, const sim::Scene& scene,
                                    const world::HousePlan& plan) {
@@ -93,7 +107,7 @@ scenegraph::SceneGraph TrueObjects(const ObjectSurvey& survey, const sim::Scene&
     object.category = named.first;
     object.box = instance.box;
     object.p_center_world = instance.box.Center();
-    object.floor = 0;  // rooms tell floors apart, what lies over what is near
+    object.floor = PlanFloorOf(plan, object.p_center_world);
     object.room = PlanRoomOf(plan, object.p_center_world);
     truth.objects.push_back(std::move(object));
   }
