@@ -34,6 +34,7 @@ Result<void> WorldChange(const ChangeOptions& options, const CommonOptions& /*co
   world::DaysOptions days;
   days.seed = options.seed;
   days.days = options.days;
+  days.may_be_fewer = true;
   if (!options.kinds.empty()) days.kinds.clear();
   for (const std::string& name : options.kinds) {
     const auto kind = world::ChangeKindFromName(name);

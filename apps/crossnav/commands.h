@@ -307,7 +307,6 @@ struct GraphBenchOptions {
   int count = 10, edition = 1;
   std::uint64_t seed = 1;
   std::string pictures;  ///< folder; empty = none
-  bool with_failures = false;
 };
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console);

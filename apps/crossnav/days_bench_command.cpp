@@ -216,6 +216,7 @@ Result<std::vector<DayFigures>> PlayDays(const DaysRun& run, Console& console) {
   if (!scene) return tl::unexpected(scene.error());
   world::DaysOptions options;
   options.seed = run.options.seed;
+  options.may_be_fewer = true;
   auto calendar = world::HouseCalendar::Begin(std::move(*scene), options);
   if (!calendar) return tl::unexpected(calendar.error());
   std::vector<DayFigures> days;

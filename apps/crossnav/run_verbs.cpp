@@ -338,7 +338,6 @@ void AddTools(CLI::App& app, Options& o) {
   graph->add_option("--edition", o.graph_bench.edition, "Of the generator")
       ->check(CLI::Range(1, 2));
   graph->add_option("--pictures", o.graph_bench.pictures, "Folder for a picture of each floor");
-  graph->add_flag("--failures", o.graph_bench.with_failures, "List missed and wrong relations");
   AddDaysBench(*bench, o);
   AddLocalizeBench(*bench, o);
   CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",

@@ -36,6 +36,10 @@ std::string PluralOf(std::string_view noun);
 /// lamp). Names of the goal categories stand for themselves alone.
 bool IsKindOf(std::string_view category, std::string_view noun);
 
+/// Whether such a thing can stand on that furniture: beds stand on the ground or a rug, windows are
+/// in walls.
+bool CanStandOn(std::string_view category, std::string_view furniture);
+
 /// Canonical names that IsKindOf `noun`, itself first.
 std::vector<std::string> KindsOf(std::string_view noun);
 

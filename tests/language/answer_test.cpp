@@ -87,6 +87,12 @@ TEST_F(Asking, WhatStandsOnSomethingAndInARoom) {
   EXPECT_NE(desk.text.find("no desk is known"), std::string::npos) << desk.text;
 }
 
+TEST_F(Asking, NoSofaStandsOnATableThoughTheirBoxesOverlap) {
+  Add("sofa", 0, {3, 3, 0.6}, {0.8, 0.8, 0.7});
+  Add("window", 0, {3, 3.2, 1.3}, {0.8, 0.1, 1});
+  EXPECT_EQ(To("what is on the dining table").things, std::vector<int>{plant});
+}
+
 TEST(Questions, ErrorsSayWhatCanBeAsked) {
   const auto why = ParseQuestion("why is the sky blue");
   ASSERT_FALSE(why);
