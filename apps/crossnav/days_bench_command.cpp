@@ -13,13 +13,12 @@
 #include <thread>
 
 #include "commands.h"
-#include "crossnav/core/read_file.h"
 #include "crossnav/core/rng.h"
-#include "crossnav/evaluation/files/gzip_file.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/lifelong/visit_maker.h"
 #include "crossnav/evaluation/lifelong/visit_runner.h"
 #include "crossnav/evaluation/running/timing.h"
+#include "crossnav/geometry/map_blocks.h"
 #include "crossnav/world/change/house_days.h"
 #include "memory_files.h"
 #include "perception_source.h"
@@ -104,15 +103,40 @@ Result<void> KillSave(const std::function<void(const fs::path&)>& save, const fs
   return {};
 }
 
-/// Bytes of `file` against those of both days. Error: a mixture, or a file that cannot be loaded.
-Result<Killed> LeftBy(const fs::path& file, const std::string& old_day,
-                      const std::string& new_day) {
-  if (const auto loaded = store::LoadMemory(file); !loaded) return tl::unexpected(loaded.error());
-  const auto bytes = ReadFile(file);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (*bytes == old_day) return Killed::kOld;
-  if (*bytes == new_day) return Killed::kNew;
+/// Content, not bytes: SQLite does not restore free pages.
+bool HoldTheSame(const store::LoadedMemory& a, const store::LoadedMemory& b) {
+  if (a.header.revision != b.header.revision || a.memory.Size() != b.memory.Size()) return false;
+  for (std::int64_t row = 0; row < a.memory.Size(); ++row)
+    if (!(a.memory.RowAt(row) == b.memory.RowAt(row))) return false;
+  return a.objects == b.objects && a.flights.size() == b.flights.size() &&
+         geometry::ExportBlocks(a.map) == geometry::ExportBlocks(b.map);
+}
+
+/// Content of `file` against that of both days. Error: a mixture, or a file that cannot be loaded.
+Result<Killed> LeftBy(const fs::path& file, const store::LoadedMemory& yesterday,
+                      const fs::path& today) {
+  const auto left = store::LoadMemory(file);
+  if (!left) return tl::unexpected(left.error());
+  if (HoldTheSame(*left, yesterday)) return Killed::kOld;
+  const auto new_day = store::LoadMemory(today);
+  if (!new_day) return tl::unexpected(new_day.error());
+  if (HoldTheSame(*left, *new_day)) return Killed::kNew;
   return Fail(ErrorCode::kMalformed, "is neither the old day nor the new one", file.string());
+}
+
+/// Starts to save on a copy of yesterday's map and is killed.
+Result<void> KillOneSave(const std::function<Result<store::SaveReport>(const fs::path&)>& save,
+                         const fs::path& copy, const DaysRun& run, DayFigures& day) {
+  const auto yesterday = store::LoadMemory(copy);
+  if (!yesterday) return tl::unexpected(yesterday.error());
+  Rng rng(run.options.seed, static_cast<std::uint64_t>(day.day));
+  const double after_s = rng.Uniform(0, kKillWithin * day.save_s);
+  if (auto ok = KillSave([&](const fs::path& file) { (void)save(file); }, copy, after_s); !ok)
+    return ok;
+  const auto left = LeftBy(copy, *yesterday, run.map);
+  if (!left) return tl::unexpected(left.error());
+  day.killed = *left;
+  return {};
 }
 
 /// Saves over yesterday's map, then once more, killed, over a copy of it.
@@ -120,27 +144,17 @@ Result<void> SaveDay(const agent::Agent& agent, const DaysRun& run, DayFigures& 
   const auto save = [&](const fs::path& file) {
     return SaveMemoryOf(agent, file, run.perception.EncoderName(), "bench days");
   };
-  const std::string yesterday = day.day > 0 ? ReadFile(run.map).value_or("") : std::string();
+  const fs::path copy = run.map.string() + ".killed";
+  std::error_code error;
+  if (day.day > 0) fs::copy_file(run.map, copy, fs::copy_options::overwrite_existing, error);
+  if (error) return Fail(ErrorCode::kIo, error.message(), copy.string());
   evaluation::Stopwatch watch;
   if (const auto saved = save(run.map); !saved) return tl::unexpected(saved.error());
   day.save_s = watch.Next().wall_ms * 1e-3;
   if (day.day == 0) return {};
-  const fs::path copy = run.map.string() + ".killed";
-  if (auto ok = evaluation::WriteTextFile(copy, yesterday); !ok) return ok;
-  Rng rng(run.options.seed, static_cast<std::uint64_t>(day.day));
-  if (auto ok = KillSave([&](const fs::path& file) { (void)save(file); }, copy,
-                         rng.Uniform(0, kKillWithin * day.save_s));
-      !ok) {
-    return ok;
-  }
-  const auto today = ReadFile(run.map);
-  if (!today) return tl::unexpected(today.error());
-  const auto left = LeftBy(copy, yesterday, *today);
-  if (!left) return tl::unexpected(left.error());
-  day.killed = *left;
-  std::error_code ignored;
-  fs::remove(copy, ignored);
-  return {};
+  auto killed = KillOneSave(save, copy, run, day);
+  fs::remove(copy, error);
+  return killed;
 }
 
 void Measure(const agent::Agent& agent, DayFigures& day) {

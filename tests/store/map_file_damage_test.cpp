@@ -11,6 +11,7 @@
 #include <functional>
 #include <thread>
 
+#include "crossnav/objects/object_book.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
 #include "store/small_world.h"
@@ -53,6 +54,8 @@ SaveInfo DayInfo(int day) {
   objects::ObjectRecord record;
   record.id = 0;
   record.category = "bed";
+  record.voxels = {{0, 0, day}};
+  Measure(record, 0.1);
   record.last_seen_day = day;
   record.picture_png.assign(5000, static_cast<std::uint8_t>(day));
   SaveInfo info;
