@@ -2,6 +2,7 @@
 // `bench days`: one memory kept through days of change. Each day: load, search goals, save. Each
 // save is made a second time, on a copy of yesterday's file, by a process that is killed.
 #include <fmt/format.h>
+#include <malloc.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -209,6 +210,7 @@ Result<DayFigures> PlayDay(sim::Scene scene, int number, const DaysRun& run) {
   }
   hooks.end = [&](const agent::Agent& agent) {
     Measure(agent, day);
+    (void)::malloc_trim(0);  // memory of earlier days that is free
     day.resident_mb = evaluation::ResidentMb();
     return SaveDay(agent, run, day);
   };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/cli_fixture.h"
+#include "crossnav/trace/replay_reader.h"
 
 namespace crossnav {
 namespace {
@@ -26,6 +27,9 @@ TEST_F(LifelongCli, TheDemoFindsUpstairsWhatTheNightCarriedThere) {
   EXPECT_EQ(stage["floor_end"], 1);
   for (const char* name : {"day1/replay.html", "day2/replay.html", "day2/floor_1.png", "home.map"})
     EXPECT_TRUE(test::fs::exists(At("demo/lifelong") / name)) << name;
+  const auto day2 = trace::ReadReplay(At("demo/lifelong/day2/replay.mcap"));
+  ASSERT_TRUE(day2.has_value()) << day2.error().Message();
+  EXPECT_GT(day2->steps.front().trace.voxel_changes.size(), 50'000U) << "it shows the memory";
   const Json info = Json::parse(Run("map info demo/lifelong/home.map --json").out);
   EXPECT_EQ(info["revision"], 2);
 }
