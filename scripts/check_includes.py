@@ -134,7 +134,7 @@ ADAPTERS = {
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # Headers of the language and of the system: no slash and no dot, or C and POSIX names.
 SYSTEM = re.compile(r"^([a-z_]+|(std|string|errno|stdio|stdlib|stdint|math|time|signal|fcntl|dlfcn|"
-                    r"unistd|cxxabi|execinfo|cpuid|immintrin|sched|pthread|poll|termios)\.h|"
+                    r"unistd|malloc|cxxabi|execinfo|cpuid|immintrin|sched|pthread|poll|termios)\.h|"
                     r"(sys|linux|arpa|netinet|bits)/.*)$")
 
 

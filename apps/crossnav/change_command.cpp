@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "change_text.h"
 #include "commands.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/world/change/house_days.h"
@@ -11,21 +12,6 @@ namespace crossnav::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string PlaceText(const world::ChangePlace& place) {
-  std::string text = fmt::format("{:.2f}, {:.2f}, {:.2f}", place.p_world.x(), place.p_world.y(),
-                                 place.p_world.z());
-  if (place.room >= 0) text += fmt::format(" (room {}, floor {})", place.room, place.floor);
-  return text;
-}
-
-std::string ChangeText(const world::Change& change) {
-  std::string text =
-      fmt::format("  {:<15} {} {}", world::NameOf(change.kind), change.name, change.instance);
-  if (change.from) text += "  from " + PlaceText(*change.from);
-  if (change.to) text += (change.from ? "  to " : "  at ") + PlaceText(*change.to);
-  return text + "\n";
-}
 
 std::string DayText(const world::DayReport& day) {
   std::string text = fmt::format("{}: {} changes\n", day.folder.string(), day.list.changes.size());
@@ -48,6 +34,7 @@ Result<void> WorldChange(const ChangeOptions& options, const CommonOptions& /*co
   world::DaysOptions days;
   days.seed = options.seed;
   days.days = options.days;
+  days.may_be_fewer = true;
   if (!options.kinds.empty()) days.kinds.clear();
   for (const std::string& name : options.kinds) {
     const auto kind = world::ChangeKindFromName(name);

@@ -168,7 +168,7 @@ struct RunOptions {
 Result<void> Run(const RunOptions& options, const CommonOptions& common, Console& console);
 
 struct DemoOptions {
-  int number = 1;  ///< 1 climbs, 2 descends
+  std::string name = "1";  ///< 1 climbs, 2 descends; lifelong: two days
   std::string out = "out/demo";
   std::string perception;  ///< oracle or networks; empty = as configured
   WatchOptions watch;
@@ -310,6 +310,15 @@ struct GraphBenchOptions {
 };
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console);
+
+struct DaysBenchOptions {
+  std::string house, map;  ///< folder; file to keep, empty = none
+  int days = 30, goals = 5;
+  std::uint64_t seed = 1;
+};
+/// One memory kept through days of change.
+Result<void> BenchDays(const DaysBenchOptions& options, const CommonOptions& common,
+                       Console& console);
 
 struct LocalizeBenchOptions {
   std::string scenes;

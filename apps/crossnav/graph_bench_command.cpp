@@ -71,6 +71,7 @@ Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& c
     house["seconds"] = trial->seconds;
     house["record_ms"] = trial->record_ms;
     house["relate_ms"] = trial->relate_ms;
+    house["failures"] = trial->objects.failures;
     houses.push_back(std::move(house));
     console.Log(fmt::format("{}: graph in {:.2f} s; records {:.2f} ms a view, relations {:.2f} ms",
                             trial->house, trial->seconds, trial->record_ms, trial->relate_ms));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "replay_log.h"
 
+#include <algorithm>
+
 #include "crossnav/agent/sight.h"
 
 namespace crossnav::app {
@@ -46,10 +48,30 @@ Result<std::unique_ptr<ReplayLog>> ReplayLog::Open(const evaluation::SceneContex
   return std::unique_ptr<ReplayLog>(new ReplayLog(std::move(*writer)));
 }
 
+namespace {
+
+/// The step with the whole map as its changes: of a saved memory, a replay would show nothing else.
+trace::StepTrace WithWholeMap(const evaluation::StepView& step) {
+  trace::StepTrace whole = step.trace;
+  whole.voxel_changes.clear();
+  step.state.map().ForEach([&](const geometry::VoxelKey& key, const geometry::Voxel& voxel) {
+    whole.voxel_changes.push_back({key, voxel});
+  });
+  std::sort(whole.voxel_changes.begin(), whole.voxel_changes.end(),
+            [](const auto& a, const auto& b) { return a.key < b.key; });
+  return whole;
+}
+
+}  // namespace
+
 Result<void> ReplayLog::OnStep(const evaluation::StepView& step) {
   last_step_ = step.trace.step;
   goal_index_ = step.trace.goal_index;
   const trace::Sight sight = agent::SightOf(step.percept, step.state.goal_text());
+  const auto changes = static_cast<std::int64_t>(step.trace.voxel_changes.size());
+  const bool is_remembered = is_first_ && step.state.map().Stats().known > changes;
+  is_first_ = false;
+  if (is_remembered) return writer_.Write({WithWholeMap(step), &step.observation, &sight});
   return writer_.Write({step.trace, &step.observation, &sight});
 }
 

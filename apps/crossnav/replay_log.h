@@ -36,6 +36,7 @@ class ReplayLog : public evaluation::RunObserver {
  private:
   explicit ReplayLog(trace::ReplayWriter writer) : writer_(std::move(writer)) {}
   trace::ReplayWriter writer_;
+  bool is_first_ = true;
   int last_step_ = 0, goal_index_ = 0;
 };
 

@@ -63,8 +63,10 @@ void AddRuns(CLI::App& app, Options& o) {
   CLI::App* demo =
       AddVerb(app, o, "demo", "An episode in the house that comes with the program",
               "crossnav demo 2", [&o](Console& c) { return Demo(o.demo, o.common, c); });
-  demo->add_option("NUMBER", o.demo.number, "1 climbs to the upper floor, 2 descends")
-      ->check(CLI::Range(1, 2));
+  demo->add_option("NAME", o.demo.name,
+                   "1 climbs to the upper floor, 2 descends; lifelong: two days with one memory, "
+                   "and a night that carries the goal upstairs")
+      ->check(CLI::IsMember({"1", "2", "lifelong"}));
   demo->add_option("--out", o.demo.out, "Folder to write to; default: out/demo");
   AddWatch(demo, o.demo.watch);
   AddPerception(demo, o.demo.perception);
@@ -336,6 +338,7 @@ void AddTools(CLI::App& app, Options& o) {
   graph->add_option("--edition", o.graph_bench.edition, "Of the generator")
       ->check(CLI::Range(1, 2));
   graph->add_option("--pictures", o.graph_bench.pictures, "Folder for a picture of each floor");
+  AddDaysBench(*bench, o);
   AddLocalizeBench(*bench, o);
   CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",
                             "crossnav bench noise --scenes scenes --episodes e.json --count 12",

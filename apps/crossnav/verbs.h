@@ -48,6 +48,7 @@ struct Options {
   StairsOptions stairs;
   NoiseSweepOptions noise;
   GraphBenchOptions graph_bench;
+  DaysBenchOptions days_bench;
   LocalizeBenchOptions localize_bench;
   SensorTrialOptions sensor_trials;
   WordBenchOptions word_bench;
@@ -72,6 +73,8 @@ void AddWatch(CLI::App* verb, WatchOptions& watch);
 void AddNetworks(CLI::App& app, Options& options);
 /// `replay`.
 void AddReplay(CLI::App& app, Options& options);
+/// `bench days`.
+void AddDaysBench(CLI::App& bench, Options& options);
 /// `bench localize`.
 void AddLocalizeBench(CLI::App& bench, Options& options);
 /// `ask`.

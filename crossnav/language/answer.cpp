@@ -112,10 +112,6 @@ Answer HowMany(const Question& question, const KnownHome& home) {
   answer.is_known =
       answer.unseen.empty() && doubtful == 0 && AreSure(answer.things, question.subject, home);
   answer.text = Counted(count, question.subject.noun);
-  if (question.subject.floor && FloorsOf(*question.subject.floor, home).empty()) {
-    answer.is_known = false;
-    answer.text += "; no such floor is known";
-  }
   if (doubtful > 0) answer.text += fmt::format("; {} more may fit", doubtful);
   if (!answer.unseen.empty()) answer.text += "; there may be more where nobody looked";
   answer.text += "\n" + ThingsText(answer.things, home) + UnseenText(answer.unseen, home);
@@ -200,9 +196,26 @@ Answer WhichRooms(const Question& question, const KnownHome& home) {
   return answer;
 }
 
+/// Whether counts and lists are of a floor that the map does not have: they would be of nothing.
+bool IsOfUnknownFloor(const Question& question, const KnownHome& home) {
+  const bool lists = question.kind == QuestionKind::kHowMany ||
+                     question.kind == QuestionKind::kWhatIs ||
+                     question.kind == QuestionKind::kWhichRooms;
+  return lists && question.subject.floor && FloorsOf(*question.subject.floor, home).empty();
+}
+
+Answer UnknownFloor(const KnownHome& home) {
+  Answer answer;
+  answer.is_known = false;
+  answer.text = "not known: no such floor is known; the map has " +
+                Counted(static_cast<int>(home.floors.size()), "floor") + "\n";
+  return answer;
+}
+
 }  // namespace
 
 Answer AnswerTo(const Question& question, const KnownHome& home) {
+  if (IsOfUnknownFloor(question, home)) return UnknownFloor(home);
   switch (question.kind) {
     case QuestionKind::kWhere:
       return Where(question, home);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "crossnav/core/category_table.h"
+#include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/build_graph.h"
 
 namespace crossnav::language {
@@ -31,7 +32,7 @@ Thing ThingOf(const objects::ObjectRecord& record, const scenegraph::SceneGraph&
   Thing thing;
   thing.category = CanonicalName(record.category);
   thing.p_center_world = record.centre_world_m;
-  thing.box = {record.box_world_m.min(), record.box_world_m.max()};
+  thing.box = scenegraph::SurfaceBoxOf(record.box_world_m, graph.voxel_m);
   thing.floor = scenegraph::FloorAt(graph, record.centre_world_m);
   if (thing.floor) thing.room = scenegraph::RoomAt(graph, *thing.floor, record.centre_world_m);
   if (record.colour)

@@ -34,6 +34,8 @@ Fit RelationFit(const RelationPhrase& phrase, const KnownHome& home, const Thing
   const auto fit_to = [&](const Thing& other) {
     if (IsSame(thing, other) || (thing.room && other.room && thing.room != other.room))
       return Fit::kNo;
+    if (phrase.relation == Relation::kOn && !CanStandOn(thing.category, other.category))
+      return Fit::kNo;  // boxes of things that stand side by side can overlap
     return HoldsFor(phrase.relation, thing.box, other.box);
   };
   Fit best = Fit::kNo;

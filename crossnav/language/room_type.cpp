@@ -18,7 +18,7 @@ struct Tell {
 // clang-format off
 constexpr Tell kTells[] = {
     //                      living kitchen dining bedroom bath wc office hall storage garage balcony
-    {"bed",                 {{ -2,   -2,    -2,     4,    -4,  -4,  -1,  -2,   -1,    -2,    -2 }}},
+    {"bed",                 {{ -2,   -2,    -2,     4,    -4,  -4,  -2,  -2,   -1,    -2,    -2 }}},
     {"bedside table",       {{ -1,   -1,    -1,     1,    -1,  -1,   0,  -1,    0,    -1,    -1 }}},
     {"wardrobe",            {{ -1,   -1,    -1,     1,    -1,  -1,   0,   0,    1,     0,    -1 }}},
     {"sofa",                {{  2,    0,     0,    -1,    -2,  -2,   0,  -1,   -1,    -1,     0 }}},

@@ -81,6 +81,34 @@ constexpr std::string_view kThings[] = {"armchair",
                                         "washing machine",
                                         "window"};
 
+// chosen: what stands on the ground alone, or belongs to walls.
+constexpr std::string_view kOnNoFurniture[] = {"armchair",
+                                               "bathtub",
+                                               "bed",
+                                               "bench",
+                                               "bookcase",
+                                               "chair",
+                                               "chest of drawers",
+                                               "curtain",
+                                               "desk",
+                                               "door",
+                                               "dresser",
+                                               "fireplace",
+                                               "floor lamp",
+                                               "piano",
+                                               "rug",
+                                               "refrigerator",
+                                               "shower",
+                                               "sofa",
+                                               "stove",
+                                               "table",
+                                               "toilet",
+                                               "tv stand",
+                                               "wardrobe",
+                                               "washing machine",
+                                               "window",
+                                               "ceiling lamp"};
+
 struct Synonym {
   std::string_view said, name;
 };
@@ -267,6 +295,12 @@ bool IsKindOf(std::string_view category, std::string_view noun) {
   if (category == noun) return true;
   static const auto categories = CategoryNames();
   return !categories.contains(category) && EndsWithWord(category, noun);
+}
+
+bool CanStandOn(std::string_view category, std::string_view furniture) {
+  if (IsKindOf(furniture, "rug")) return true;
+  return std::none_of(std::begin(kOnNoFurniture), std::end(kOnNoFurniture),
+                      [&](std::string_view name) { return IsKindOf(category, name); });
 }
 
 std::vector<std::string> KindsOf(std::string_view noun) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "crossnav/core/cells.h"
+#include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/cut_rooms.h"
 
 namespace crossnav::scenegraph {
@@ -186,8 +187,7 @@ void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& rec
     GraphObject object;
     object.category = record.category;
     object.p_center_world = record.centre_world_m;
-    object.box.min = record.box_world_m.min();
-    object.box.max = record.box_world_m.max();
+    object.box = SurfaceBoxOf(record.box_world_m, graph.voxel_m);
     object.match = 1;
     object.is_certain = true;
     object.record = record.id;

@@ -6,6 +6,7 @@
 #include "crossnav/core/png_image.h"
 #include "crossnav/evaluation/episodes/episodes.h"
 #include "crossnav/evaluation/episodes/suite.h"
+#include "crossnav/evaluation/lifelong/visits.h"
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/evaluation/settings/config_file.h"
 #include "crossnav/geometry/map_blocks.h"
@@ -16,6 +17,7 @@
 #include "crossnav/trace/replay_writer.h"
 #include "crossnav/trace/trace_json.h"
 #include "crossnav/trace/voxel_codec.h"
+#include "crossnav/world/change/changes.h"
 #include "crossnav/world/furniture/furniture_pack.h"
 #include "evaluation/record_builder.h"
 #include "fuzz/plain_mcap.h"
@@ -131,6 +133,24 @@ void AddHouses(const Seeds& seeds) {
   seeds.Put("obj", "door.obj", homes::test::DoorObj() + "vt 0 0.5\nf 1/1 -2/-1/1 3//1\n");
 }
 
+void AddChanges(const Seeds& seeds) {
+  world::ChangePlace place;
+  place.p_world = {1, 2.5, 0};
+  place.box.Add({0.5, 2, 0});
+  place.box.Add({1.5, 3, 0.8});
+  place.room = 2, place.floor = 0, place.support = 7;
+  using world::ChangeKind;
+  const world::DayChanges day = {
+      "00001-House-day2",
+      "00001-House-day1",
+      2,
+      7,
+      {{ChangeKind::kOtherFloor, 5, "dining chair", "chair", place, place},
+       {ChangeKind::kRemoved, 6, "vase", "", place, {}}},
+      {{ChangeKind::kDoorClosed, 9, "door", "", {}, place}}};
+  seeds.Put("changes", "day2.changes.json", world::ChangesText(day));
+}
+
 void AddPack(const Seeds& seeds) {
   world::PackModel chair;
   chair.entry = {"a", "chair", "Chair", "B", "CC0", "uri", "c", Vector3d(1, 1, 1)};
@@ -196,6 +216,25 @@ void AddResults(const Seeds& seeds) {
   manifest.episodes_hash = "0123456789abcdef";
   manifest.meshes = {{"00001-House", "0123456789abcdef"}};
   (void)evaluation::WriteManifest(seeds.Path("suite", "suite.json"), manifest);
+}
+
+void AddVisits(const Seeds& seeds) {
+  evaluation::HouseVisit visit;
+  visit.house = "00001-House";
+  visit.scene_id = "00001-House-day1";
+  visit.day = 1;
+  visit.start.p_world = {1, 2, 0};
+  visit.goals = {{"chair", "other_floor", false, {0, 1}, {{1, 2, 0}}},
+                 {"vase", "removed", true, {}, {}}};
+  seeds.Put("visits", "visits.json", evaluation::VisitsText({visit}));
+  evaluation::VisitResults results;
+  results.run = {"0123", "keep", "full", "4567", "oracle-perception", "1"};
+  evaluation::GoalRecord goal;
+  goal.goal = "chair", goal.track = "other_floor";
+  evaluation::VisitRecord failed;
+  failed.house = "00002-House", failed.failure = "signal 11";
+  results.records = {{"00001-House", 1, {goal}, 4096, ""}, failed};
+  seeds.Put("visits", "visits.jsonl", evaluation::VisitResultsText(results));
 }
 
 void AddReplays(const Seeds& seeds) {
@@ -277,9 +316,11 @@ void WriteSeeds(const fs::path& folder) {
   const Seeds seeds(folder);
   AddScenes(seeds);
   AddHouses(seeds);
+  AddChanges(seeds);
   AddPack(seeds);
   AddEpisodes(seeds);
   AddResults(seeds);
+  AddVisits(seeds);
   AddReplays(seeds);
   AddRecordings(seeds);
   AddMap(seeds);

@@ -56,6 +56,18 @@ TEST_F(Asking, CountsSayWhetherTheyAreComplete) {
             2);
 }
 
+TEST_F(Asking, AFloorThatTheMapDoesNotHaveIsUnknownNotEmpty) {
+  for (const char* text :
+       {"how many chairs are on the third floor", "what is on the third floor",
+        "which rooms on the third floor have no plant", "how many rooms are on the third floor"}) {
+    const Answer answer = To(text);
+    EXPECT_FALSE(answer.is_known) << text;
+    EXPECT_FALSE(answer.count.has_value()) << text;
+    EXPECT_TRUE(answer.things.empty() && answer.rooms.empty()) << text;
+    EXPECT_NE(answer.text.find("the map has 2 floors"), std::string::npos) << answer.text;
+  }
+}
+
 TEST_F(Asking, RoomsWithAndWithout) {
   const Answer none = To("which rooms have no plant");
   EXPECT_EQ(none.rooms, (std::vector<int>{1, 2}));
@@ -73,6 +85,12 @@ TEST_F(Asking, WhatStandsOnSomethingAndInARoom) {
   const Answer desk = To("what is on the desk");
   EXPECT_FALSE(desk.is_known);
   EXPECT_NE(desk.text.find("no desk is known"), std::string::npos) << desk.text;
+}
+
+TEST_F(Asking, NoSofaStandsOnATableThoughTheirBoxesOverlap) {
+  Add("sofa", 0, {3, 3, 0.6}, {0.8, 0.8, 0.7});
+  Add("window", 0, {3, 3.2, 1.3}, {0.8, 0.1, 1});
+  EXPECT_EQ(To("what is on the dining table").things, std::vector<int>{plant});
 }
 
 TEST(Questions, ErrorsSayWhatCanBeAsked) {

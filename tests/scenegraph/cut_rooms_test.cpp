@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/scenegraph/cut_rooms.h"
 
@@ -104,6 +105,13 @@ TEST(Relations, FollowFromTheBoxes) {
   EXPECT_EQ(Between(table, BoxOf({2, 0, 0}, {3, 1, 1})), (R{{RelationKind::kNear, 0, 1}}));
   EXPECT_EQ(Between(table, BoxOf({4, 0, 0}, {5, 1, 1})), R{});
   EXPECT_EQ(Between(table, BoxOf({1.2, 0, 0}, {2, 1, 1}, 1)), R{}) << "a wall lies between";
+}
+
+TEST(Relations, ABoxOfVoxelsIsHalfAVoxelTooLargeOnEachSide) {
+  const Eigen::AlignedBox3d voxels(Vector3d(0, 0, 0), Vector3d(1, 0.1, 0.5));
+  const Box3 box = SurfaceBoxOf(voxels, 0.1);
+  EXPECT_TRUE(box.min.isApprox(Vector3d(0.05, 0.04, 0.05))) << "a picture keeps some depth";
+  EXPECT_TRUE(box.max.isApprox(Vector3d(0.95, 0.06, 0.45)));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <functional>
 #include <thread>
 
+#include "crossnav/objects/object_book.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/store/map_schema.h"
 #include "store/small_world.h"
@@ -48,15 +49,31 @@ bool IsWhole(const LoadedMemory& loaded, const SmallWorld& world) {
          IsPartOf(loaded, world);
 }
 
+/// One record of the day.
+SaveInfo DayInfo(int day) {
+  objects::ObjectRecord record;
+  record.id = 0;
+  record.category = "bed";
+  record.voxels = {{0, 0, day}};
+  Measure(record, 0.1);
+  record.last_seen_day = day;
+  record.picture_png.assign(5000, static_cast<std::uint8_t>(day));
+  SaveInfo info;
+  info.frame = "day " + std::to_string(day);
+  info.objects = {record};
+  return info;
+}
+
 TEST(MapFileDamageTest, KilledSaveLeavesThePreviousOrTheNewRevision) {
   const TempFile file("killed.map");
+  const SaveInfo old_day = DayInfo(0), new_day = DayInfo(1);
   SmallWorld before, after;
   for (int i = 0; i < 5; ++i) before.AddFrame(i);
   for (int i = 0; i < 9; ++i) after.AddFrame(i);
-  ASSERT_TRUE(SaveMemory(file.path(), before.map, before.memory, {}));
+  ASSERT_TRUE(SaveMemory(file.path(), before.map, before.memory, old_day));
   const std::string original = file.Read();
   const auto start = std::chrono::steady_clock::now();
-  ASSERT_TRUE(SaveMemory(file.path(), after.map, after.memory, {}));
+  ASSERT_TRUE(SaveMemory(file.path(), after.map, after.memory, new_day));
   const double save_us =
       std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   Rng rng(77);
@@ -68,7 +85,7 @@ TEST(MapFileDamageTest, KilledSaveLeavesThePreviousOrTheNewRevision) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      (void)SaveMemory(file.path(), after.map, after.memory, {});
+      (void)SaveMemory(file.path(), after.map, after.memory, new_day);
       _exit(0);
     }
     std::this_thread::sleep_for(
@@ -80,6 +97,9 @@ TEST(MapFileDamageTest, KilledSaveLeavesThePreviousOrTheNewRevision) {
     ASSERT_TRUE(loaded) << "kill " << i << ": " << loaded.error().Message();
     const bool is_old = loaded->header.revision == 1;
     ASSERT_TRUE(IsWhole(*loaded, is_old ? before : after)) << "kill " << i;
+    const SaveInfo& day = is_old ? old_day : new_day;
+    ASSERT_EQ(loaded->objects, day.objects) << "kill " << i;
+    ASSERT_EQ(loaded->header.frame, day.frame) << "kill " << i;
     ++(is_old ? old_count : new_count);
   }
   RecordProperty("previous_revision", old_count);

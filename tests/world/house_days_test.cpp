@@ -295,6 +295,14 @@ TEST(HouseDays, TheGateRefusesADayThatLosesACategory) {
   const auto day = calendar->Next();
   ASSERT_FALSE(day.has_value());
   EXPECT_NE(day.error().Message().find("fewer than five categories"), std::string::npos);
+  DaysOptions fewer = Options({ChangeKind::kRemoved});
+  fewer.may_be_fewer = true;
+  auto again = HouseCalendar::Begin(scene, fewer);
+  ASSERT_TRUE(again.has_value());
+  const auto quiet = again->Next();
+  ASSERT_TRUE(quiet.has_value()) << quiet.error().Message();
+  EXPECT_TRUE(quiet->list.changes.empty());
+  EXPECT_EQ(quiet->missing, std::vector<ChangeKind>{ChangeKind::kRemoved});
 }
 
 TEST(HouseDays, AHouseWithoutNamesOrThatIsNotThereIsAnError) {

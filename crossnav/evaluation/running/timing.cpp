@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/evaluation/running/timing.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 namespace crossnav::evaluation {
+
+double ResidentMb() {
+  std::ifstream file("/proc/self/statm");
+  long all = 0, resident = 0;
+  file >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+}
 
 double PercentileOf(std::vector<double> sample, double share) {
   if (sample.empty()) return 0;

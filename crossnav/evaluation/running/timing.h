@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CPU time per stage over many steps, and its percentiles. Timings never influence a decision.
+// CPU time per stage over many steps, and its percentiles; memory. Timings never influence a
+// decision.
 #pragma once
 
 #include <ctime>
@@ -25,6 +26,9 @@ inline double WallMs() {
   ::clock_gettime(CLOCK_MONOTONIC, &now);
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
+
+/// Resident memory of this process [MB].
+double ResidentMb();
 
 /// Time since the last lap.
 class Stopwatch {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/evaluation/trials/graph_objects.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include "crossnav/core/category_table.h"
 #include "crossnav/evaluation/trials/true_home.h"
 #include "crossnav/policy/claim.h"
+#include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/sim/sensing/ground_truth.h"
 
@@ -75,6 +78,20 @@ int PlanRoomOf(const world::HousePlan& plan, const Vector3d& p) {
   return found;
 }
 
+/// Storey of a point, from 0: levels less than 1.5 m apart are one.
+int PlanFloorOf(const world::HousePlan& plan, const Vector3d& p) {
+  constexpr double kStorey_m = 1.5, kUnderFloor_m = 0.3;  // as sim::Floor; as PlanRoomOf
+  int floor = -1;
+  double base_m = 0;
+  for (const world::Level& level : plan.levels) {
+    if (level.floor_m > p.z() + kUnderFloor_m) break;
+    if (floor >= 0 && level.floor_m - base_m < kStorey_m) continue;
+    ++floor;
+    base_m = level.floor_m;
+  }
+  return std::max(0, floor);
+}
+
 /// The graph that the scene itself would make.
 scenegraph::SceneGraph TrueObjects(const ObjectSurvey& survey, const sim::Scene& scene,
                                    const world::HousePlan& plan) {
@@ -87,7 +104,7 @@ scenegraph::SceneGraph TrueObjects(const ObjectSurvey& survey, const sim::Scene&
     object.category = named.first;
     object.box = instance.box;
     object.p_center_world = instance.box.Center();
-    object.floor = 0;  // rooms tell floors apart
+    object.floor = PlanFloorOf(plan, object.p_center_world);
     object.room = PlanRoomOf(plan, object.p_center_world);
     truth.objects.push_back(std::move(object));
   }
@@ -121,6 +138,33 @@ void Insert(scenegraph::RelationKind kind, int from, int to, Relations& relation
   relations.emplace(kind, from, to);
 }
 
+/// Measures on which the relation of a pair depends.
+std::string PairText(const GraphObject& a, const GraphObject& b) {
+  return fmt::format("gap {:.2f} m, height of a over b {:.2f} m, cover {:.2f}, room {} and {}",
+                     scenegraph::GapOf(a.box, b.box), a.box.min.z() - b.box.max.z(),
+                     scenegraph::CoverOf(a.box, b.box), a.room.value_or(-1), b.room.value_or(-1));
+}
+
+/// The relations of `these` that `others` lacks, with the measures in truth and in the graph.
+struct FailureTexts {
+  const scenegraph::SceneGraph& truth;
+  const scenegraph::SceneGraph& graph;
+  std::map<int, int> true_of;  // true object of each found one
+
+  void Add(const char* what, const Relations& these, const Relations& others,
+           std::vector<std::string>& texts) const {
+    for (const auto& relation : these) {
+      if (others.count(relation) > 0) continue;
+      const auto& [kind, from, to] = relation;
+      const GraphObject &a = graph.objects[from], &b = graph.objects[to];
+      texts.push_back(fmt::format(
+          "{}: {} {} {} {} {}; true {}; found {}", what, a.category, a.id, NameOf(kind), b.category,
+          b.id, PairText(truth.objects[true_of.at(from)], truth.objects[true_of.at(to)]),
+          PairText(a, b)));
+    }
+  }
+};
+
 }  // namespace
 
 ObjectScore& ObjectScore::operator+=(const ObjectScore& other) {
@@ -128,6 +172,7 @@ ObjectScore& ObjectScore::operator+=(const ObjectScore& other) {
   objects_wrong += other.objects_wrong;
   relations += other.relations, relations_found += other.relations_found;
   relations_wrong += other.relations_wrong;
+  failures.insert(failures.end(), other.failures.begin(), other.failures.end());
   return *this;
 }
 
@@ -176,6 +221,10 @@ ObjectScore ScoreObjects(const scenegraph::SceneGraph& graph, const ObjectSurvey
   score.relations = static_cast<int>(wanted.size());
   for (const auto& relation : wanted) score.relations_found += have.count(relation) > 0 ? 1 : 0;
   for (const auto& relation : have) score.relations_wrong += wanted.count(relation) > 0 ? 0 : 1;
+  FailureTexts texts{truth, graph, {}};
+  for (std::size_t i = 0; i < found.size(); ++i) texts.true_of[found[i]] = static_cast<int>(i);
+  texts.Add("missed", wanted, have, score.failures);
+  texts.Add("wrong", have, wanted, score.failures);
   return score;
 }
 

@@ -19,6 +19,7 @@ struct ObjectScore {
   int objects = 0, objects_found = 0, objects_wrong = 0;  ///< instances that were seen; records
   int relations = 0, relations_found = 0;  ///< of instances that were found, both ends
   int relations_wrong = 0;                 ///< between found ends, beside the true ones
+  std::vector<std::string> failures;       ///< missed and wrong relations with their measures
 
   double ObjectsF1() const {
     const int all = 2 * objects_found + objects_wrong + (objects - objects_found);

@@ -149,6 +149,22 @@ std::string Misfits(const language::Description& d, const language::Thing& truth
   return text.empty() ? "others fit, too" : "misfits:" + text;
 }
 
+/// What the rooms of the chosen things hold, by which rooms are told apart.
+std::string RoomsText(const std::vector<int>& chosen, const KnownHome& known) {
+  std::string text;
+  for (const int i : chosen) {
+    const std::optional<int> room = known.things[i].room;
+    if (!room) continue;
+    std::set<std::string> held;
+    for (const language::Thing& thing : known.things)
+      if (thing.room == room) held.insert(thing.category);
+    text += "; room " + std::to_string(*room) + ":";
+    for (const std::string& name : held) text += " " + name + ",";
+    text.pop_back();
+  }
+  return text;
+}
+
 void Score(const DrawnWords& drawn, const KnownHome& truth, const KnownHome& known,
            WordTrial& trial) {
   const auto resolved = Resolve(drawn.description, known);
@@ -177,6 +193,7 @@ void Score(const DrawnWords& drawn, const KnownHome& truth, const KnownHome& kno
   if (!resolved.reason.empty()) outcome += ": " + resolved.reason;
   if (drawn.kind == WordKind::kClear)
     outcome += "; " + Misfits(drawn.description, truth.things[drawn.thing], known);
+  if (drawn.description.room) outcome += RoomsText(resolved.things, known);
   trial.failures.push_back({drawn.kind, TextOf(drawn.description), std::move(outcome)});
 }
 

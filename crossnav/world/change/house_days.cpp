@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kAttempts = 12;  // chosen: draws of one night
+constexpr int kFewer = 8;      // chosen: further draws, each with fewer kinds
 
 std::string DayId(const std::string& first, int day) {
   return day == 0 ? first : fmt::format("{}-day{}", first, day);
@@ -52,6 +53,14 @@ Result<HouseCalendar> HouseCalendar::Begin(sim::Scene first, const DaysOptions& 
   return HouseCalendar(std::move(owned), std::move(*view), options);
 }
 
+std::vector<ChangeKind> HouseCalendar::KindsOf(int attempt, Rng& rng) const {
+  std::vector<ChangeKind> kinds = options_.kinds;
+  if (attempt < kAttempts) return kinds;
+  const double kept = 1 - (attempt - kAttempts + 1.0) / kFewer;
+  std::erase_if(kinds, [&](ChangeKind) { return !rng.Chance(kept); });
+  return kinds;
+}
+
 Result<HouseDay> HouseCalendar::Draw(const HouseView& evening, int attempt) const {
   const int day = day_ + 1;
   HouseDay next;
@@ -61,7 +70,12 @@ Result<HouseDay> HouseCalendar::Draw(const HouseView& evening, int attempt) cons
   next.list = {next.scene.id, DayId(first_->id, day_), day, options_.seed, {}, barred_};
   Rng rng(MixSeed(options_.seed, static_cast<std::uint64_t>(day)),
           static_cast<std::uint64_t>(attempt));
+  const std::vector<ChangeKind> kinds = KindsOf(attempt, rng);
   for (const ChangeKind kind : options_.kinds) {
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+      next.missing.push_back(kind);
+      continue;
+    }
     auto change = ChangeOnce({evening, options_.navmesh, kind}, next, rng);
     if (!change) return tl::unexpected(change.error());
     if (!*change) next.missing.push_back(kind);
@@ -79,7 +93,8 @@ Result<HouseDay> HouseCalendar::Next() {
   const auto evening = ViewHouse(evening_, options_.navmesh);
   if (!evening) return tl::unexpected(evening.error());
   std::map<std::string, int> refusals;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  const int attempts = kAttempts + (options_.may_be_fewer ? kFewer : 0);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     auto next = Draw(*evening, attempt);
     if (!next) {
       ++refusals[next.error().what];

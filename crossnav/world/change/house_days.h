@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "crossnav/core/result.h"
+#include "crossnav/core/rng.h"
 #include "crossnav/sim/navmesh/navmesh.h"
 #include "crossnav/world/change/changes.h"
 #include "crossnav/world/change/house_view.h"
@@ -25,6 +26,9 @@ struct DaysOptions {
   int days = 1;
   std::vector<ChangeKind> kinds = AllChangeKinds();  ///< applied each night, in this order
   sim::NavMeshSettings navmesh = {};
+  /// Where no draw passes the gate, draws with fewer and fewer kinds, the last one with none.
+  /// False: an error; suites rely on it.
+  bool may_be_fewer = false;
 };
 
 /// A house on one day.
@@ -52,6 +56,8 @@ class HouseCalendar {
       : first_(std::move(first)), view_(std::move(view)), options_(options), evening_(*first_) {}
 
   Result<HouseDay> Draw(const HouseView& evening, int attempt) const;
+  /// Kinds that an attempt makes.
+  std::vector<ChangeKind> KindsOf(int attempt, Rng& rng) const;
 
   std::unique_ptr<sim::Scene> first_;
   HouseView view_;  // of the first day

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// A memory that comes back on later days: the demo, and days of change.
+#include <gtest/gtest.h>
+
+#include "apps/cli_fixture.h"
+#include "crossnav/trace/replay_reader.h"
+
+namespace crossnav {
+namespace {
+
+using test::Cli;
+using test::Json;
+using test::Outcome;
+
+constexpr const char* kSmallDays =
+    " --set sensor.width_px=160 --set sensor.height_px=160 --set ground_truth.min_visible_px=20"
+    " --set ground_truth.feature_dim=64";
+
+using LifelongCli = Cli;
+
+TEST_F(LifelongCli, TheDemoFindsUpstairsWhatTheNightCarriedThere) {
+  const Outcome demo = Run("demo lifelong --quiet --json --out demo" + std::string(kSmallDays));
+  ASSERT_EQ(demo.exit_code, 0) << demo.err;
+  const Json stage = Json::parse(demo.out)["record"]["stages"][0];
+  EXPECT_EQ(stage["outcome"], "success");
+  EXPECT_EQ(stage["floor_start"], 0);
+  EXPECT_EQ(stage["floor_end"], 1);
+  for (const char* name : {"day1/replay.html", "day2/replay.html", "day2/floor_1.png", "home.map"})
+    EXPECT_TRUE(test::fs::exists(At("demo/lifelong") / name)) << name;
+  const auto day2 = trace::ReadReplay(At("demo/lifelong/day2/replay.mcap"));
+  ASSERT_TRUE(day2.has_value()) << day2.error().Message();
+  EXPECT_GT(day2->steps.front().trace.voxel_changes.size(), 50'000U) << "it shows the memory";
+  const Json info = Json::parse(Run("map info demo/lifelong/home.map --json").out);
+  EXPECT_EQ(info["revision"], 2);
+}
+
+TEST_F(LifelongCli, AMemoryKeptThroughDaysOfChangeStaysBoundedAndSurvivesKilledSaves) {
+  const std::string command =
+      "bench days --house scenes/00001-CrossnavHouse --days 3 --goals 2 --quiet --map days.map";
+  const Outcome outcome =
+      Run(command + " --json --set eval.action_budget=150" + std::string(kSmallDays));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json days = Json::parse(outcome.out)["days"];
+  ASSERT_EQ(days.size(), 4U);
+  for (const Json& day : days) {
+    EXPECT_EQ(day["goals"], 2);
+    EXPECT_GT(day["map_mb"], 0);
+    EXPECT_GT(day["resident_mb"], 0);
+    if (day["day"] == 0) continue;
+    EXPECT_GT(day["changes"], 0);
+    EXPECT_GT(day["load_s"], 0);
+    const auto left = day["killed_save_leaves"].get<std::string>();
+    EXPECT_TRUE(left == "old day" || left == "new day") << left;
+  }
+  const Json info = Json::parse(Run("map info days.map --json").out);
+  EXPECT_EQ(info["revision"], 4);
+  EXPECT_EQ(Run(command).exit_code, 1) << "days begin with nothing";
+}
+
+}  // namespace
+}  // namespace crossnav
