@@ -14,6 +14,7 @@
 #include "crossnav/world/house/embedded_house.h"
 #include "perception_source.h"
 #include "progress.h"
+#include "scratch_folder.h"
 #include "session.h"
 
 namespace crossnav::app {
@@ -137,19 +138,6 @@ Result<Subject> ChooseSubject(const BenchOptions& options, const evaluation::Run
   return Subject{scenes, std::move(*episode)};
 }
 
-/// Removed at the end.
-struct ScratchFolder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("crossnav-bench-{}", ::getpid());
-  ScratchFolder() = default;
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
 }  // namespace
 
 Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Console& console) {
@@ -163,7 +151,7 @@ Result<void> Bench(const BenchOptions& options, const CommonOptions& common, Con
     return Fail(ErrorCode::kInvalid, "give the scenes of the episodes", "--scenes");
   }
   std::filesystem::path scenes = options.scenes;
-  ScratchFolder scratch;  // separate, because two runs may be concurrent
+  const ScratchFolder scratch;
   if (scenes.empty()) {
     scenes = scratch.path;
     if (auto house = world::WriteEmbeddedHouse(scenes); !house)

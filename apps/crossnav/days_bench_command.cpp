@@ -23,6 +23,7 @@
 #include "crossnav/world/change/house_days.h"
 #include "memory_files.h"
 #include "perception_source.h"
+#include "scratch_folder.h"
 #include "verbs.h"
 
 namespace crossnav::app {
@@ -257,18 +258,6 @@ Result<std::vector<DayFigures>> PlayDays(const DaysRun& run, Console& console) {
   }
   return days;
 }
-
-/// Removed with all that is in it.
-struct ScratchFolder {
-  fs::path path = fs::temp_directory_path() / fmt::format("crossnav-days-{}", ::getpid());
-  ScratchFolder() { fs::create_directories(path); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
 
 }  // namespace
 
