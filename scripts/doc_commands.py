@@ -18,7 +18,11 @@ TRACER = r"""
 set -u
 HOME=/home/me
 PATH=/nonexistent
-record() { printf '%s\x1f' "$@" >>"$RECORDS"; printf '\x1e' >>"$RECORDS"; }
+record() {  # in one write: both sides of a pipe record at once
+  local line
+  printf -v line '%s\x1f' "$@"
+  printf '%s\x1e' "$line" >>"$RECORDS"
+}
 command_not_found_handle() { record "$@"; }
 cd() { record cd "$@"; }
 .() { record . "$@"; }

@@ -23,7 +23,7 @@ BLOCKS = [
     for number, text in enumerate(re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.S))
 ]
 # Blocks not run here: a bag, a network of torch, a robot (test_live.py), a window (test_rerun.py).
-NAMES_ONLY = {"read_recording(", "torch.from_numpy", "live.Client(", "rerun.init("}
+NAMES_ONLY = {"read_recording(", "semantic_annotations(", "torch.from_numpy", "live.Client(", "rerun.init("}
 
 
 def modules_of(tree: ast.AST) -> dict[str, Any]:
