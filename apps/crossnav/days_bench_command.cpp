@@ -66,7 +66,7 @@ Json ToJson(const DayFigures& day) {
           {"killed_save_leaves", kKilledNames[static_cast<int>(day.killed)]}};
 }
 
-constexpr const char* kHead =
+constexpr const char* kDaysHead =
     "| day | changes | found | map MB | blocks | features | records (believed) | memory MB | "
     "process MB | load s | of it CPU s | save s | killed save leaves |\n"
     "|--:|--:|---|--:|--:|--:|---|--:|--:|--:|--:|--:|---|\n";
@@ -237,7 +237,7 @@ Result<std::vector<DayFigures>> PlayDays(const DaysRun& run, Console& console) {
   auto calendar = world::HouseCalendar::Begin(std::move(*scene), options);
   if (!calendar) return tl::unexpected(calendar.error());
   std::vector<DayFigures> days;
-  console.Print(kHead);
+  console.Print(kDaysHead);
   for (int number = 0; number <= run.options.days; ++number) {
     console.Progress(fmt::format("day {} of {}", number, run.options.days));
     world::HouseDay today;

@@ -47,7 +47,7 @@ EpisodeRecord RichEpisode() {
   stage.floor_end = 1;
   stage.transitions = 1;
   stage.actions = 200;
-  stage.extra = {true, true, "lost_on_flight", 2.75, StageCause{}};
+  stage.extra = {true, true, "lost_on_flight", 2.75, StageCause{}, {}};
   *stage.extra.cause = {{{"climb", 40}, {"go_to", 160}},      "climb", true, "go_to: no progress",
                         FlightCause{1, 2, true, true, false}, 0.625};
   return episode;

@@ -72,7 +72,7 @@ TEST(ViewEvidence, NearIdenticalViewsCountOnceAndOthersAtADiscount) {
   EvidenceConfig config;
   config.discount = 0.5;
   const auto view = [&](double score, int frames) {
-    return ViewScore{{}, frames * LogOddsOf(score, config), frames};
+    return ViewScore{Vector3d::Zero(), frames * LogOddsOf(score, config), frames};
   };
   EXPECT_DOUBLE_EQ(ProbabilityOf({}, config), 0.5);
   EXPECT_NEAR(ProbabilityOf({view(0.8, 1)}, config), 0.8, 1e-9);
@@ -88,7 +88,9 @@ TEST(ViewEvidence, DecidesOnceTheSightingsAgree) {
   const VerifyConfig& config = kConfig;
   const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.71, 0.7, "sofa", 9},
       denies{0.5, 0.9, "sofa", 9};
-  const auto view = [&](double score) { return ViewScore{{}, LogOddsOf(score, config.views), 1}; };
+  const auto view = [&](double score) {
+    return ViewScore{Vector3d::Zero(), LogOddsOf(score, config.views), 1};
+  };
   using Views = std::vector<ViewScore>;
   EXPECT_EQ(Judge(agrees, Views{view(0.95)}, config), ClaimVerdict::kAgreed);
   EXPECT_EQ(Judge(unsure, Views{view(0.95)}, config), ClaimVerdict::kWeak);

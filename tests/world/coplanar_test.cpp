@@ -148,7 +148,7 @@ class Solids {
   std::map<std::array<long, 2>, std::vector<std::size_t>> cells_;
 };
 
-struct Overlap {
+struct VisibleOverlap {
   std::size_t first = 0, second = 0;
   Vector3d middle = Vector3d::Zero();
 };
@@ -178,8 +178,8 @@ class Planes {
 
   /// Pairs in one plane, one of them of the shell at least, that are seen from a side which either
   /// faces. The shell's triangles come first.
-  std::vector<Overlap> VisibleOverlaps(std::size_t shell) const {
-    std::vector<Overlap> overlaps;
+  std::vector<VisibleOverlap> VisibleOverlaps(std::size_t shell) const {
+    std::vector<VisibleOverlap> overlaps;
     for (std::size_t t = 0; t < shell; ++t) {
       const Triangle& a = triangles_[t];
       for (const double side : {1.0, -1.0}) {
@@ -237,9 +237,9 @@ class Planes {
 };
 
 /// "wall / wall: 12 at (...)", the first place of each pair of names.
-std::string Listed(const sim::Scene& scene, const std::vector<Overlap>& overlaps) {
+std::string Listed(const sim::Scene& scene, const std::vector<VisibleOverlap>& overlaps) {
   std::map<std::string, std::pair<int, Vector3d>> pairs;
-  for (const Overlap& o : overlaps) {
+  for (const VisibleOverlap& o : overlaps) {
     std::array<std::string, 2> names;
     for (std::size_t k = 0; k < 2; ++k) {
       const int id = scene.mesh.triangle_instance[k == 0 ? o.first : o.second];

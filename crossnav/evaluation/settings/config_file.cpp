@@ -126,8 +126,8 @@ struct ScalarSetter {
 
 /// Sets fields from one source: a file, or all overrides together.
 struct SettingsReader {
-  SettingsReader(RunConfig& config, const std::string& source)
-      : fields(FieldsOf(config)), source(source), renamed(source) {}
+  SettingsReader(RunConfig& config, const std::string& from)
+      : fields(FieldsOf(config)), source(from), renamed(from) {}
 
   void Set(const std::string& key, const Scalar& value) {
     const std::string present = renamed.PresentKey(key);

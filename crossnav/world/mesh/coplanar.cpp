@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSamePlane_m = 1e-3;
 constexpr double kAligned_m = 1e-5;  // chosen: above the rounding of coordinates to float
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t kNotCopied = 0xFFFFFFFF;
 constexpr double kSliver_m = 1e-4;  // chosen: as the thinnest solid of MeshBuilder
 
 /// A rectangle of two consecutive triangles (a, b, c) and (a, c, d). `u` and `v` are the axes of
@@ -158,7 +158,7 @@ void CopyTriangle(const sim::TriangleMesh& from, std::size_t t, std::vector<std:
   std::array<std::uint32_t, 3> copied{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t vertex = from.triangles[t][i];
-    if (new_of[vertex] == kNone) {
+    if (new_of[vertex] == kNotCopied) {
       new_of[vertex] = static_cast<std::uint32_t>(to.vertices.size());
       to.vertices.push_back(from.vertices[vertex]);
       if (!from.uvs.empty()) to.uvs.push_back(from.uvs[vertex]);
@@ -177,7 +177,7 @@ sim::TriangleMesh WithoutOverlaps(sim::TriangleMesh mesh) {
   const Remains remains = CutAll(FacesOf(mesh));
   if (remains.empty()) return mesh;
   sim::TriangleMesh cut;
-  std::vector<std::uint32_t> new_of(mesh.vertices.size(), kNone);
+  std::vector<std::uint32_t> new_of(mesh.vertices.size(), kNotCopied);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto remaining = remains.find(t);
     if (remaining == remains.end()) {
