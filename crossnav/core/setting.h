@@ -3,4 +3,4 @@
 // that they cannot differ: visit(CROSSNAV_SETTING(c, bump_m), 0.0, 10.0).
 #pragma once
 
-#define CROSSNAV_SETTING(config, name) #name, config.name
+#define CROSSNAV_SETTING(config, name) #name, (config).name

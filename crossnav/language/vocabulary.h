@@ -36,8 +36,8 @@ std::string PluralOf(std::string_view noun);
 /// categories match their own name only.
 bool IsKindOf(std::string_view category, std::string_view noun);
 
-/// Whether a thing of `category` can stand on that furniture: beds stand on the ground or a rug, windows are
-/// in walls.
+/// Whether a thing of `category` can stand on that furniture: beds stand on the ground or a rug,
+/// windows are in walls.
 bool CanStandOn(std::string_view category, std::string_view furniture);
 
 /// Canonical names of kinds of `noun` (IsKindOf), `noun` first.
