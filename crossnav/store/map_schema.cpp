@@ -152,6 +152,8 @@ Result<HeaderRead> ReadHeader(Database& db) {
     }
     damage = "header: checksum differs (its copy is intact)";
   }
+  if (db.Size() == 0)
+    return Fail(ErrorCode::kMalformed, "is empty: its first save was interrupted", db.file());
   if (*id != kApplicationId) return Fail(ErrorCode::kMalformed, "not a map file", db.file());
   if (*version > kMapFormat)
     return Fail(ErrorCode::kUnsupported,

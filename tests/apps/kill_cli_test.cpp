@@ -143,6 +143,8 @@ TEST_F(Killed, RunLeavesAWholeMapOrNone) {
     ExpectWholeLines(At("run"));
     if (!fs::exists(At("m.map")) || fs::file_size(At("m.map")) == 0) return;
     const Outcome info = Run("map info m.map");
+    // The first opening undoes an interrupted first save: nothing is left of it.
+    if (fs::file_size(At("m.map")) == 0) return;
     EXPECT_EQ(info.exit_code, 0) << info.err;
   });
 }
