@@ -3,7 +3,7 @@
 # Installs the dependencies of the build and the tests, from the distribution's own packages.
 #
 #   scripts/setup.sh [GROUP...]      groups: build (default), homes, bench, lint, fuzz, docs,
-#                                    slurm, hm3d, ifc, viewer
+#                                    slurm, hm3d, ifc, viewer, roots
 # The build group comes with OpenVINO, the inference library, as no distribution packages it: its
 # Python wheel, pinned in scripts/openvino.txt, in ${XDG_DATA_HOME:-~/.local/share}/crossnav. Where
 # it cannot be had, the build goes on without networks. ONNX Runtime, another such library, is
@@ -12,7 +12,8 @@
 # ships: compiled from the sources in a crate that scripts/basis/Cargo.lock pins, beside OpenVINO too.
 # The ifc group is IfcOpenShell, pinned in scripts/ifcopenshell.txt, in a Python environment there, where
 # the program looks for it. The viewer group is Chromium and Node.js, with the packages that
-# viewer/package-lock.json pins: for the tests of the replay page, and for `make viewer`.
+# viewer/package-lock.json pins: for the tests of the replay page, and for `make viewer`. The roots group is
+# debootstrap, for `make try-packages`.
 # Tested on Debian 12 and 13; the names are those of Ubuntu 24.04 too. Nothing is asked for and
 # nothing is touched when everything is there. CROSSNAV_SKIP_SETUP=1 makes it do nothing.
 set -euo pipefail
@@ -32,6 +33,7 @@ declare -A PACKAGES=(
   [hm3d]="g++ libzstd-dev"
   [ifc]="python3-venv"
   [viewer]="chromium"
+  [roots]="debootstrap"
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The checks of the tree find faults that are planted, and pass a small tree that has none."""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -97,6 +98,15 @@ class Checks(unittest.TestCase):
     def test_a_path_that_is_not_there_is_found(self):
         self.assert_found("docs", {"docs/page.md": "the room `crossnav/bench`\n"}, "names crossnav/bench")
         self.assertEqual(self.run_check("docs", {"docs/page.md": "the room `crossnav/core/*.h`\n"})[0], 0)
+
+
+class Makefile(unittest.TestCase):
+    def test_its_groups_of_packages_exist_in_setup(self):
+        groups = set(re.findall(r"^  \[(\w+)\]=", (SCRIPTS / "setup.sh").read_text("utf-8"), re.M))
+        makefile = (SCRIPTS.parent / "Makefile").read_text("utf-8")
+        asked = {group for line in re.findall(r"scripts/setup\.sh((?: \w+)*)", makefile) for group in line.split()}
+        self.assertIn("viewer", asked)
+        self.assertEqual(asked - groups, set())
 
 
 if __name__ == "__main__":
