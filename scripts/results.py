@@ -2,18 +2,21 @@
 # SPDX-License-Identifier: MIT
 """Runs a suite in every variant and writes docs/results.md: ours, and every table of the paper.
 
-  scripts/results.py SUITE [--jobs N] [--out FILE] [EVAL OPTION...]
+  scripts/results.py SUITE [--jobs N] [--every K] [--out FILE] [EVAL OPTION...]
 
 e.g. scripts/results.py crossnav-mfmon-1-val-pack --jobs 2. Existing results are reused:
-an interrupted run resumes. A suite with tracks gets a section for each track, and no pooled
-figure (--homes and --buildings as for `suite run`). CROSSNAV names the program.
+an interrupted run resumes. --every 3 runs episodes 1, 4, 7, ... of each house. A suite with tracks
+gets a section for each track, and no pooled figure (--homes and --buildings as for `suite run`).
+CROSSNAV names the program.
 """
 
 import argparse
+import gzip
 import json
 import os
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -21,11 +24,12 @@ PROGRAM = os.environ.get("CROSSNAV", str(ROOT / "build/release/apps/crossnav/cro
 # The methods of the paper's tables, then ours. Comparisons are with the last of its list.
 METHODS = ("onemap", "paper-no-history-poi", "paper")
 OURS = ("planar", "no-history-poi", "no-history-poi-pure", "full")
+VARIANTS = (*reversed(OURS), *reversed(METHODS))
 # tab:single_object_results has no row without History POIs: one goal has no history.
 SINGLE = ("onemap", "paper")
 SINGLE_CONFIG = ROOT / "config/objectnav_paper.toml"
-# Options of `suite run` that `eval` lacks, or that the frozen configuration replaces.
-NOT_OF_SINGLE = ("--homes", "--buildings", "--furniture", "--config")
+# Options of `suite run` that `eval` lacks.
+OF_HOUSES = ("--homes", "--buildings", "--furniture")
 
 
 def crossnav(*words: str) -> str:
@@ -110,13 +114,15 @@ def comparison_line(comparison: dict) -> str:
     return f"- `{comparison['before']}` to `{comparison['after']}`: " + ", ".join(shown)
 
 
-def page(suite: str, options: list, tracks: dict, commit: str) -> str:
+def page(suite: str, every: int, options: list, tracks: dict, commit: str) -> str:
     """`tracks`: (runs, comparisons, papers) by track, "" for a suite without tracks."""
-    command = " ".join(["scripts/results.py", suite, *options])
+    part = [] if every == 1 else ["--every", str(every)]
+    command = " ".join(["scripts/results.py", suite, *part, *options])
+    which = f", one of every {every} episodes of a house" if part else ""
     lines = [
         "# Results", "",
-        f"The suite `{suite}`. Values in percent, with 95 % intervals by bootstrap over episodes. "
-        f"Ground-truth perception. Measured at `{commit}`, written by", "",
+        f"The suite `{suite}`{which}. Values in percent, with 95 % intervals by bootstrap over "
+        f"episodes. Ground-truth perception. Measured at `{commit}`, written by", "",
         f"```\n{command}\n```", ""]
     for name, measured in tracks.items():
         lines += [*([f"## Track {name}", ""] if name else []),
@@ -131,8 +137,29 @@ def report_of(folders: list, place: Path) -> dict:
 
 
 def run_suite(suite: str, jobs: str, options: list) -> None:
-    for variant in (*reversed(OURS), *reversed(METHODS)):
+    for variant in VARIANTS:
         crossnav("suite", "run", suite, "--variant", variant, "--jobs", jobs, *options)
+
+
+def run_part(place: Path, every: int, jobs: str, options: list) -> Path:
+    """Runs one of every `every` episodes of a house; a folder with `runs`, as that of a suite."""
+    part = place / f"every-{every}"
+    file = part / "episodes.json.gz"
+    if not file.exists():
+        document = json.loads(gzip.decompress((place / file.name).read_bytes()))
+        kept, seen = [], Counter()  # seen: by house, as a suite goes round its houses
+        for episode in document["episodes"]:
+            if seen[episode["scene_id"]] % every == 0:
+                kept.append(episode)
+            seen[episode["scene_id"]] += 1
+        document["episodes"] = kept
+        part.mkdir(exist_ok=True)
+        file.write_bytes(gzip.compress(json.dumps(document).encode(), mtime=0))
+    for variant in VARIANTS:
+        crossnav("eval", "--scenes", str(place / "scenes"), "--episodes", str(file), "--variant",
+                 variant, "--out", str(part / "runs" / variant), "--jobs", jobs,
+                 *parted(OF_HOUSES, options)[1])
+    return part
 
 
 def tracks_of(place: Path) -> dict:
@@ -158,31 +185,30 @@ def measured(place: Path) -> tuple:
     return runs, comparisons
 
 
-def single_options(options: list) -> list:
-    """Without NOT_OF_SINGLE, written as "--homes JAR" or as "--homes=JAR"."""
-    kept, is_value = [], False
+def parted(names: tuple, options: list) -> tuple:
+    """(those of `names`, the others) of `options`, written as "--homes JAR" or as "--homes=JAR"."""
+    parts, is_value = ([], []), False
     for word in options:
-        is_dropped = is_value or word.split("=")[0] in NOT_OF_SINGLE
-        is_value = word in NOT_OF_SINGLE
-        if not is_dropped:
-            kept.append(word)
-    return kept
+        is_named = is_value or word.split("=")[0] in names
+        is_value = word in names
+        parts[0 if is_named else 1].append(word)
+    return parts
 
 
-def run_single(place: Path, episodes: int, jobs: str, options: list) -> list:
+def run_single(place: Path, scenes: Path, episodes: int, jobs: str, options: list) -> list:
     """Single-object navigation in the suite's houses, in the paper's frozen configuration."""
     single = place / "single"
     file = single / "episodes.json.gz"
     if not file.exists():
-        crossnav("episodes", "generate", "--scenes", str(place / "scenes"), "--count",
+        crossnav("episodes", "generate", "--scenes", str(scenes), "--count",
                  str(episodes), "--goals", "1", "--seed", "7", "--out", str(file))
     for variant in SINGLE:
-        crossnav("eval", "--config", str(SINGLE_CONFIG), "--scenes", str(place / "scenes"),
+        crossnav("eval", "--config", str(SINGLE_CONFIG), "--scenes", str(scenes),
                  "--episodes", str(file), "--variant", variant, "--out", str(single / variant),
-                 "--jobs", jobs, *single_options(options))
+                 "--jobs", jobs, *parted((*OF_HOUSES, "--config"), options)[1])
     report_of([single / variant for variant in SINGLE], single / "report")
     lines = paper_tables((single / "report/report.md").read_text(encoding="utf-8"), ())[:4]
-    note = (f"{episodes} episodes of one goal in the same houses, in the paper's frozen "
+    note = (f"{episodes} episodes of one goal in the suite's houses, in the paper's frozen "
             f"configuration, `{SINGLE_CONFIG.relative_to(ROOT)}`.")
     return [*lines[:2], note, "", *lines[2:]]
 
@@ -191,19 +217,30 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("suite")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--every", type=int, default=1, metavar="K",
+                        help="one of every K episodes of a house")
     parser.add_argument("--commit", default=head(), help="which CROSSNAV is of, if not HEAD")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results.md")
     args, options = parser.parse_known_args()
-    suite = Path("out/suites") / args.suite
-    run_suite(args.suite, str(args.jobs), options)
+    suite, jobs = Path("out/suites") / args.suite, str(args.jobs)
+    if args.every < 1:
+        parser.error("--every is at least 1")
+    if args.every == 1:
+        run_suite(args.suite, jobs, options)
+    else:
+        crossnav("suite", "make", args.suite, "--jobs", jobs, *parted(OF_HOUSES, options)[0])
     tracks = {}
     for name, place in tracks_of(suite).items():
+        scenes = place / "scenes"
+        if args.every > 1:
+            place = run_part(place, args.every, jobs, options)
         runs, comparisons = measured(place)
         report_of([place / "runs" / method for method in METHODS], place / "paper")
         papers = paper_tables((place / "paper/report.md").read_text(encoding="utf-8"), METHODS)
-        papers += run_single(place, runs["full"]["episodes"], str(args.jobs), options)
+        papers += run_single(place, scenes, runs["full"]["episodes"], jobs, options)
         tracks[name] = runs, comparisons, papers
-    args.out.write_text(page(args.suite, options, tracks, args.commit), encoding="utf-8")
+    text = page(args.suite, args.every, options, tracks, args.commit)
+    args.out.write_text(text, encoding="utf-8")
     print(args.out)
 
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """scripts/results.py runs every row of every table, and its page holds them; a stand-in plays the
 program, which logs its calls and answers with canned figures."""
+import gzip
+import json
 import os
 import pathlib
 import re
@@ -12,7 +14,7 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/results.py"
 PROGRAM = '''#!{python}
-import json, pathlib, sys
+import gzip, json, pathlib, sys
 words = sys.argv[1:]
 with open("calls.txt", "a") as log:
     log.write(" ".join(words) + "\\n")
@@ -23,6 +25,12 @@ if words[:2] == ["suite", "run"] and "tracks" in words[2]:
         place = pathlib.Path("out/suites") / words[2] / name
         place.mkdir(parents=True, exist_ok=True)
         (place / "manifest.json").write_text("{}")
+if words[:2] == ["suite", "make"]:
+    place = pathlib.Path("out/suites") / words[2]
+    place.mkdir(parents=True)
+    episodes = [dict(episode_id=str(i), scene_id="ab"[i % 2]) for i in range(10)]
+    document = json.dumps(dict(episodes=episodes)).encode()
+    (place / "episodes.json.gz").write_bytes(gzip.compress(document))
 if words[0] == "metrics":
     print(json.dumps(dict(episodes=24, goals=3, metrics=metrics,
                           groups=dict(cfr=dict(episodes=8, metrics=metrics)))))
@@ -88,6 +96,23 @@ class Results(unittest.TestCase):
         self.assertRegex(page, r"`config/objectnav_paper.toml`.\n\nsingle rows")
         for part in ("Causes of failure", "Plots", ".svg", ", paired"):
             self.assertNotIn(part, page)
+
+    def test_a_part_of_a_suite_has_episodes_of_each_house_and_the_page_says_so(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            calls, page = run(root, "suite-x", "--every", "2", "--furniture", "pack")
+            file = root / "out/suites/suite-x/every-2/episodes.json.gz"
+            document = json.loads(gzip.decompress(file.read_bytes()))
+        self.assertEqual([e["episode_id"] for e in document["episodes"]], list("014589"))
+        self.assertIn("suite make suite-x --jobs 3 --furniture pack\n", calls)
+        self.assertNotIn("suite run", calls)
+        scenes, part = "out/suites/suite-x/scenes", "out/suites/suite-x/every-2"
+        for variant in ("full", "onemap"):
+            self.assertIn(f"eval --scenes {scenes} --episodes {part}/episodes.json.gz --variant "
+                          f"{variant} --out {part}/runs/{variant} --jobs 3 --set a=1\n", calls)
+        self.assertIn(f"--scenes {scenes} --episodes {part}/single/episodes", calls)
+        self.assertIn("`suite-x`, one of every 2 episodes of a house.", page)
+        self.assertIn("results.py suite-x --every 2 --furniture pack --set a=1\n", page)
 
     def test_single_object_runs_get_no_option_that_eval_lacks(self):
         with tempfile.TemporaryDirectory() as folder:
