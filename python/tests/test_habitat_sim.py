@@ -92,6 +92,7 @@ class Both:
         backend.scene_dataset_config_file = str(self.place.dataset)
         backend.scene_id = str(self.place.mesh)
         backend.enable_physics = False
+        backend.gpu_device_id = -1  # any EGL device: 0 would be a CUDA device, or nothing
         backend.allow_sliding = allow_sliding
         body = habitat_sim.agent.AgentConfiguration()
         kinds = habitat_sim.SensorType
