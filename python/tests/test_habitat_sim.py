@@ -148,6 +148,7 @@ def test_ids_are_those_of_our_simulator(both: Both) -> None:
         both.stand(both.random_pose(seed))
         both.ours.observe()
         right.append(np.mean(both.images()["semantic"].astype(np.int64) == both.ours.instances))
+    print(f"{both.place.id}: ids right {100 * np.mean(right):.2f} %")
     assert np.mean(right) >= 0.99
 
 
@@ -164,6 +165,7 @@ def test_depth_is_that_of_our_simulator(both: Both) -> None:
         has_both = (ours > 0) & (theirs > 0)
         off += int((np.abs(ours - theirs)[has_both] > 0.01).sum())
         measured += int(has_both.sum())
+    print(f"{both.place.id}: depth off by more than 1 cm {100 * off / measured:.4f} %")
     assert measured > 0.5 * POSES * 320 * 320
     assert off < 0.001 * measured
 
@@ -193,6 +195,8 @@ def test_shortest_paths_are_those_of_our_navmesh(both: Both) -> None:
             if distance_m is not None:
                 ours.append(distance_m)
                 theirs.append(path.geodesic_distance)
+    share = 100 * np.mean(theirs) / np.mean(ours)
+    print(f"{both.place.id}: mean of {len(ours)} paths {share:.3f} %")
     assert len(ours) > PATHS
     assert abs(np.mean(theirs) / np.mean(ours) - 1) < 0.01
 
@@ -220,7 +224,9 @@ def test_a_step_ends_where_ours_ends(both: Both) -> None:
             stuck += back > 0.24 and their_back < 0.2
         elif ours > 0.24:
             stuck += theirs < 0.2
-    assert np.mean(np.array(apart_m) < 0.02) >= 0.95
+    near = np.mean(np.array(apart_m) < 0.02)
+    print(f"{both.place.id}: {100 * near:.1f} % of {STEPS} steps end within 2 cm, stuck {stuck}")
+    assert near >= 0.95
     assert stuck <= 0.02 * STEPS
 
 
@@ -269,11 +275,12 @@ def test_an_episode_succeeds_with_the_semantic_sensor(both: Both) -> None:
     agent = habitat.HabitatAgent(truth.perception, SETTINGS,
                                  habitat.DepthScale(0.0, MAX_DEPTH_M))
     names = {number: NAME_OF.get(action) for action, number in habitat.ACTION_IDS.items()}
-    for _ in range(LONGEST):
+    for actions in range(LONGEST):
         name = names[agent.act(truth.look(sensors.observe()))]
         if name is None:
             break
         both.body.act(name)
     assert name is None, f"no stop within {LONGEST} actions"
     both.ours.reset(crossnav.AgentPose(both.p_world(), both.yaw_rad()))
+    print(f"{both.place.id}: {goal} after {actions} actions: {both.ours.is_reached(goal)}")
     assert both.ours.is_reached(goal), f"{episode.episode_id}: {goal}"
