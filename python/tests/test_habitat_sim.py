@@ -5,6 +5,7 @@ Version 0.3.4 broke motion without sliding: after a collision, turning round sta
 """
 
 import gzip
+import importlib.util
 import json
 import math
 import os
@@ -25,11 +26,15 @@ habitat_sim: Any = pytest.importorskip("habitat_sim", reason="habitat-sim is not
 if not str(habitat_sim.__version__).startswith("0.3.3"):
     pytest.skip(f"written for habitat-sim 0.3.3, not {habitat_sim.__version__}",
                 allow_module_level=True)
+if importlib.util.find_spec("habitat_sim.sensors.sensor_wrapper"):
+    pytest.skip("written for habitat-sim 0.3.3; 0.3.4 calls itself so, too",
+                allow_module_level=True)
 
 SUITE = "crossnav-mfmon-1-mini"  # six houses
 SETTINGS = {"sensor": {"width_px": 320, "height_px": 320}, "ground_truth": {"min_visible_px": 60}}
 MAX_DEPTH_M = 10.0
 POSES, STEPS, PATHS = 8, 60, 10  # of each house
+SHORT_M = 0.05                   # our robot stops this much before a border, or less
 LONGEST = 1000                   # actions of an episode
 NAME_OF = {Action.MOVE_FORWARD: "move_forward", Action.TURN_LEFT: "turn_left",
            Action.TURN_RIGHT: "turn_right", Action.LOOK_UP: "look_up",
@@ -212,20 +217,26 @@ def step_both(both: Both) -> tuple[float, float, float]:
 
 
 def test_a_step_ends_where_ours_ends(both: Both) -> None:
-    apart_m, stuck = [], 0
+    """A whole step to the millimetre; at a wall ours stops up to SHORT_M before the border."""
+    whole_m, apart_m, stuck = [], [], 0
     for seed in range(1, STEPS + 1):
         pose = both.random_pose(seed)
         both.stand(pose)
         apart, ours, theirs = step_both(both)
         apart_m.append(apart)
+        if ours > 0.24 and theirs > 0.24:
+            whole_m.append(apart)
         if ours < 0.2:  # a collision: turned round, the robot walks away
             both.stand(crossnav.AgentPose(both.ours.pose.p_world, pose.yaw_rad + math.pi))
             _, back, their_back = step_both(both)
             stuck += back > 0.24 and their_back < 0.2
         elif ours > 0.24:
             stuck += theirs < 0.2
-    near = np.mean(np.array(apart_m) < 0.02)
-    print(f"{both.place.id}: {100 * near:.1f} % of {STEPS} steps end within 2 cm, stuck {stuck}")
+    near = np.mean(np.array(apart_m) < SHORT_M + 0.01)
+    print(f"{both.place.id}: {len(whole_m)} of {STEPS} steps whole, at most {max(whole_m):.4f} m "
+          f"apart; {100 * near:.1f} % of all within {SHORT_M + 0.01:.2f} m; stuck {stuck}")
+    assert len(whole_m) > STEPS / 2
+    assert max(whole_m) < 0.001
     assert near >= 0.95
     assert stuck <= 0.02 * STEPS
 
