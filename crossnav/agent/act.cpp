@@ -6,6 +6,7 @@
 
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/hints.h"
+#include "crossnav/agent/object_search.h"
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/scan.h"
@@ -73,6 +74,7 @@ std::optional<Action> ActOnExploration(StepState& now, Pursued& pursued) {
   if (DistanceToEnd(now) > now.config.policy.motion.arrival_m) {
     if (auto action = Walk(now, pursued.route)) return action;
   }
+  if (pursued.target.kind == CandidateKind::kSearchView) SettleView(now, pursued.target);
   if (pursued.target.kind != CandidateKind::kSighting)
     End(now, Ending::kNotOpened);
   else

@@ -146,7 +146,7 @@ Result<void> Agent::SetGoal(const std::string& wish) {
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
   impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
-  impl_->goal.full.notice_range_m = NoticeRange(impl_->world, impl_->goal, impl_->config);
+  impl_->world.full.field.BeginGoal();
   impl_->world.paper.bumps.Clear();
   impl_->world.onemap.map.ClearChecked();
   // Inspected ground needs no second look because the memory answers for it. Without History POIs
@@ -273,7 +273,6 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   FullGoal& full = goal.full;
   const double voxel_m = config.map.voxel_m;
   world.coverage.Add(end_voxels, p_camera_world, full.inspect_range_m, voxel_m);
-  if (world.revision) full.inspected.Add(end_voxels, p_camera_world, full.notice_range_m, voxel_m);
   if (config.policy.profile == "onemap") world.onemap.map.Add(end_voxels, obs, config.fusion);
   clock.Stop("evidence");
   NoteObjects(lifted, percept->detections, obs, &world, &goal);

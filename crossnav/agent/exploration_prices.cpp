@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "crossnav/agent/whereabouts.h"
 #include "crossnav/policy/whereabouts.h"
 
 namespace crossnav::agent {
@@ -25,15 +24,7 @@ ExplorationPrices::ExplorationPrices(const Situation& now, const policy::Relevan
     : now_(now),
       config_(now.config.policy.explore),
       relevancy_(relevancy),
-      floor_prior_m_(config_.floor_prior_m_per_bit * policy::UpperStoreyBits(now.goal.goal)),
-      is_surely_absent_(IsSurelyAbsent(now)) {}
-
-bool ExplorationPrices::IsWorthwhile(const ExplorationCandidate& found) const {
-  if (!is_surely_absent_) return true;
-  if (found.type == ExplorationClass::kUninspected) return false;
-  return found.type != ExplorationClass::kFrontier ||
-         policy::UnseenBeyond(now_.world.ground, found.place, config_.view_range_m) >= kRoom_m2;
-}
+      floor_prior_m_(config_.floor_prior_m_per_bit * policy::UpperStoreyBits(now.goal.goal)) {}
 
 PricedCandidate ExplorationPrices::Of(ExplorationCandidate found, std::vector<VoxelKey> path,
                                       double path_m) {
@@ -60,9 +51,7 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
     case ExplorationClass::kFlight:
       return {FlightPrice(RiseOf(now_, found.place)) + Doubt(found.candidate)};
     case ExplorationClass::kUninspected:
-      return {
-          std::max(0.0, config_.uninspected_m - SearchBonus(now_, found.candidate.p_focus_world)) +
-          level_m};
+      return {config_.uninspected_m + level_m};
     case ExplorationClass::kHint:
       return {config_.hint_bonus_m};
     case ExplorationClass::kHintFromAfar:

@@ -13,6 +13,8 @@ namespace crossnav::agent {
 
 // chosen: flat ground this near in height is the same floor
 inline constexpr double kSplitLevel_m = 1.0;
+// chosen: unseen area that may be a room
+inline constexpr double kRoom_m2 = 4;
 
 /// A candidate with its path and price.
 struct PricedCandidate {
@@ -26,10 +28,6 @@ struct PricedCandidate {
 class ExplorationPrices {
  public:
   ExplorationPrices(const Situation& now, const policy::Relevancy& relevancy);
-
-  /// False for candidates that no longer matter once the goal is surely absent from all that the
-  /// memory knows (memory.mode = revise): known ground, and pockets of unseen ground.
-  bool IsWorthwhile(const ExplorationCandidate& found) const;
 
   /// `path_m`: cost of `path`.
   PricedCandidate Of(ExplorationCandidate found, std::vector<geometry::VoxelKey> path,
@@ -63,7 +61,6 @@ class ExplorationPrices {
   const policy::ExploreConfig& config_;
   const policy::Relevancy& relevancy_;
   double floor_prior_m_;  // positive: the goal is likelier on an upper floor; negative: below
-  bool is_surely_absent_;
   bool has_found_descent_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include "crossnav/agent/exploration_candidates.h"
 #include "crossnav/agent/exploration_prices.h"
 #include "crossnav/agent/hooks.h"
+#include "crossnav/agent/object_search.h"
 #include "crossnav/core/check.h"
 #include "crossnav/policy/flights.h"
 #include "crossnav/policy/ground_frontiers.h"
@@ -33,13 +34,22 @@ std::vector<PricedCandidate> PriceCandidates(const Situation& now, const VoxelKe
     // A hook may prefer candidates that are far away.
     if (!now.hooks && path_m + prices->LargestDiscount() >= best_m) break;
     for (ExplorationCandidate& found : candidates.At(*place)) {
-      if (!prices->IsWorthwhile(found)) continue;
       all.push_back(prices->Of(std::move(found), search.PathTo(*place), path_m));
       best_m = std::min(best_m, prices->UpperBound(all.back()));
     }
   }
   prices->RaiseFlightsPastFloors(&all);
   return all;
+}
+
+/// The search of a known house comes first. Where it has no view left before most was looked at,
+/// its map is wrong, and frontiers count as in an unknown house.
+std::vector<PricedCandidate> PriceCandidatesOrSearch(const Situation& now, const VoxelKey& start,
+                                                     ExplorationPrices* prices) {
+  if (!now.goal.full.search) return PriceCandidates(now, start, prices);
+  auto all = PriceSearch(now, start);
+  if (!all.empty() || IsSurelyAbsent(now) || IsSearchOver(now)) return all;
+  return PriceCandidates(now, start, prices);
 }
 
 std::optional<GroundTarget> Cheapest(std::vector<PricedCandidate> all) {
@@ -96,7 +106,7 @@ ExplorationChoice ChooseExploration(const Situation& now, const VoxelKey& start)
   ExplorationChoice choice;
   choice.relevancy = FreshRelevancy(now);
   ExplorationPrices prices(now, choice.relevancy ? *choice.relevancy : now.goal.full.relevancy);
-  std::vector<PricedCandidate> all = PriceCandidates(now, start, &prices);
+  std::vector<PricedCandidate> all = PriceCandidatesOrSearch(now, start, &prices);
   choice.has_found_descent = prices.has_found_descent();
   for (const PricedCandidate& priced : all) choice.shown.push_back(priced.target.candidate);
   choice.target = now.hooks ? AskHooks(now, std::move(all)) : Cheapest(std::move(all));
@@ -117,6 +127,8 @@ bool IsStillOpen(const Situation& now, const Candidate& candidate) {
           });
     case CandidateKind::kUninspected:
       return !now.world.coverage.IsInspected(candidate.standing.front());
+    case CandidateKind::kSearchView:
+      return IsViewOpen(now, candidate);
     default:
       return true;
   }

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "crossnav/agent/cut_off.h"
+#include "crossnav/agent/object_search.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
-#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 namespace {
@@ -70,29 +70,29 @@ bool TryAllAgain(StepState& now) {
   goal.failed_views = 0;
   goal.full.failed.clear();
   now.world.coverage.Clear();
-  goal.full.inspect_range_m *= 0.6;  // chosen: near enough for the smallest category
+  constexpr double kNearer = 0.6;  // chosen: near enough for the smallest category
+  goal.full.inspect_range_m *= kNearer;
+  SearchNearer(now, kNearer);
   now.world.ground.ForgetBlocked();
   goal.events.push_back("nothing left: trying once more with relaxed limits");
   return true;
 }
 
-/// Ground that was inspected for other goals only is open again: the memory may have missed the
-/// goal there.
-bool InspectForThisGoal(StepState& now) {
-  if (!now.world.revision) return false;
-  now.world.coverage = now.goal.full.inspected;
-  now.goal.events.push_back("nothing left: ground inspected for other goals is inspected again");
+/// A small thing was passed unnoticed: ground and tops of furniture are looked at from near.
+bool SearchClosely(StepState& now) {
+  if (!BeginCloseSearch(now)) return false;
+  now.goal.events.push_back("nothing left: searching from near");
   return true;
 }
 
-constexpr std::array kResorts = {TakeGuesses, LookAroundAgain, ForgetBumps,    InspectForThisGoal,
-                                 Squeeze,     StepOnSeats,     AskMemoryAgain, TryAllAgain};
+constexpr std::array kResorts = {TakeGuesses,   LookAroundAgain, ForgetBumps,    Squeeze,
+                                 SearchClosely, StepOnSeats,     AskMemoryAgain, TryAllAgain};
 
 }  // namespace
 
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;
-  if (IsSurelyAbsent(now)) {
+  if (IsSurelyAbsent(now) || IsSearchOver(now)) {
     goal.events.push_back("all explored; everywhere looked at, it is gone");
     return false;
   }

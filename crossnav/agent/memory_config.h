@@ -10,17 +10,13 @@ struct MemoryConfig {
   /// keep | revise: revise acts where a memory was loaded; it drops places that were seen without
   /// their object, searches where the object may have gone, and clears what is seen through.
   std::string mode = "keep";
-  double absent_from = 0.85;      // chosen: odds of absence at which a search is given up
-  double search_m_per_bit = 6;    // chosen: path worth a doubling of a room's odds
-  double search_most_bits = 1.6;  // chosen: thrice as likely as the mean, or a third
+  double absent_from = 0.85;  // chosen: odds of absence at which a search is given up
 };
 
 template <class V>
 void Visit(V& visit, MemoryConfig& c) {
   visit("mode", c.mode, {"keep", "revise"});
   visit("absent_from", c.absent_from, 0.0, 1.0);
-  visit("search_m_per_bit", c.search_m_per_bit, 0.0, 1000.0);
-  visit("search_most_bits", c.search_most_bits, 0.0, 20.0);
 }
 
 }  // namespace crossnav::agent

@@ -10,10 +10,10 @@
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/hooks.h"
 #include "crossnav/agent/last_resort.h"
+#include "crossnav/agent/object_search.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/shared_parts.h"
-#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 

@@ -30,6 +30,7 @@
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/policy/modes.h"
 #include "crossnav/policy/onemap_goals.h"
+#include "crossnav/policy/search_field.h"
 #include "crossnav/policy/stair_evidence.h"
 #include "crossnav/policy/stair_session.h"
 #include "crossnav/policy/steering.h"
@@ -46,6 +47,7 @@ struct FullWorld {
   policy::UnansweredGround unanswered;        ///< looked at from near in vain
   std::optional<AgentPose> before_forward;    ///< pose before the last forward step
   int flat_frames = 0;  ///< consecutive frames on flat ground off the exploration level
+  policy::SearchField field;
   double confirmed_similarity = -1;      ///< lowest of a confirmed object and its goal's text
   std::vector<policy::NamedText> names;  ///< rival names of claims, verify.memory = on
 };
@@ -140,12 +142,16 @@ struct FailedViews {
   double doubtful_m = 0;  ///< FullGoal::doubtful_m after the last
 };
 
-/// Odds of the rooms for a goal that is at no place that the memory believes.
-struct RoomSearch {
-  std::map<int, double> odds;  ///< by room of the graph
-  double mean = 0;             ///< over the rooms with ground that was not inspected
-  double unseen = 1;           ///< mass of the ground that was not inspected
-  int step = 0;                ///< of the last refresh of `mean` and `unseen`
+/// Search of a known house for a goal that is at no place that the memory believes.
+struct ObjectSearch {
+  std::map<int, double> odds;                   ///< by room of the graph; empty = all ground alike
+  std::map<geometry::VoxelKey, double> shares;  ///< probability of each patch, in sum 1
+  std::set<geometry::VoxelKey> hidden;          ///< patches that no place within reach shows
+  bool is_tall = false;                         ///< it reaches the high points of the patches
+  bool is_wide = false;                         ///< it reaches into the next patch
+  double notice_range_m = 0;  ///< up to which a look tells whether the goal is there
+  double unseen = 1;          ///< probability that the goal is at a patch and was not noticed
+  int step = -1;              ///< of the last refresh of `shares` and `unseen`
 };
 
 /// Goal state of policy.profile = full.
@@ -162,11 +168,9 @@ struct FullGoal {
   bool may_squeeze = false;      ///< planner rules that last resorts relaxed
   bool may_step_on_seats = false;
   double inspect_range_m = 0;
-  policy::Relevancy relevancy;       ///< scoring = semantic
-  int relevancy_step = -1;           ///< step of its last refresh
-  std::optional<RoomSearch> search;  ///< memory.mode = revise
-  policy::Coverage inspected;        ///< for this goal; memory.mode = revise
-  double notice_range_m = 0;         ///< of `inspected`
+  policy::Relevancy relevancy;         ///< scoring = semantic
+  int relevancy_step = -1;             ///< step of its last refresh
+  std::optional<ObjectSearch> search;  ///< memory.mode = revise, or the last resort
 };
 
 /// Verification of a stair entrance, while the agent stands there and looks.

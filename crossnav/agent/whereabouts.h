@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "crossnav/agent/decision.h"
@@ -20,6 +21,9 @@ bool IsRevising(const Config& config);
 /// (map.clearing = evidence).
 Result<void> CountEvidence(geometry::VoxelMap* map);
 
+/// Largest sides of the category's records [m]; zero without a record.
+Vector3d UsualSides(const World& world, const std::string& category);
+
 /// Distance up to which a look at a place tells whether the goal is there [m]: shorter for a thing
 /// that records show to be small.
 double NoticeRange(const World& world, const GoalState& goal, const Config& config);
@@ -33,15 +37,5 @@ void LocateObjects(World* world);
 /// Leaves out places that records or the map contradict; adds records that no place covers.
 std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& world,
                                 const GoalState& goal);
-
-/// Brings `goal.full.search` up to date.
-void UpdateSearch(StepState& now);
-
-/// Path that ground in the room about `p_world` is worth more than in a room of mean odds [m]; 0
-/// without a search.
-double SearchBonus(const Situation& now, const Vector3d& p_world);
-
-/// Nothing was found where nearly everything was looked at: the goal is gone.
-bool IsSurelyAbsent(const Situation& now);
 
 }  // namespace crossnav::agent

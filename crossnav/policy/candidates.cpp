@@ -24,6 +24,8 @@ std::string_view NameOf(CandidateKind kind) {
       return "sighting";
     case CandidateKind::kUninspected:
       return "uninspected";
+    case CandidateKind::kSearchView:
+      return "search_view";
   }
   return "unknown";
 }

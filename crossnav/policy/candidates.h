@@ -26,6 +26,7 @@ enum class CandidateKind {
   // Of policy.profile = full, below the frontiers of the level.
   kSighting,     ///< the goal was seen, too weakly or where it cannot be approached yet
   kUninspected,  ///< ground seen only from where the detector does not answer
+  kSearchView,   ///< a view of places where the goal may stand unnoticed
 };
 
 std::string_view NameOf(CandidateKind kind);
@@ -39,7 +40,8 @@ struct Candidate {
   CandidateKind kind = CandidateKind::kTraversableFrontier;
   Vector3d p_focus_world = Vector3d::Zero();  ///< focus, e.g. the cluster's centre
   std::vector<VoxelKey> standing;             ///< voxels from which it counts as reached
-  std::vector<VoxelKey> beyond;               ///< frontiers: cells beyond each standing voxel
+  std::vector<VoxelKey> beyond;               ///< frontiers: cells beyond each standing voxel;
+                                              ///< search views: the patches they show
   int size = 0;                               ///< [voxels]
   double score = 0;                           ///< higher is better, within its class
   std::optional<int> poi_id;                  ///< of the live POI or hint behind it

@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/object_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "crossnav/agent/exploration_candidates.h"
+#include "crossnav/agent/explore.h"
+#include "crossnav/agent/whereabouts.h"
+#include "crossnav/core/category_table.h"
+#include "crossnav/policy/flights.h"
+#include "crossnav/policy/frontier_worth.h"
+#include "crossnav/scenegraph/build_graph.h"
+
+namespace crossnav::agent {
+
+using geometry::VoxelKey;
+using policy::Candidate;
+using policy::CandidateKind;
+using policy::SearchPatch;
+
+namespace {
+
+constexpr double kMissed = 0.3;       // chosen: chance that the memory misses a thing that was seen
+constexpr double kOtherKind = 0.15;   // chosen: of tops for a thing of the ground, and vice versa
+constexpr double kWide_m = 0.4;       // chosen: reaches into the next patch
+constexpr double kTop_m = 0.25;       // chosen: lowest top of furniture
+constexpr double kLeastGain = 0.004;  // chosen: a view of less is not worth a step
+constexpr double kHintGain = 0.5;     // chosen: half of the hints are the goal
+constexpr double kMargin_m = 0.3;     // chosen: views end that much before the range
+constexpr double kEdge_deg = 5;       // chosen: at each side of the picture
+constexpr double kCommit = 0.8;       // chosen: price of the target in progress, as a share
+constexpr double kAround_m = 6;       // chosen: patches about the agent, a view and a step
+constexpr int kRefresh_steps = 6;     // chosen: as policy.explore.reconsider_steps
+constexpr int kViewGrid_shift = 3;    // chosen: one view in 8 x 8 columns
+constexpr double kMostUnseen = 0.2;   // chosen: of a search without a view left
+constexpr double kClose = 0.6;        // chosen: of the range, near enough for small things
+constexpr double kOffLevel_m = 0.3;   // chosen: a frontier this far off a floor is on furniture
+
+VoxelKey ViewCellOf(const VoxelKey& place) {
+  return {place.x >> kViewGrid_shift, place.y >> kViewGrid_shift, place.z >> kViewGrid_shift};
+}
+
+Vector3d EyeAt(const Situation& now, const VoxelKey& place) {
+  return FootOf(place, now.config.map.voxel_m) + Vector3d(0, 0, now.config.sensor.camera_height_m);
+}
+
+/// The point of a patch that shows the goal.
+Vector3d PointOf(const SearchPatch& patch, const ObjectSearch& search) {
+  return search.is_tall ? patch.HighPoint() : patch.LowPoint();
+}
+
+/// Chance that the goal stands at the patch and was not noticed, given that it stands there.
+double UnnoticedAt(const SearchPatch& patch, const ObjectSearch& search) {
+  const policy::Looked& looked = search.is_tall ? patch.high : patch.low;
+  if (looked.for_goal_m <= search.notice_range_m) return 0;
+  return looked.in_run_m <= search.notice_range_m ? kMissed : 1;
+}
+
+/// The same; a wide goal shows at the patches beside it, too.
+double Unnoticed(const policy::SearchField& field, const VoxelKey& cell, const SearchPatch& patch,
+                 const ObjectSearch& search) {
+  const double here = UnnoticedAt(patch, search);
+  if (!search.is_wide || here == 0) return here;
+  constexpr std::size_t kBeside = 4;  // chosen: more than one side of the eight around it
+  std::vector<double> beside;
+  for (int dx = -1; dx <= 1; ++dx)
+    for (int dy = -1; dy <= 1; ++dy) {
+      const auto it = field.patches().find({cell.x + dx, cell.y + dy, cell.z});
+      if ((dx == 0 && dy == 0) || it == field.patches().end()) continue;
+      beside.push_back(UnnoticedAt(it->second, search));
+    }
+  if (beside.size() < kBeside) return here;
+  std::nth_element(beside.begin(), beside.begin() + kBeside - 1, beside.end());
+  return std::min(here, beside[kBeside - 1]);
+}
+
+/// Mean height of the category's records above their floor [m]; nullopt without a record.
+std::optional<double> UsualHeight(const World& world, const std::string& category) {
+  double sum_m = 0;
+  int count = 0;
+  for (const objects::ObjectRecord& record : world.objects.records()) {
+    if (record.category != category || record.views == 0 || !world.revision) continue;
+    const auto& floors = world.revision->graph.floors;
+    const auto floor = FloorAt(world.revision->graph, record.centre_world_m);
+    if (!floor) continue;
+    sum_m += record.box_world_m.min().z() - floors[static_cast<std::size_t>(*floor)].height_m;
+    ++count;
+  }
+  return count > 0 ? std::optional(sum_m / count) : std::nullopt;
+}
+
+/// Probability of each patch, in sum 1.
+std::map<VoxelKey, double> SharesOf(const World& world, const GoalState& goal,
+                                    const std::map<int, double>& odds) {
+  const auto height_m = UsualHeight(world, CanonicalName(goal.goal));
+  std::map<VoxelKey, double> shares;
+  std::map<VoxelKey, int> rooms;
+  std::map<int, double> in_room;
+  for (const auto& [cell, patch] : world.full.field.patches()) {
+    if (goal.full.search->hidden.contains(cell)) continue;
+    double share = patch.columns;
+    if (height_m && (*height_m > kTop_m) != (patch.height_m > kTop_m)) share *= kOtherKind;
+    if (world.revision) {
+      const auto& graph = world.revision->graph;
+      const auto floor = FloorAt(graph, patch.p_world);
+      const auto room = floor ? RoomAt(graph, *floor, patch.p_world) : std::nullopt;
+      if (!room) continue;
+      rooms[cell] = *room;
+      in_room[*room] += share;
+    } else {
+      in_room[0] += share;
+    }
+    shares[cell] = share;
+  }
+  double sum = 0;
+  for (auto& [cell, share] : shares) {
+    const int room = world.revision ? rooms[cell] : 0;
+    const auto it = odds.find(room);
+    share *= (odds.empty() ? 1 : it == odds.end() ? 0 : it->second) / in_room[room];
+    sum += share;
+  }
+  if (sum > 0)
+    for (auto& [cell, share] : shares) share /= sum;
+  return shares;
+}
+
+void UpdateAllFloors(World* world) {
+  const auto& graph = world->revision->graph;
+  for (std::size_t floor = 0; floor < graph.plans.size(); ++floor) {
+    const auto& frame = graph.plans[floor].frame;
+    world->full.field.Update(world->map, graph.floors[floor].height_m, {frame.x0, frame.y0, 0},
+                             {frame.x0 + frame.width - 1, frame.y0 + frame.height - 1, 0});
+  }
+}
+
+void UpdateAround(StepState& now) {
+  const double voxel_m = now.config.map.voxel_m;
+  const Vector3d reach(kAround_m, kAround_m, 0);
+  now.world.full.field.Update(now.world.map, now.world.level_m,
+                              geometry::KeyOf(now.agent.p_world - reach, voxel_m),
+                              geometry::KeyOf(now.agent.p_world + reach, voxel_m));
+}
+
+/// Patches that no place within reach shows.
+std::set<VoxelKey> HiddenPatches(const Situation& now, const VoxelKey& start,
+                                 const ObjectSearch& goal) {
+  const double range_m = goal.notice_range_m;
+  std::set<VoxelKey> hidden, asked;
+  for (const auto& [cell, patch] : now.world.full.field.patches()) hidden.insert(cell);
+  planner::GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  while (const auto place = search.Next()) {
+    if (!asked.insert(ViewCellOf(*place)).second) continue;
+    const Vector3d p_eye = EyeAt(now, *place);
+    std::erase_if(hidden, [&](const VoxelKey& cell) {
+      const Vector3d p_world = PointOf(now.world.full.field.patches().at(cell), goal);
+      return (p_world - p_eye).squaredNorm() <= range_m * range_m &&
+             now.world.map.HasLineOfSight(p_eye, p_world);
+    });
+  }
+  return hidden;
+}
+
+/// A view from a place: the heading that shows most for its price.
+struct View {
+  double gain = 0;
+  double cost_m = 0;
+  double heading_rad = 0;
+  std::vector<VoxelKey> cells;
+};
+
+/// Views of one choice.
+class Views {
+ public:
+  explicit Views(const Situation& now) : now_(now) {
+    const ObjectSearch& search = *now.goal.full.search;
+    for (const auto& [cell, patch] : now.world.full.field.patches()) {
+      const auto it = search.shares.find(cell);
+      if (it == search.shares.end()) continue;
+      const double gain = it->second * Unnoticed(now.world.full.field, cell, patch, search);
+      if (gain > 0) open_.push_back({cell, PointOf(patch, search), gain});
+    }
+    range_m_ = search.notice_range_m - kMargin_m;
+  }
+
+  /// More than any view from `place` can gain.
+  double Bound(const VoxelKey& place) const {
+    const Vector3d p_eye = EyeAt(now_, place);
+    double gain = 0;
+    for (const Open& open : open_) gain += IsInRange(p_eye, open.p_world) ? open.gain : 0;
+    return gain;
+  }
+
+  /// The best view from the end of a path of `path_m`, towards which the agent arrives with
+  /// `arrival_rad`.
+  std::optional<View> From(const VoxelKey& place, double path_m, double arrival_rad) const {
+    const Vector3d p_eye = EyeAt(now_, place);
+    struct Seen {
+      const Open* open;
+      double bearing_rad;
+    };
+    std::vector<Seen> seen;
+    for (const Open& open : open_) {
+      if (!IsInRange(p_eye, open.p_world) || !IsInPicture(p_eye, open.p_world)) continue;
+      if (!now_.world.map.HasLineOfSight(p_eye, open.p_world)) continue;
+      const Vector3d d = open.p_world - p_eye;
+      seen.push_back({&open, std::atan2(d.y(), d.x())});
+    }
+    const double turn_rad = DegToRad(now_.config.action.turn_deg);
+    const double half_rad = DegToRad(now_.config.sensor.hfov_deg / 2 - kEdge_deg);
+    const int turns_around = static_cast<int>(std::lround(2 * M_PI / turn_rad));
+    std::optional<View> best;
+    for (int i = 0; i < turns_around; ++i) {
+      // Headings are the agent's own: it turns by whole steps.
+      const double heading_rad = WrapAngle(now_.agent.yaw_rad + i * turn_rad);
+      View view;
+      view.heading_rad = heading_rad;
+      view.cost_m = path_m + now_.config.action.forward_m *
+                                 std::abs(WrapAngle(heading_rad - arrival_rad)) / turn_rad;
+      for (const Seen& patch : seen)
+        if (std::abs(WrapAngle(patch.bearing_rad - heading_rad)) <= half_rad) {
+          view.gain += patch.open->gain;
+          view.cells.push_back(patch.open->cell);
+        }
+      if (view.gain < kLeastGain) continue;
+      const double start_m = now_.config.policy.explore.start_m;
+      if (!best || (view.cost_m + start_m) / view.gain < (best->cost_m + start_m) / best->gain)
+        best = std::move(view);
+    }
+    return best;
+  }
+
+ private:
+  struct Open {
+    VoxelKey cell;
+    Vector3d p_world;
+    double gain = 0;
+  };
+
+  bool IsInRange(const Vector3d& p_eye, const Vector3d& p_world) const {
+    return (p_world - p_eye).squaredNorm() <= range_m_ * range_m_;
+  }
+  bool IsInPicture(const Vector3d& p_eye, const Vector3d& p_world) const {
+    const Vector3d d = p_world - p_eye;
+    const double above_rad = std::atan2(d.z(), d.head<2>().norm()) -
+                             DegToRad(now_.config.policy.motion.travel_pitch_deg);
+    const auto& camera = now_.obs.camera;
+    return std::abs(above_rad) <=
+           std::atan(0.5 * camera.height_px / camera.fy) - DegToRad(kEdge_deg);
+  }
+
+  const Situation& now_;
+  std::vector<Open> open_;
+  double range_m_ = 0;
+};
+
+/// The point on the ground that the camera looks at in the pitch of travel: no look needs a pitch.
+Vector3d FocusOf(const Situation& now, const VoxelKey& place, double heading_rad) {
+  const double down_rad = -DegToRad(now.config.policy.motion.travel_pitch_deg);
+  const double ahead_m =
+      now.config.sensor.camera_height_m / std::tan(std::max(down_rad, DegToRad(10)));
+  return FootOf(place, now.config.map.voxel_m) +
+         ahead_m * Vector3d(std::cos(heading_rad), std::sin(heading_rad), 0);
+}
+
+double ArrivalHeading(const Situation& now, const std::vector<VoxelKey>& path) {
+  constexpr std::size_t kHeading = 5;  // chosen: places of a path that give its direction
+  if (path.size() < 2) return now.agent.yaw_rad;
+  const VoxelKey along = path.back() - path[path.size() - 1 - std::min(kHeading, path.size() - 1)];
+  return std::atan2(along.y, along.x);
+}
+
+/// Area of the known ground [m2].
+double KnownArea(const Situation& now) {
+  const double voxel_m = now.config.map.voxel_m;
+  double area_m2 = 0;
+  for (const auto& [cell, patch] : now.world.full.field.patches())
+    if (patch.height_m < kTop_m) area_m2 += patch.columns * voxel_m * voxel_m;
+  return std::max(area_m2, 1.0);
+}
+
+bool IsOnFloor(const World& world, double z_m) {
+  const auto is_at = [&](double level_m) { return std::abs(z_m - level_m) <= kOffLevel_m; };
+  if (std::any_of(world.levels_m.begin(), world.levels_m.end(), is_at)) return true;
+  return world.revision &&
+         std::any_of(world.revision->graph.floors.begin(), world.revision->graph.floors.end(),
+                     [&](const auto& floor) { return is_at(floor.height_m); });
+}
+
+/// Probability of what lies behind an explored candidate; 0 = not worth going to.
+double GainOf(const Situation& now, const ExplorationCandidate& found, double known_m2) {
+  switch (found.type) {
+    case ExplorationClass::kHint:
+    case ExplorationClass::kHintFromAfar:
+      return kHintGain;
+    case ExplorationClass::kFlight:
+      return 1.0 / static_cast<double>(1 + now.world.levels_m.size());
+    case ExplorationClass::kUninspected:
+      return 0;
+    case ExplorationClass::kFrontier:
+      break;
+  }
+  if (!IsOnFloor(now.world, FootOf(found.place, now.config.map.voxel_m).z())) return 0;
+  const double gain =
+      policy::UnseenBeyond(now.world.ground, found.place, now.config.policy.explore.view_range_m) /
+      known_m2;
+  return gain < kLeastGain ? 0 : gain;
+}
+
+bool HasPlaceLeft(const Situation& now) {
+  const auto& history = now.goal.history;
+  return std::any_of(history.begin(), history.end(), [](const HistoryPoi& poi) {
+    return !poi.is_exhausted && !poi.unreachable_step;
+  });
+}
+
+}  // namespace
+
+void UpdateSearch(StepState& now) {
+  const bool is_flat =
+      std::abs(now.agent.p_world.z() - now.world.level_m) < kOffLevel_m && now.world.has_level;
+  auto& search = now.goal.full.search;
+  if (now.world.step % kRefresh_steps == 0 && is_flat) UpdateAround(now);
+  if (now.world.revision && now.world.step == 0) UpdateAllFloors(&now.world);
+  now.world.full.field.Look(now.obs, now.config.policy.explore.inspect_range_m);
+  if (!search && now.world.revision && !HasPlaceLeft(now)) {
+    LocateObjects(&now.world);
+    search.emplace();
+    search->odds = RoomOdds(now.world.objects.records(), now.world.revision->rooms,
+                            CanonicalName(now.goal.goal));
+    search->notice_range_m = NoticeRange(now.world, now.goal, now.config);
+    const Vector3d sides_m = UsualSides(now.world, CanonicalName(now.goal.goal));
+    search->is_tall = sides_m.z() >= SearchPatch::kHigh_m;
+    search->is_wide = sides_m.head<2>().maxCoeff() >= kWide_m;
+    if (const auto start = now.world.ground.StandingAt(now.agent.p_world))
+      search->hidden = HiddenPatches(now, *start, *search);
+  }
+  if (!search || (search->step >= 0 && now.world.step - search->step < kRefresh_steps)) return;
+  search->step = now.world.step;
+  search->shares = SharesOf(now.world, now.goal, search->odds);
+  search->unseen = 0;
+  for (const auto& [cell, patch] : now.world.full.field.patches())
+    if (const auto it = search->shares.find(cell); it != search->shares.end())
+      search->unseen += it->second * Unnoticed(now.world.full.field, cell, patch, *search);
+}
+
+bool BeginCloseSearch(StepState& now) {
+  auto& search = now.goal.full.search;
+  if (search) return false;
+  search.emplace();
+  search->notice_range_m = kClose * now.config.policy.explore.inspect_range_m;
+  UpdateSearch(now);
+  return true;
+}
+
+void SearchNearer(StepState& now, double share_of_range) {
+  now.world.full.field.BeginGoal();
+  if (auto& search = now.goal.full.search) {
+    search->notice_range_m *= share_of_range;
+    search->step = -1;
+  }
+}
+
+std::vector<PricedCandidate> PriceSearch(const Situation& now, const VoxelKey& start) {
+  std::vector<PricedCandidate> all;
+  const double start_m = now.config.policy.explore.start_m;
+  const double known_m2 = KnownArea(now);
+  const double voxel_m = now.config.map.voxel_m;
+  const Pursuit& pursuit = PursuitOf(now.goal.full.activity);
+  const Candidate* current = IsExploring(pursuit) ? &PursuedIn(pursuit)->target : nullptr;
+  const bool is_absent = IsSurelyAbsent(now);
+  const Views views(now);
+  ExplorationCandidates candidates(now);
+  std::set<VoxelKey> asked;
+  double best = std::numeric_limits<double>::infinity();
+  const auto add = [&](Candidate candidate, std::vector<VoxelKey> path, double cost_m,
+                       double gain) {
+    PricedCandidate priced;
+    priced.target.cost_m = cost_m;
+    priced.target.score_m = (cost_m + start_m) / gain;
+    if (current && current->kind == candidate.kind &&
+        (current->p_focus_world - candidate.p_focus_world).norm() <=
+            2 * now.config.policy.explore.same_place_m)
+      priced.target.score_m *= kCommit;
+    best = std::min(best, priced.target.score_m);
+    priced.target.path = std::move(path);
+    priced.target.candidate = std::move(candidate);
+    priced.target.candidate.score = -priced.target.score_m;
+    all.push_back(std::move(priced));
+  };
+  planner::GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  while (const auto place = search.Next()) {
+    const double path_m = search.cost() * voxel_m;
+    if (!now.hooks && (path_m + start_m) / kHintGain * kCommit >= best) break;
+    for (ExplorationCandidate& found : candidates.At(*place)) {
+      const double gain = GainOf(now, found, known_m2);
+      if (gain <= 0) continue;
+      if (is_absent && found.type == ExplorationClass::kFrontier && gain * known_m2 < kRoom_m2)
+        continue;
+      add(std::move(found.candidate), search.PathTo(*place), path_m, gain);
+    }
+    if (is_absent) continue;
+    if (!asked.insert(ViewCellOf(*place)).second) continue;
+    const double bound = views.Bound(*place);
+    if (bound < kLeastGain || (path_m + start_m) / bound * kCommit >= best) continue;
+    std::vector<VoxelKey> path = search.PathTo(*place);
+    auto view = views.From(*place, path_m, ArrivalHeading(now, path));
+    if (!view) continue;
+    Candidate candidate;
+    candidate.kind = CandidateKind::kSearchView;
+    candidate.p_focus_world = FocusOf(now, *place, view->heading_rad);
+    candidate.standing = {*place};
+    candidate.beyond = std::move(view->cells);
+    candidate.size = static_cast<int>(candidate.beyond.size());
+    if (IsSpent(now.goal.full.attempts, candidate.kind, candidate.p_focus_world,
+                now.config.policy.explore.same_place_m, now.config.policy.explore.max_choices))
+      continue;
+    add(std::move(candidate), std::move(path), view->cost_m, view->gain);
+  }
+  return all;
+}
+
+bool IsViewOpen(const Situation& now, const Candidate& view) {
+  if (!now.goal.full.search) return false;
+  const ObjectSearch& search = *now.goal.full.search;
+  const auto& patches = now.world.full.field.patches();
+  double gain = 0;
+  for (const VoxelKey& cell : view.beyond) {
+    const auto patch = patches.find(cell);
+    const auto share = search.shares.find(cell);
+    if (patch != patches.end() && share != search.shares.end())
+      gain += share->second * Unnoticed(now.world.full.field, cell, patch->second, search);
+  }
+  return gain >= kLeastGain;
+}
+
+void SettleView(StepState& now, const Candidate& view) {
+  now.world.full.field.Settle(view.beyond);
+}
+
+bool IsSurelyAbsent(const Situation& now) {
+  const auto& search = now.goal.full.search;
+  return search && now.world.revision &&
+         objects::OddsOfAbsence(search->unseen) >= now.config.memory.absent_from;
+}
+
+bool IsSearchOver(const Situation& now) {
+  const auto& search = now.goal.full.search;
+  return search && now.world.revision && search->unseen <= kMostUnseen;
+}
+
+}  // namespace crossnav::agent

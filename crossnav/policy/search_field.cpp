@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/policy/search_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossnav::policy {
+namespace {
+
+using geometry::VoxelKey;
+using geometry::VoxelMap;
+using geometry::VoxelState;
+
+constexpr double kBelow_m = 0.15;      // chosen: ground is known to a voxel
+constexpr double kHighest_m = 1.5;     // chosen: higher tops are shelves under the ceiling
+constexpr double kHeadRoom_m = 0.5;    // chosen: less is the space under a bed or a table
+constexpr int kLeastColumns = 4;       // chosen: a quarter of a patch; less is an edge
+constexpr double kSlack_m = 0.2;       // chosen: two voxels; as for records of objects
+constexpr double kLeastDepth_m = 0.1;  // chosen: least depth in a picture
+
+VoxelKey CellOf(const VoxelKey& key) {
+  return {key.x >> 2, key.y >> 2, key.z >> 2};
+}
+
+/// A surface that an object can stand on: seen air above it, and room.
+bool IsSupport(VoxelMap::Cursor& cursor, const VoxelKey& key, int head_room_vox) {
+  const VoxelState above = cursor.At({key.x, key.y, key.z + 1}).state;
+  if (above == VoxelState::kUnknown) return false;
+  for (int dz = 1; dz <= head_room_vox; ++dz)
+    if (geometry::IsSurface(cursor.At({key.x, key.y, key.z + dz}).state)) return false;
+  return true;
+}
+
+/// Notes a look at `p_camera`, a point in the camera's frame.
+void LookAt(const Vector3d& p_camera, const Observation& obs, double range_m, Looked* looked) {
+  if (p_camera.z() < kLeastDepth_m || p_camera.z() > range_m) return;
+  const auto distance_m = static_cast<float>(p_camera.norm());
+  // The look for the goal is never nearer than the look of the run.
+  if (distance_m > range_m || distance_m >= looked->for_goal_m) return;
+  const int u =
+      static_cast<int>(std::lround(obs.camera.fx * p_camera.x() / p_camera.z() + obs.camera.cx));
+  const int v =
+      static_cast<int>(std::lround(obs.camera.fy * p_camera.y() / p_camera.z() + obs.camera.cy));
+  if (!obs.depth_m.Contains(u, v)) return;
+  const float depth_m = obs.depth_m.At(u, v);
+  if (!std::isfinite(depth_m) || depth_m < p_camera.z() - kSlack_m) return;
+  looked->in_run_m = std::min(looked->in_run_m, distance_m);
+  looked->for_goal_m = distance_m;
+}
+
+}  // namespace
+
+void SearchField::Update(const VoxelMap& map, double level_m, const VoxelKey& lo,
+                         const VoxelKey& hi) {
+  const double voxel_m = map.config().voxel_m;
+  // Whole cells only: half a patch at the edge of the box would be another patch.
+  const VoxelKey from{lo.x & ~3, lo.y & ~3, geometry::KeyOf({0, 0, level_m - kBelow_m}, voxel_m).z};
+  const VoxelKey to{hi.x | 3, hi.y | 3, geometry::KeyOf({0, 0, level_m + kHighest_m}, voxel_m).z};
+  const int head_room_vox = CellsFloor(kHeadRoom_m, voxel_m);
+  struct Sum {
+    Vector3d p_world = Vector3d::Zero();
+    int count = 0;
+  };
+  std::map<VoxelKey, Sum> sums;
+  VoxelMap::Cursor cursor(map);
+  map.ForEachInBox(from, to, [&](const VoxelKey& key, const geometry::Voxel& voxel) {
+    // Stairs are surfaces of other states: nothing stands on a tread.
+    if (voxel.state != VoxelState::kOccupied || !IsSupport(cursor, key, head_room_vox)) return;
+    Sum& sum = sums[CellOf(key)];
+    sum.p_world += CenterOf(key, voxel_m);
+    ++sum.count;
+  });
+  const VoxelKey first = CellOf(from), last = CellOf(to);
+  std::erase_if(patches_, [&](const auto& entry) {
+    const VoxelKey& cell = entry.first;
+    if (cell.x < first.x || cell.x > last.x || cell.y < first.y || cell.y > last.y ||
+        cell.z < first.z || cell.z > last.z)
+      return false;
+    const auto it = sums.find(cell);
+    return it == sums.end() || it->second.count < kLeastColumns;
+  });
+  for (const auto& [cell, sum] : sums) {
+    if (sum.count < kLeastColumns) continue;
+    SearchPatch& patch = patches_[cell];
+    patch.p_world = sum.p_world / sum.count + Vector3d(0, 0, 0.5 * voxel_m);
+    patch.height_m = patch.p_world.z() - level_m;
+    patch.columns = sum.count;
+  }
+}
+
+void SearchField::Look(const Observation& obs, double range_m) {
+  const Pose T_camera_world = obs.T_world_camera.inverse();
+  for (auto& [cell, patch] : patches_) {
+    LookAt(T_camera_world * patch.LowPoint(), obs, range_m, &patch.low);
+    LookAt(T_camera_world * patch.HighPoint(), obs, range_m, &patch.high);
+  }
+}
+
+void SearchField::Settle(std::span<const VoxelKey> cells) {
+  for (const VoxelKey& cell : cells)
+    if (const auto it = patches_.find(cell); it != patches_.end())
+      it->second.low = it->second.high = {0, 0};
+}
+
+void SearchField::BeginGoal() {
+  for (auto& [cell, patch] : patches_)
+    patch.low.for_goal_m = patch.high.for_goal_m = Looked{}.for_goal_m;
+}
+
+}  // namespace crossnav::policy

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Where an object may stand unnoticed: patches of ground and of furniture tops, and from how near
+// each was looked at. Coverage knows the ground alone; a bowl stands on a desk. World frame,
+// metres.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "crossnav/core/observation.h"
+#include "crossnav/geometry/voxel_map.h"
+
+namespace crossnav::policy {
+
+/// Least distances from which a point was looked at [m]; infinite = never.
+struct Looked {
+  float in_run_m = std::numeric_limits<float>::infinity();    ///< since the map was opened
+  float for_goal_m = std::numeric_limits<float>::infinity();  ///< since the goal was set
+};
+
+/// Surface of about 0.4 x 0.4 m with air above.
+struct SearchPatch {
+  Vector3d p_world = Vector3d::Zero();  ///< the middle of the surface
+  double height_m = 0;                  ///< above the level
+  int columns = 0;                      ///< voxels of the surface
+  Looked low;                           ///< at the air just above it
+  Looked high;                          ///< where a chair or a lamp would reach
+
+  static constexpr double kLow_m = 0.15, kHigh_m = 0.45;  // chosen: a vase, the back of a chair
+  Vector3d LowPoint() const { return p_world + Vector3d(0, 0, kLow_m); }
+  Vector3d HighPoint() const { return p_world + Vector3d(0, 0, kHigh_m); }
+};
+
+class SearchField {
+ public:
+  /// The patches at `level_m` in the columns `lo` to `hi` (x and y) as the map is now. Looks at
+  /// patches that stay are kept.
+  void Update(const geometry::VoxelMap& map, double level_m, const geometry::VoxelKey& lo,
+              const geometry::VoxelKey& hi);
+
+  /// Notes the distance of the points within `range_m` that this frame shows.
+  void Look(const Observation& obs, double range_m);
+
+  /// Counts the patches in `cells` as looked at for the goal: a view of them showed all it could.
+  void Settle(std::span<const geometry::VoxelKey> cells);
+
+  void BeginGoal();
+
+  /// By coarse cell.
+  const std::map<geometry::VoxelKey, SearchPatch>& patches() const { return patches_; }
+
+ private:
+  std::map<geometry::VoxelKey, SearchPatch> patches_;
+};
+
+}  // namespace crossnav::policy

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/policy/search_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace crossnav::policy {
+namespace {
+
+using geometry::VoxelKey;
+using geometry::VoxelMap;
+
+constexpr double kVoxel_m = 0.1;
+constexpr VoxelKey kLo{0, 0, 0}, kHi{39, 39, 0};
+
+/// A camera 0.9 m above the ground at (0.2, 2.0) that looks along x, tilted down by `down_rad`.
+Observation CameraLookingAlongX(double down_rad, double depth_m) {
+  Observation obs;
+  obs.camera = IntrinsicsFromHfov(80, 80, M_PI / 2);
+  obs.depth_m = DepthImage(80, 80, static_cast<float>(depth_m));
+  Pose pose = Pose::Identity();
+  const Vector3d ahead(std::cos(down_rad), 0, -std::sin(down_rad)), right(0, -1, 0);
+  pose.linear().col(0) = right;
+  pose.linear().col(1) = ahead.cross(right);
+  pose.linear().col(2) = ahead;
+  pose.translation() = Vector3d(0.2, 2.0, 0.9);
+  obs.T_world_camera = pose;
+  return obs;
+}
+
+/// Ground of 4 x 4 m seen by a camera that looks down on it, with a table of 0.8 x 0.8 m.
+VoxelMap GroundWithATable() {
+  VoxelMap map;
+  Observation obs;
+  obs.camera = IntrinsicsFromHfov(320, 320, M_PI / 2);
+  obs.depth_m = DepthImage(320, 320, 0);
+  Pose pose = Pose::Identity();
+  pose.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;  // looks down
+  pose.translation() = Vector3d(2, 2, 2.45);
+  obs.T_world_camera = pose;
+  for (int v = 0; v < 320; ++v)
+    for (int u = 0; u < 320; ++u) {
+      for (const double height_m : {0.75, -0.05}) {
+        const double depth_m = 2.45 - height_m;
+        const Vector3d p = pose * BackProjectPixel(obs.camera, u, v, depth_m);
+        const bool is_table = p.x() > 2.4 && p.x() < 3.2 && p.y() > 1.6 && p.y() < 2.4;
+        if (height_m > 0 && !is_table) continue;
+        obs.depth_m.At(u, v) = static_cast<float>(depth_m);
+        break;
+      }
+    }
+  map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
+  map.UpdateStates();
+  return map;
+}
+
+int CountTops(const SearchField& field) {
+  int tops = 0;
+  for (const auto& [cell, patch] : field.patches()) tops += patch.height_m > 0.25;
+  return tops;
+}
+
+TEST(SearchField, GroundAndTopsOfFurnitureArePatches) {
+  SearchField field;
+  field.Update(GroundWithATable(), 0, kLo, kHi);
+  EXPECT_GE(CountTops(field), 4);
+  EXPECT_GE(static_cast<int>(field.patches().size()) - CountTops(field), 60);
+  for (const auto& [cell, patch] : field.patches())
+    if (patch.height_m > 0.25) {
+      EXPECT_NEAR(patch.height_m, 0.8, 0.11);
+      EXPECT_GT(patch.p_world.x(), 2.3);
+      EXPECT_LT(patch.p_world.x(), 3.3);
+    }
+}
+
+TEST(SearchField, APatchBehindASurfaceWasNotLookedAt) {
+  SearchField field;
+  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Look(CameraLookingAlongX(0.3, 1.0), 5);  // a wall a metre ahead
+  int near = 0;
+  for (const auto& [cell, patch] : field.patches()) {
+    if (patch.p_world.x() > 1.8) EXPECT_TRUE(std::isinf(patch.low.for_goal_m));
+    near += patch.low.for_goal_m < 5;
+  }
+  EXPECT_GT(near, 0);
+}
+
+TEST(SearchField, TheNearestLookIsKeptAndAGoalBeginsAnew) {
+  SearchField field;
+  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Look(CameraLookingAlongX(0.3, 9), 3);
+  int looked = 0;
+  for (const auto& [cell, patch] : field.patches()) {
+    if (!std::isfinite(patch.low.for_goal_m)) continue;
+    ++looked;
+    EXPECT_LE(patch.low.for_goal_m, 3);
+    EXPECT_NEAR(patch.low.for_goal_m, (patch.LowPoint() - Vector3d(0.2, 2.0, 0.9)).norm(), 1e-4);
+  }
+  ASSERT_GT(looked, 10);
+  field.BeginGoal();
+  field.Update(GroundWithATable(), 0, kLo, kHi);  // the same map: looks of the run stay
+  int in_run = 0;
+  for (const auto& [cell, patch] : field.patches()) {
+    EXPECT_TRUE(std::isinf(patch.low.for_goal_m));
+    in_run += std::isfinite(patch.low.in_run_m);
+  }
+  EXPECT_EQ(in_run, looked);
+}
+
+}  // namespace
+}  // namespace crossnav::policy
