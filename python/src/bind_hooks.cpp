@@ -73,7 +73,8 @@ void BindQuestions(nb::module_& m) {
       .def_prop_ro(
           "kind",
           [](const ExplorationOption& o) { return std::string(policy::NameOf(o.candidate.kind)); },
-          "As in the trace: traversable_frontier, stair_frontier, uninspected, sighting.")
+          "As in the trace: traversable_frontier, stair_frontier, uninspected, search_view, "
+          "sighting.")
       .def_prop_ro(
           "p_focus_world",
           [](const ExplorationOption& o) { return ToArray(o.candidate.p_focus_world); }, kOwnArray,

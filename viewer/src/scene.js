@@ -19,6 +19,7 @@ export const KINDS = {
   stair_frontier: { label: "stair frontier", mark: "S", colour: "#0b7285" },
   sighting: { label: "weak sighting", mark: "W", colour: "#e8590c" },
   uninspected: { label: "not inspected", mark: "U", colour: "#5f3dc4" },
+  search_view: { label: "search view", mark: "V", colour: "#2b8a3e" },
 };
 const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/search_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "crossnav/agent/poi_targets.h"
+
+namespace crossnav::agent {
+
+using geometry::VoxelKey;
+using policy::SearchPatch;
+
+namespace {
+
+constexpr double kMissed = 0.3;     // chosen: chance that the memory misses a thing that was seen
+constexpr double kMargin_m = 0.3;   // chosen: views end that much before the range
+constexpr double kEdge_deg = 5;     // chosen: at each side of the picture
+constexpr int kViewGrid_shift = 3;  // chosen: one view in 8 x 8 columns
+
+Vector3d EyeAt(const Situation& now, const VoxelKey& place) {
+  return FootOf(place, now.config.map.voxel_m) + Vector3d(0, 0, now.config.sensor.camera_height_m);
+}
+
+/// The point of a patch that shows the goal.
+Vector3d PointOf(const SearchPatch& patch, const ObjectSearch& search) {
+  return search.is_tall ? patch.HighPoint() : patch.LowPoint();
+}
+
+/// Chance that the goal stands at the patch and was not noticed, given that it stands there.
+double UnnoticedAt(const SearchPatch& patch, const ObjectSearch& search) {
+  const policy::Looked& looked = search.is_tall ? patch.high : patch.low;
+  if (looked.for_goal_m <= search.notice_range_m) return 0;
+  return looked.in_run_m <= search.notice_range_m ? kMissed : 1;
+}
+
+}  // namespace
+
+double Unnoticed(const policy::SearchField& field, const VoxelKey& cell, const SearchPatch& patch,
+                 const ObjectSearch& search) {
+  const double here = UnnoticedAt(patch, search);
+  if (!search.is_wide || here == 0) return here;
+  constexpr std::size_t kBeside = 4;  // chosen: more than one side of the eight around it
+  std::vector<double> beside;
+  for (int dx = -1; dx <= 1; ++dx)
+    for (int dy = -1; dy <= 1; ++dy) {
+      const auto it = field.patches().find({cell.x + dx, cell.y + dy, cell.z});
+      if ((dx == 0 && dy == 0) || it == field.patches().end()) continue;
+      beside.push_back(UnnoticedAt(it->second, search));
+    }
+  if (beside.size() < kBeside) return here;
+  std::nth_element(beside.begin(), beside.begin() + kBeside - 1, beside.end());
+  return std::min(here, beside[kBeside - 1]);
+}
+
+VoxelKey ViewCellOf(const VoxelKey& place) {
+  return {place.x >> kViewGrid_shift, place.y >> kViewGrid_shift, place.z >> kViewGrid_shift};
+}
+
+std::set<VoxelKey> HiddenPatches(const Situation& now, const VoxelKey& start,
+                                 const ObjectSearch& goal) {
+  const double range_m = goal.notice_range_m;
+  std::set<VoxelKey> hidden, asked;
+  for (const auto& [cell, patch] : now.world.full.field.patches()) hidden.insert(cell);
+  planner::GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  while (const auto place = search.Next()) {
+    if (!asked.insert(ViewCellOf(*place)).second) continue;
+    const Vector3d p_eye = EyeAt(now, *place);
+    std::erase_if(hidden, [&](const VoxelKey& cell) {
+      const Vector3d p_world = PointOf(now.world.full.field.patches().at(cell), goal);
+      return (p_world - p_eye).squaredNorm() <= range_m * range_m &&
+             now.world.map.HasLineOfSight(p_eye, p_world);
+    });
+  }
+  return hidden;
+}
+
+SearchViews::SearchViews(const Situation& now) : now_(now) {
+  const ObjectSearch& search = *now.goal.full.search;
+  for (const auto& [cell, patch] : now.world.full.field.patches()) {
+    const auto it = search.shares.find(cell);
+    if (it == search.shares.end()) continue;
+    const double gain = it->second * Unnoticed(now.world.full.field, cell, patch, search);
+    if (gain > 0) open_.push_back({cell, PointOf(patch, search), gain});
+  }
+  range_m_ = search.notice_range_m - kMargin_m;
+}
+
+double SearchViews::Bound(const VoxelKey& place) const {
+  const Vector3d p_eye = EyeAt(now_, place);
+  double gain = 0;
+  for (const Open& open : open_) gain += IsInRange(p_eye, open.p_world) ? open.gain : 0;
+  return gain;
+}
+
+std::optional<SearchView> SearchViews::From(const VoxelKey& place, double path_m,
+                                            double arrival_rad) const {
+  const std::vector<Seen> seen = SeenFrom(place);
+  const double turn_rad = DegToRad(now_.config.action.turn_deg);
+  const double half_rad = DegToRad(now_.config.sensor.hfov_deg / 2 - kEdge_deg);
+  const int turns_around = static_cast<int>(std::lround(2 * M_PI / turn_rad));
+  const double start_m = now_.config.policy.explore.start_m;
+  std::optional<SearchView> best;
+  for (int i = 0; i < turns_around; ++i) {
+    SearchView view;
+    // The agent turns by whole steps.
+    view.heading_rad = WrapAngle(now_.agent.yaw_rad + i * turn_rad);
+    view.cost_m = path_m + now_.config.action.forward_m *
+                               std::abs(WrapAngle(view.heading_rad - arrival_rad)) / turn_rad;
+    for (const Seen& patch : seen)
+      if (std::abs(WrapAngle(patch.bearing_rad - view.heading_rad)) <= half_rad) {
+        view.gain += patch.open->gain;
+        view.cells.push_back(patch.open->cell);
+      }
+    if (view.gain < kLeastGain) continue;
+    if (!best || (view.cost_m + start_m) / view.gain < (best->cost_m + start_m) / best->gain)
+      best = std::move(view);
+  }
+  return best;
+}
+
+std::vector<SearchViews::Seen> SearchViews::SeenFrom(const VoxelKey& place) const {
+  const Vector3d p_eye = EyeAt(now_, place);
+  std::vector<Seen> seen;
+  for (const Open& open : open_) {
+    if (!IsInRange(p_eye, open.p_world) || !IsInPicture(p_eye, open.p_world)) continue;
+    if (!now_.world.map.HasLineOfSight(p_eye, open.p_world)) continue;
+    const Vector3d d = open.p_world - p_eye;
+    seen.push_back({&open, std::atan2(d.y(), d.x())});
+  }
+  return seen;
+}
+
+bool SearchViews::IsInRange(const Vector3d& p_eye, const Vector3d& p_world) const {
+  return (p_world - p_eye).squaredNorm() <= range_m_ * range_m_;
+}
+
+bool SearchViews::IsInPicture(const Vector3d& p_eye, const Vector3d& p_world) const {
+  const Vector3d d = p_world - p_eye;
+  const double above_rad =
+      std::atan2(d.z(), d.head<2>().norm()) - DegToRad(now_.config.policy.motion.travel_pitch_deg);
+  const auto& camera = now_.obs.camera;
+  return std::abs(above_rad) <= std::atan(0.5 * camera.height_px / camera.fy) - DegToRad(kEdge_deg);
+}
+
+}  // namespace crossnav::agent
