@@ -156,6 +156,87 @@ double GainOf(const Situation& now, const ExplorationCandidate& found, double kn
   return gain < kLeastGain ? 0 : gain;
 }
 
+/// Prices of one search: metres for the probability. Keeps a reference to the situation.
+class SearchPrices {
+ public:
+  explicit SearchPrices(const Situation& now)
+      : now_(now),
+        start_m_(now.config.policy.explore.start_m),
+        known_m2_(KnownArea(now)),
+        is_absent_(IsSurelyAbsent(now)),
+        views_(now),
+        candidates_(now) {
+    const Pursuit& pursuit = PursuitOf(now.goal.full.activity);
+    if (IsExploring(pursuit)) current_ = &PursuedIn(pursuit)->target;
+  }
+
+  /// The least price that a candidate at the end of `path_m` can have.
+  double Least(double path_m, double gain) const { return kCommit * (path_m + start_m_) / gain; }
+  double best() const { return best_; }
+  std::vector<PricedCandidate> Take() { return std::move(all_); }
+
+  /// Frontiers, flights and hints at `place`.
+  void AddExplored(const planner::GroundSearch& search, const VoxelKey& place, double path_m) {
+    for (ExplorationCandidate& found : candidates_.At(place)) {
+      const double gain = GainOf(now_, found, known_m2_);
+      const bool is_pocket =
+          found.type == ExplorationClass::kFrontier && gain * known_m2_ < kRoom_m2;
+      if (gain <= 0 || (is_absent_ && is_pocket)) continue;
+      Add(std::move(found.candidate), search.PathTo(place), path_m, gain);
+    }
+  }
+
+  /// The best view from the first place of each coarse cell.
+  void AddView(const planner::GroundSearch& search, const VoxelKey& place, double path_m) {
+    if (is_absent_ || !asked_.insert(ViewCellOf(place)).second) return;
+    const double bound = views_.Bound(place);
+    if (bound < kLeastGain || Least(path_m, bound) >= best_) return;
+    std::vector<VoxelKey> path = search.PathTo(place);
+    auto view = views_.From(place, path_m, ArrivalHeading(now_, path));
+    if (!view) return;
+    Candidate candidate;
+    candidate.kind = CandidateKind::kSearchView;
+    candidate.p_focus_world = FocusOf(now_, place, view->heading_rad);
+    candidate.standing = {place};
+    candidate.beyond = std::move(view->cells);
+    candidate.size = static_cast<int>(candidate.beyond.size());
+    const auto& explore = now_.config.policy.explore;
+    if (IsSpent(now_.goal.full.attempts, candidate.kind, candidate.p_focus_world,
+                explore.same_place_m, explore.max_choices))
+      return;
+    Add(std::move(candidate), std::move(path), view->cost_m, view->gain);
+  }
+
+ private:
+  bool IsCurrent(const Candidate& candidate) const {
+    return current_ && current_->kind == candidate.kind &&
+           (current_->p_focus_world - candidate.p_focus_world).norm() <=
+               2 * now_.config.policy.explore.same_place_m;
+  }
+
+  void Add(Candidate candidate, std::vector<VoxelKey> path, double cost_m, double gain) {
+    PricedCandidate priced;
+    GroundTarget& target = priced.target;
+    target.cost_m = cost_m;
+    target.score_m = (cost_m + start_m_) / gain * (IsCurrent(candidate) ? kCommit : 1);
+    target.path = std::move(path);
+    target.candidate = std::move(candidate);
+    target.candidate.score = -target.score_m;
+    best_ = std::min(best_, target.score_m);
+    all_.push_back(std::move(priced));
+  }
+
+  const Situation& now_;
+  double start_m_, known_m2_;
+  bool is_absent_;
+  SearchViews views_;
+  ExplorationCandidates candidates_;
+  const Candidate* current_ = nullptr;  // the target in progress
+  std::set<VoxelKey> asked_;
+  double best_ = std::numeric_limits<double>::infinity();
+  std::vector<PricedCandidate> all_;
+};
+
 bool HasPlaceLeft(const Situation& now) {
   const auto& history = now.goal.history;
   return std::any_of(history.begin(), history.end(), [](const HistoryPoi& poi) {
@@ -211,62 +292,16 @@ void SearchNearer(StepState& now, double share_of_range) {
 }
 
 std::vector<PricedCandidate> PriceSearch(const Situation& now, const VoxelKey& start) {
-  std::vector<PricedCandidate> all;
-  const double start_m = now.config.policy.explore.start_m;
-  const double known_m2 = KnownArea(now);
-  const double voxel_m = now.config.map.voxel_m;
-  const Pursuit& pursuit = PursuitOf(now.goal.full.activity);
-  const Candidate* current = IsExploring(pursuit) ? &PursuedIn(pursuit)->target : nullptr;
-  const bool is_absent = IsSurelyAbsent(now);
-  const SearchViews views(now);
-  ExplorationCandidates candidates(now);
-  std::set<VoxelKey> asked;
-  double best = std::numeric_limits<double>::infinity();
-  const auto add = [&](Candidate candidate, std::vector<VoxelKey> path, double cost_m,
-                       double gain) {
-    PricedCandidate priced;
-    priced.target.cost_m = cost_m;
-    priced.target.score_m = (cost_m + start_m) / gain;
-    if (current && current->kind == candidate.kind &&
-        (current->p_focus_world - candidate.p_focus_world).norm() <=
-            2 * now.config.policy.explore.same_place_m)
-      priced.target.score_m *= kCommit;
-    best = std::min(best, priced.target.score_m);
-    priced.target.path = std::move(path);
-    priced.target.candidate = std::move(candidate);
-    priced.target.candidate.score = -priced.target.score_m;
-    all.push_back(std::move(priced));
-  };
+  SearchPrices prices(now);
   planner::GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
   while (const auto place = search.Next()) {
-    const double path_m = search.cost() * voxel_m;
-    if (!now.hooks && (path_m + start_m) / kHintGain * kCommit >= best) break;
-    for (ExplorationCandidate& found : candidates.At(*place)) {
-      const double gain = GainOf(now, found, known_m2);
-      if (gain <= 0) continue;
-      if (is_absent && found.type == ExplorationClass::kFrontier && gain * known_m2 < kRoom_m2)
-        continue;
-      add(std::move(found.candidate), search.PathTo(*place), path_m, gain);
-    }
-    if (is_absent) continue;
-    if (!asked.insert(ViewCellOf(*place)).second) continue;
-    const double bound = views.Bound(*place);
-    if (bound < kLeastGain || (path_m + start_m) / bound * kCommit >= best) continue;
-    std::vector<VoxelKey> path = search.PathTo(*place);
-    auto view = views.From(*place, path_m, ArrivalHeading(now, path));
-    if (!view) continue;
-    Candidate candidate;
-    candidate.kind = CandidateKind::kSearchView;
-    candidate.p_focus_world = FocusOf(now, *place, view->heading_rad);
-    candidate.standing = {*place};
-    candidate.beyond = std::move(view->cells);
-    candidate.size = static_cast<int>(candidate.beyond.size());
-    if (IsSpent(now.goal.full.attempts, candidate.kind, candidate.p_focus_world,
-                now.config.policy.explore.same_place_m, now.config.policy.explore.max_choices))
-      continue;
-    add(std::move(candidate), std::move(path), view->cost_m, view->gain);
+    const double path_m = search.cost() * now.config.map.voxel_m;
+    // A hook may prefer candidates that are far away.
+    if (!now.hooks && prices.Least(path_m, kHintGain) >= prices.best()) break;
+    prices.AddExplored(search, *place, path_m);
+    prices.AddView(search, *place, path_m);
   }
-  return all;
+  return prices.Take();
 }
 
 bool IsViewOpen(const Situation& now, const Candidate& view) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/core/cells.h"
+
 namespace crossnav::policy {
 namespace {
 
