@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "crossnav/core/rng.h"
 #include "crossnav/sim/navmesh/navmesh.h"
 #include "crossnav/world/furniture/groups.h"
 #include "crossnav/world/house/house_file.h"
@@ -53,6 +54,35 @@ TEST(HouseGenerator, SameSeedGivesTheSameBytesAndAnotherSeedAnotherHouse) {
   const auto c = GenerateHouse(params, dir.path() / "c");
   ASSERT_TRUE(c.has_value());
   EXPECT_NE(test::ReadText(a->folder / file), test::ReadText(c->folder / "House10.glb"));
+}
+
+/// Regression: a sliver of a polygon hid the corner of a way, so that no way was found between
+/// points of one piece of ground.
+TEST(HouseGenerator, ConnectedPointsHaveAWay) {
+  constexpr int kPoints = 60;
+  const test::TempFolder dir;
+  HouseParams params;
+  params.seed = 15;
+  params.floors = 2;
+  params.area_m2 = 120;
+  const auto house = GenerateHouse(params, dir.path());
+  ASSERT_TRUE(house) << house.error().Message();
+  const auto scene = sim::LoadScene(house->folder);
+  ASSERT_TRUE(scene) << scene.error().Message();
+  const auto navmesh = sim::NavMesh::Build(*scene, {});
+  ASSERT_TRUE(navmesh);
+  Rng rng(1);
+  std::vector<Vector3d> connected_world;
+  for (int i = 0; i < kPoints; ++i) {
+    const auto p = navmesh->RandomPoint(rng);
+    ASSERT_TRUE(p);
+    if (connected_world.empty() || navmesh->Geodesic(connected_world.front(), *p))
+      connected_world.push_back(*p);
+  }
+  ASSERT_GE(connected_world.size(), kPoints / 2);
+  for (const Vector3d& a : connected_world)
+    for (const Vector3d& b : connected_world)
+      EXPECT_TRUE(navmesh->Geodesic(a, b)) << a.transpose() << " to " << b.transpose();
 }
 
 /// Houses from before the editions: named benchmarks use them. Hashes of meshes whose faces do not

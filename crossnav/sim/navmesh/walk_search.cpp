@@ -14,6 +14,7 @@ namespace crossnav::sim {
 namespace {
 
 constexpr double kEpsilon_m = 1e-7;
+constexpr double kVertex_m = 1e-5;  // chosen: vertices are floats, with 5e-7 at five metres
 // chosen: far above any house; a guard, not a limit
 constexpr std::size_t kMostWalkNodes = 1'000'000;
 constexpr int kStartId = -1;
@@ -172,10 +173,10 @@ class WalkSearch {
     const double length = (portal.left - portal.right).norm();
     if (LeftOf(portal.right, portal.left, node.root) <= kEpsilon_m) {
       // Its outside faces the root (or it is seen end-on): it lies wholly to one side of the cone.
-      if (node.left_is_corner && std::min(left_of_l, -right_of_l) > -kEpsilon_m) {
+      if (node.left_is_corner && std::min(left_of_l, -right_of_l) > -kVertex_m) {
         Push(node, index, portal, 0, 1, Turn::kLeft);
       }
-      if (node.right_is_corner && std::min(right_of_r, -left_of_r) > -kEpsilon_m) {
+      if (node.right_is_corner && std::min(right_of_r, -left_of_r) > -kVertex_m) {
         Push(node, index, portal, 0, 1, Turn::kRight);
       }
       return;
