@@ -21,11 +21,12 @@ def place(sample, size, rng):
     sample.rgb = cv2.resize(part, (size, size), interpolation=cv2.INTER_AREA)
     sample.depth = sample.depth[rows][:, columns]
     sample.instance = sample.instance[rows][:, columns]
-    sample.rows = sample.rows[rows]
+    sample.rows, sample.columns = sample.rows[rows], sample.columns[columns]
     if rng.random() < 0.5:
         sample.rgb = np.ascontiguousarray(sample.rgb[:, ::-1])
         sample.depth = np.ascontiguousarray(sample.depth[:, ::-1])
         sample.instance = np.ascontiguousarray(sample.instance[:, ::-1])
+        sample.columns = -sample.columns[::-1]
 
 
 def resize(sample, size):
@@ -36,7 +37,7 @@ def resize(sample, size):
     index = (np.arange(size) * full) // size
     sample.rgb = cv2.resize(sample.rgb, (size, size), interpolation=cv2.INTER_AREA)
     sample.depth, sample.instance = sample.depth[index][:, index], sample.instance[index][:, index]
-    sample.rows = sample.rows[index]
+    sample.rows, sample.columns = sample.rows[index], sample.columns[index]
 
 
 def recolour(image, sample, rng):
@@ -50,6 +51,76 @@ def recolour(image, sample, rng):
     mean = image.mean(axis=2, keepdims=True)
     image = image + grey.astype(np.float32)[ids] * (mean - image)
     return image * gain.astype(np.float32)[ids] + shift.astype(np.float32)[ids]
+
+
+def points(sample):
+    """Of every pixel: right of the camera, ahead of it, above its foot [m], as [H,W,3]."""
+    depth = sample.depth.astype(np.float32)
+    down = depth * (sample.rows / sample.focal).astype(np.float32)[:, None]
+    right = depth * (sample.columns / sample.focal).astype(np.float32)[None, :]
+    sine, cosine = np.float32(np.sin(sample.pitch_rad)), np.float32(np.cos(sample.pitch_rad))
+    return np.stack([right, depth * cosine + down * sine, depth * sine - down * cosine], axis=-1)
+
+
+def pattern(at, ids, size, rng):
+    """Stripes, waves, grain and tiles in the space of the points, others on every thing; around 1, [H,W]."""
+    direction = rng.normal(0, 1, (size, 3)) * (rng.random((size, 3)) < 0.6)
+    wave = direction * (2 * np.pi / rng.uniform(0.05, 0.8, (size, 1)))
+    bend = rng.normal(0, 6, (size, 3))
+    phase = (at * wave.astype(np.float32)[ids]).sum(-1)
+    phase += np.sin((at * bend.astype(np.float32)[ids]).sum(-1)) * rng.uniform(0, 2.5, size).astype(np.float32)[ids]
+    value = np.sin(phase)
+    hard = (rng.random(size) < 0.4)[ids]
+    value = np.where(hard, np.sign(value), value)
+    strength = np.where(rng.random(size) < 0.5, rng.uniform(0.05, 0.5, size), 0.0)
+    return 1 + value * strength.astype(np.float32)[ids]
+
+
+def shading(at, rng):
+    """Of surfaces without texture under one lamp, from their normals: 0 to 1, [H,W]."""
+    across = cv2.Sobel(at, cv2.CV_32F, 1, 0, ksize=3)
+    down = cv2.Sobel(at, cv2.CV_32F, 0, 1, ksize=3)
+    normal = np.cross(across, down)
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True) + 1e-9
+    lamp = rng.normal(0, 1, 3) + [0, 0, 1]
+    lamp = (lamp / np.linalg.norm(lamp)).astype(np.float32)
+    ambient = np.float32(rng.uniform(0.3, 1.0))
+    return ambient + (1 - ambient) * np.abs(normal @ lamp)
+
+
+def restyle(image, sample, rng):
+    """Other materials: some of the things or all get one colour and a pattern, and keep the light of the picture
+    or lose it to flat shading. Shapes alone tell what they are then."""
+    size, ids = len(sample.house.goal_of), sample.instance
+    chosen = rng.random(size) < rng.choice([0.3, 0.7, 1.0])
+    hue = rng.uniform(0, 180, size)
+    saturation, value = 255 * rng.beta(1, 2.5, size), 255 * rng.beta(2.2, 1.3, size)
+    hsv = np.stack([hue, saturation, value], -1).astype(np.uint8)[None]
+    colour = cv2.cvtColor(hsv, cv2.COLOR_HSV2RGB)[0].astype(np.float32)
+    at = points(sample)
+    if rng.random() < 0.6:  # the light of the picture
+        grey = image.mean(axis=2)
+        count = np.bincount(ids.ravel(), minlength=size).clip(1)
+        mean = np.bincount(ids.ravel(), weights=grey.ravel(), minlength=size) / count
+        bright = np.clip(grey / np.maximum(mean.astype(np.float32)[ids], 8), 0.2, 2.5)
+    else:
+        bright = shading(at, rng)
+    made = colour[ids] * (bright * pattern(at, ids, size, rng))[..., None]
+    return np.where(chosen[ids][..., None], made, image)
+
+
+def exposure(image, sample, rng):
+    """A dark room, a lamp at the camera, too much light, another curve of the camera."""
+    share = rng.random()
+    if share < 0.2:
+        image = image * np.float32(rng.uniform(0.15, 0.6))
+    elif share < 0.3:
+        image = image * np.float32(rng.uniform(1.4, 2.2))
+    elif share < 0.5:
+        image = image * np.float32(rng.uniform(0.8, 1.5)) / (1 + (sample.depth / rng.uniform(1.5, 5))[..., None] ** 2)
+    if rng.random() < 0.5:
+        image = 255 * np.clip(image / 255, 0, 1) ** np.float32(np.exp(rng.uniform(-0.5, 0.6)))
+    return image.astype(np.float32)
 
 
 def light(image, rng):
@@ -110,10 +181,15 @@ def depth_sensor(depth, rng):
 def augment(sample, size, rng):
     place(sample, size, rng)
     image = sample.rgb.astype(np.float32)
-    if rng.random() < 0.4:
+    share = rng.random()
+    if share < 0.3:
         image = recolour(image, sample, rng)
+    elif share < 0.6:
+        image = restyle(image, sample, rng)
     if rng.random() < 0.6:
         image = light(image, rng)
+    if rng.random() < 0.35:
+        image = exposure(image, sample, rng)
     sample.rgb = camera(image, rng)
     sample.depth = depth_sensor(sample.depth, rng)
     sample.camera_height_m += rng.normal(0, 0.02)  # error of odometry

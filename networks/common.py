@@ -14,12 +14,28 @@ HFOV_DEG = 90.0
 # In the order of kCategories (crossnav/core/categories.h).
 GOALS = ["chair", "bed", "plant", "toilet", "tv_monitor", "sofa"]
 
-# Seeds of houses and their part of the furniture. Held-out seeds begin at 5001; held-out furniture
-# appears in `test` only.
+# Seeds of generated houses, the generator's edition and their part of the furniture. Held-out seeds begin at
+# 5001; held-out furniture appears in sets with `test` in their name only.
 SETS = {
     "train": {"seeds": range(2001, 2105), "furniture": "train", "frames": 150},
+    "train-2": {"seeds": range(3001, 3105), "furniture": "train", "frames": 100, "edition": 2},
     "dev": {"seeds": range(2901, 2907), "furniture": "train", "frames": 60},
+    "dev-2": {"seeds": range(3901, 3907), "furniture": "train", "frames": 60, "edition": 2},
     "test": {"seeds": range(5101, 5111), "furniture": "held", "frames": 60},
+    "test-2": {"seeds": range(6101, 6111), "furniture": "held", "frames": 60, "edition": 2},
+}
+TRAIN_SETS, DEV_SETS = ["train", "train-2"], ["dev", "dev-2"]
+
+# Styles that no training house has: homes that people drew (the archive of the package `sweethome3d`) and a
+# building of an architect, furnished with held-out furniture. Rendered on request, for evaluation only.
+HOMES_JAR = pathlib.Path("/usr/share/sweethome3d/sweethome3d.jar")
+LOOKED_AT = ["3BedroomHouseWithMezzanine", "4BedroomHouse"]  # their pictures were seen in development
+HOMES = ["1BedroomApartmentWithRoundWall", "2BedroomApartment", "2BedroomApartmentWithBowWindow",
+         "2BedroomHouseWithBasement", "3BedroomApartment", "3BedroomHouseWithAttic", "Studio"]
+STYLES = {
+    "drawn-dev": {"input": HOMES_JAR, "homes": LOOKED_AT, "frames": 120},
+    "drawn": {"input": HOMES_JAR, "homes": HOMES, "frames": 120},
+    "building": {"input": SHARED / "data/ifc/Duplex.ifc", "furnish": [1, 2, 3], "frames": 100},
 }
 
 STAIR_NAMES = {"stairs", "staircase", "stair"}

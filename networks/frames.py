@@ -29,10 +29,11 @@ class House:
             self.is_stairs[row["id"]] = row["name"] in common.STAIR_NAMES
 
 
-def read_set(data, name):
-    folders = sorted(path.parent for path in (data / name).glob("*/models.json"))
+def read_set(data, *names):
+    """The scenes of the sets that are there."""
+    folders = [path.parent for name in names for path in sorted((data / name).glob("*/models.json"))]
     if not folders:
-        raise SystemExit(f"no frames in {data / name}: run networks/render.py first")
+        raise SystemExit(f"no frames in {data} of {', '.join(names)}: run networks/render.py first")
     return [House(folder) for folder in folders]
 
 
@@ -61,6 +62,7 @@ class Sample:
         size = self.depth.shape[0]
         self.focal, centre = intrinsics(size)
         self.rows = np.arange(size) - centre  # below the principal point [px of `focal`]
+        self.columns = np.arange(size) - centre  # right of it
 
     def inputs(self):
         height = height_above_foot(self.depth, self.rows, self.focal, self.pitch_rad, self.camera_height_m)

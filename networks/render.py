@@ -20,32 +20,65 @@ PROGRAM = common.REPO / "build/release/apps/crossnav/crossnav"
 
 
 def house_options(name, seed, parts):
-    """Every tenth training house has simple shapes only, two of ten the faults of a scan."""
-    options = ["--furniture", str(parts[common.SETS[name]["furniture"]])]
-    if name == "train" and seed % 10 == 0:
-        options = ["--furniture", "none"]
-    if seed % 5 == 3:
-        options.append("--scan")
-    return options
+    """Every tenth training house of edition 1, and every fourth of edition 2, has simple shapes only; two of ten
+    have the faults of a scan."""
+    edition = common.SETS[name].get("edition", 1)
+    furniture = parts[common.SETS[name]["furniture"]]
+    if name in common.TRAIN_SETS and seed % (10 if edition == 1 else 4) == 0:
+        furniture = "none"
+    scan = ["--scan"] if seed % 5 == 3 else []
+    return ["--furniture", furniture, "--edition", edition, *scan]
 
 
-def render_house(program, name, seed, parts, out):
-    made = out.parent / f".house{seed}"
+def generate(name, seed, parts):
+    """Arguments that make a house."""
+    return ["world", "generate", "--seed", seed, "--count", 1, "--floors", 0, *house_options(name, seed, parts)]
+
+
+def imports(style, parts):
+    """(folder of the frames, arguments that make the scene, seed) for each scene of a style."""
+    for seed, home in enumerate(style.get("homes", []), 1):
+        yield home, ["scene", "import", style["input"], "--home", home, "--name", home], seed
+    for seed in style.get("furnish", []):
+        name = f"{style['input'].stem}-{seed}"
+        yield name, ["scene", "import", style["input"], "--name", name, "--furnish", seed,
+                     "--furniture", parts["held"]], seed
+
+
+def scenes_of(name, parts):
+    if name in common.STYLES:
+        return list(imports(common.STYLES[name], parts))
+    return [(f"{seed:05}", generate(name, seed, parts), seed) for seed in common.SETS[name]["seeds"]]
+
+
+def models_of(scene):
+    """Furniture models with credits, of a generated house."""
+    for house in scene.glob("*.house.json"):
+        return sorted(credit["id"] for credit in json.loads(house.read_text(encoding="utf-8"))["credits"])
+    return []
+
+
+def render_scene(program, make, count, seed, out):
+    """Makes a scene, renders `count` frames into `out`, and removes the scene."""
+    made = out.parent / f".scene-{out.name}"
     shutil.rmtree(made, ignore_errors=True)
-    generate = [program, "world", "generate", "--seed", seed, "--count", 1, "--floors", 0,
-                "--out", made, *house_options(name, seed, parts)]
-    run = subprocess.run([str(a) for a in generate], capture_output=True, text=True, check=False)
+    run = subprocess.run([str(a) for a in [program, *make, "--out", made]], capture_output=True, text=True, check=False)
     if run.returncode != 0:  # a few seeds fail the generator's gate
-        print(f"{name} {seed}: {run.stderr.strip().splitlines()[-1]}")
+        print(f"{out.name}: {run.stderr.strip().splitlines()[-1]}")
         return
     scene = next(p for p in made.iterdir() if p.is_dir())
-    frames = [program, "scene", "frames", scene, "--count", common.SETS[name]["frames"],
-              "--size", common.STORED_PX, "--seed", seed, "--out", out]
+    frames = [program, "scene", "frames", scene, "--count", count, "--size", common.STORED_PX, "--seed", seed, "--out", out]
     subprocess.run([str(a) for a in frames], capture_output=True, check=True)
-    house = json.loads(next(scene.glob("*.house.json")).read_text(encoding="utf-8"))
-    models = sorted(credit["id"] for credit in house["credits"])
-    (out / "models.json").write_text(json.dumps(models) + "\n", encoding="utf-8")
+    (out / "models.json").write_text(json.dumps(models_of(scene)) + "\n", encoding="utf-8")
     shutil.rmtree(made)
+
+
+def missing_of(data, name, parts):
+    folder = data / name
+    folder.mkdir(parents=True, exist_ok=True)
+    count = (common.STYLES.get(name) or common.SETS[name])["frames"]
+    wanted = [(make, count, seed, folder / scene) for scene, make, seed in scenes_of(name, parts)]
+    return [job for job in wanted if not (job[-1] / "models.json").exists()]
 
 
 def main():
@@ -60,16 +93,13 @@ def main():
     parts = {"train": train, "held": held}
     for name in args.sets:
         start = time.time()
-        folder = args.data / name
-        folder.mkdir(parents=True, exist_ok=True)
-        wanted = [(seed, folder / f"{seed:05}") for seed in common.SETS[name]["seeds"]]
-        missing = [(seed, out) for seed, out in wanted if not (out / "models.json").exists()]
+        missing = missing_of(args.data, name, parts)
         with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
-            made = pool.map(lambda house: render_house(args.program, name, house[0], parts, house[1]), missing)
+            made = pool.map(lambda job: render_scene(args.program, *job), missing)
             for done, _ in enumerate(made, 1):
                 if done % 10 == 0:
-                    print(f"{name}: {done} of {len(missing)} houses, {time.time() - start:.0f} s", flush=True)
-        print(f"{name}: {len(list(folder.glob('*/models.json')))} houses, "
+                    print(f"{name}: {done} of {len(missing)} scenes, {time.time() - start:.0f} s", flush=True)
+        print(f"{name}: {len(list((args.data / name).glob('*/models.json')))} scenes, "
               f"{time.time() - start:.0f} s", flush=True)
 
 

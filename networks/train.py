@@ -3,7 +3,9 @@
 
 The learning rate follows the share of the frames or minutes that is used up, whichever is more, so that a run
 is whole however fast the machine is. Every few minutes the state goes to `checkpoint.pt`; the mean of the
-weights is what counts.
+weights is what counts. Frames in which the network claims a goal that is not there are drawn more often.
+
+With --from-onnx a new run starts from the weights of an exported file instead of from nothing.
 """
 
 import argparse
@@ -22,15 +24,21 @@ import losses
 import numpy as np
 import targets
 import torch
+import warm
 from model import Network
 
 SAVE_EVERY_S = 180
+HARD = 3.0  # chosen: a frame with a sure false claim is drawn four times as often as one without
+UNSEEN = 0.3  # chosen: score of the false claims of frames not yet drawn
+SETTLE_BATCHES = 24  # chosen: 384 frames for the norms of a run that starts from a file
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
     parser.add_argument("--checkpoint", type=pathlib.Path, default=None)
+    parser.add_argument("--from-onnx", type=pathlib.Path, default=None, help="file whose weights a new run starts from")
+    parser.add_argument("--sets", nargs="+", default=common.TRAIN_SETS)
     parser.add_argument("--frames", type=int, default=200_000, help="to look at in all")
     parser.add_argument("--minutes", type=float, default=120, help="at most; the end comes at the earlier of both")
     parser.add_argument("--batch", type=int, default=16)
@@ -44,8 +52,9 @@ def arguments():
 
 
 def autocast(device):
-    """bfloat16 where it is the faster: on a GPU, and on a CPU that has matrix units for it."""
-    fast = device.type != "cpu" or torch.cpu.get_capabilities().get("amx_bf16", False)
+    """bfloat16 where it is the faster: on a GPU, and on a CPU that has instructions for it."""
+    able = torch.cpu.get_capabilities()
+    fast = device.type != "cpu" or able.get("amx_bf16", False) or able.get("avx512_bf16", False)
     return torch.autocast(device.type, dtype=torch.bfloat16, enabled=fast)
 
 
@@ -80,10 +89,37 @@ def dense_weights(houses, size=64):
     return torch.tensor(np.clip(weights / np.median(weights), 0.2, 5), dtype=torch.float32)
 
 
-def batch_of(places, weights, batch, size, rng):
+class Draw:
+    """Frames of the training houses, of which the hard ones come more often."""
+
+    def __init__(self, places, weights, before=None):
+        """`before`: the draw of fewer houses, whose scores are kept."""
+        self.places, self.weights = places, weights
+        known = before.scores() if before else {}
+        self.false = np.array([known.get((house.name, index), UNSEEN) for house, index in places])
+
+    def scores(self):
+        return {(house.name, index): score for (house, index), score in zip(self.places, self.false, strict=True)}
+
+    def choose(self, batch, rng):
+        chance = self.weights * (1 + HARD * self.false)
+        return rng.choice(len(self.places), batch, p=chance / chance.sum())
+
+    def learn(self, chosen, false):
+        """Scores of the highest false claims of the chosen frames."""
+        self.false[chosen] = 0.5 * (self.false[chosen] + false)
+
+
+def false_scores(heat, answers):
+    """Of each picture, the highest score of a claim away from all goal objects."""
+    away = (answers["heat"] < 0.05) & (answers["asked"] > 0)
+    return (torch.sigmoid(heat.detach().float()) * away).amax((1, 2, 3)).cpu().numpy()
+
+
+def batch_of(places, size, rng):
     inputs, answers = [], []
-    for at in rng.choice(len(places), batch, p=weights):
-        sample = frames.Sample(*places[at])
+    for place in places:
+        sample = frames.Sample(*place)
         augment.augment(sample, size, rng)
         inputs.append(sample.inputs())
         answers.append(targets.all_of(sample, size))
@@ -145,6 +181,14 @@ def rate_at(share, top):
     return top * min(1.0, share / 0.03 + 0.02) * (0.5 + 0.5 * math.cos(math.pi * min(share, 1.0))) + 1e-6
 
 
+def start_from(network, file, draw, args, rng):
+    """Loads an exported file's weights, with norms as the training frames have them."""
+    warm.load(network, file)
+    device = next(network.parameters()).device
+    sets = (batch_of([draw.places[at] for at in draw.choose(args.batch, rng)], args.size, rng)[0] for _ in range(SETTLE_BATCHES))
+    warm.settle(network, (to_device(inputs, device) for inputs in sets))
+
+
 def step(run, inputs, answers, class_weight, device):
     with autocast(device):
         raw = run.network.raw(inputs["image"].float() / 255, inputs["depth"], inputs["height"])
@@ -154,20 +198,20 @@ def step(run, inputs, answers, class_weight, device):
     torch.nn.utils.clip_grad_norm_(run.network.parameters(), 5.0)
     run.optimizer.step()
     run.average.update(run.network)
-    return {name: float(value.detach()) for name, value in parts.items()}
+    return {name: float(value.detach()) for name, value in parts.items()}, false_scores(raw["heat"], answers)
 
 
-def read_places(data):
-    houses = frames.read_set(data, "train")
+def read_places(data, sets):
+    houses = frames.read_set(data, *sets)
     places, weights, goals = frame_weights(houses)
     print(f"{len(houses)} houses, {len(places)} frames with",
           ", ".join(f"{n} {goal}" for n, goal in zip(goals.sum(0).astype(int), [*common.GOALS, "stairs"], strict=True)), flush=True)
     return houses, places, weights
 
 
-def is_grown(data, houses):
+def is_grown(data, sets, houses):
     """Whether houses were rendered since: training may begin before all of them are there."""
-    return len(list((data / "train").glob("*/models.json"))) > len(houses)
+    return sum(len(list((data / name).glob("*/models.json"))) for name in sets) > len(houses)
 
 
 def share_of(run, args):
@@ -179,29 +223,48 @@ def size_at(share, args):
     return args.small_size if share < args.small_share else args.size
 
 
+def about(args, houses, places):
+    """What the card tells of the run."""
+    start = {"from": args.from_onnx.name} if args.from_onnx else {}
+    return {"seed": args.seed, "houses": len(houses), "frames": len(places), **start}
+
+
 def train(args):
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
     torch.set_num_threads(args.threads)
     torch.manual_seed(args.seed)
     path = args.checkpoint or args.data / "checkpoint.pt"
-    houses, places, weights = read_places(args.data)
+    cv2.setNumThreads(args.threads)
+    houses, places, weights = read_places(args.data, args.sets)
     class_weight = dense_weights(houses).to(device)
+    frames_of = Draw(places, weights)
     run = Run(args, device)
     if path.exists():
         run.restore(torch.load(path, map_location=device, weights_only=True))
         print(f"goes on after {run.used_s / 60:.1f} minutes, {run.steps} steps", flush=True)
+    elif args.from_onnx:
+        start_from(run.network, args.from_onnx, frames_of, args, np.random.default_rng(args.seed))
+        run.average = Average(run.network)
+        print(f"starts from {args.from_onnx.name}", flush=True)
     rng = np.random.default_rng([args.seed, run.steps])
-    cv2.setNumThreads(args.threads)
     run.network.train()
     last, saved, told, means = time.time(), time.time(), time.time(), {}
     pool = concurrent.futures.ThreadPoolExecutor(1)
-    draw = lambda: pool.submit(batch_of, places, weights, args.batch, size_at(share_of(run, args), args), rng)
+
+    def draw():
+        at = frames_of.choose(args.batch, rng)
+        chosen = [frames_of.places[index] for index in at]
+        return frames_of, at, pool.submit(batch_of, chosen, size_at(share_of(run, args), args), rng)
+
     coming = draw()  # the next batch, prepared during the step
     while (share := share_of(run, args)) < 1:
         for group in run.optimizer.param_groups:
             group["lr"] = rate_at(share, args.rate)
-        (inputs, answers), coming = coming.result(), draw()
-        parts = step(run, to_device(inputs, device), to_device(answers, device), class_weight, device)
+        drawn_of, at, batch = coming
+        (inputs, answers), coming = batch.result(), draw()
+        parts, false = step(run, to_device(inputs, device), to_device(answers, device), class_weight, device)
+        drawn_of.learn(at, false)
+        parts["false"] = float(false.mean())
         run.steps, run.frames_seen = run.steps + 1, run.frames_seen + args.batch
         now = time.time()
         run.used_s, last = run.used_s + now - last, now
@@ -212,11 +275,12 @@ def train(args):
                   " ".join(f"{name} {value:.3f}" for name, value in means.items()), flush=True)
         if now - saved > SAVE_EVERY_S:
             saved = now
-            run.save(path, {"seed": args.seed, "houses": len(houses), "frames": len(places)})
-            if is_grown(args.data, houses):
-                houses, places, weights = read_places(args.data)
+            run.save(path, about(args, houses, places))
+            if is_grown(args.data, args.sets, houses):
+                houses, places, weights = read_places(args.data, args.sets)
+                frames_of = Draw(places, weights, frames_of)
     pool.shutdown(cancel_futures=True)
-    run.save(path, {"seed": args.seed, "houses": len(houses), "frames": len(places)})
+    run.save(path, about(args, houses, places))
     print(f"{path}: {run.steps} steps, {run.frames_seen} frames in {run.used_s / 60:.1f} minutes")
 
 
