@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Accuracy of the exported network on a set of houses: the figures of its card.
 
-`--set test` is held-out houses with held-out furniture; `--set dev` are the houses on which `thresholds.py`
-chose. --worst DIR draws the pictures with the largest errors.
+`--set test` and `test-2` are held-out houses with held-out furniture, `drawn` and `building` styles that no training
+house has; on `dev` and `dev-2` `thresholds.py` chose. Several networks are shown side by side. --worst DIR draws the pictures with the largest errors.
 """
 
 import argparse
@@ -89,6 +89,7 @@ def print_goals(tally, thresholds):
     count = sum(row["asked"] for row in per_goal)
     for key in ("recall", "mask_iou"):
         summary[f"goals_{key}"] = sum(row[key] * row["asked"] for row in per_goal if row["asked"]) / max(count, 1)
+    summary["goals_card_recall"], summary["goals_card_false"] = summary["all"]["card_recall"], summary["all"]["card_false"]
     print(f"All goals, each at .1 false claims of its own a frame: recall {summary['goals_recall']:.3f}, "
           f"mask IoU {summary['goals_mask_iou']:.3f}")
     return summary
@@ -116,22 +117,13 @@ def read_card(path):
     return tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
-    parser.add_argument("--network", type=pathlib.Path, default=FILE)
-    parser.add_argument("--set", dest="name", default="test", choices=list(common.SETS))
-    parser.add_argument("--every", type=int, default=1, help="take every n-th frame")
-    parser.add_argument("--worst", type=pathlib.Path, default=None)
-    parser.add_argument("--curve", action="store_true", help="print the whole curve of all goals")
-    parser.add_argument("--json", type=pathlib.Path, default=None)
-    args = parser.parse_args()
+def evaluate(file, houses, names, args):
+    """Prints the tables of one network; also the tally and the summary."""
     table = np.load(common.REPO / "networks/text_vectors.npy").astype(np.float32)
-    network = Runtime(args.network)
-    houses = frames.read_set(args.data, args.name)
-    thresholds = read_card(args.network.with_suffix(".toml")).get("thresholds", {}).get("heat", [0.3] * 6)
+    network = Runtime(file)
+    thresholds = read_card(file.with_suffix(".toml")).get("thresholds", {}).get("heat", [0.3] * 6)
     tally = run(network, houses, table, args.every)
-    print(f"{args.network.name} on {args.name}: {len(houses)} houses, {network.name}")
+    print(f"{file.name} on {names}: {len(houses)} scenes, {network.name}")
     summary = print_goals(tally, thresholds)
     if args.curve:
         for score, recall, false in tally.curve()[::5]:
@@ -141,11 +133,38 @@ def main():
     augment.resize(sample, network.size)
     summary["ms"], summary["ms_box"] = network.milliseconds(sample.inputs())
     print(f"\nTime: {summary['ms']:.1f} ms of one thread, all heads at {network.size} px, and {summary['ms_box']:.1f} ms "
-          f"for the mask of each box, {network.name}")
+          f"for the mask of each box, {network.name}\n", flush=True)
     if args.worst:
         panels.draw_worst(tally, houses, network, args.worst)
+    return summary
+
+
+SHOWN = ["goals_recall", "goals_card_recall", "goals_card_false", "goals_mask_iou", "stairs_iou", "stairs_precision",
+         "stairs_recall", "dense_top1"]
+
+
+def print_side_by_side(files, summaries):
+    print("| | " + " | ".join(str(file) for file in files) + " |\n|---|" + "---|" * len(files))
+    for key in SHOWN:
+        print(f"| {key} | " + " | ".join(f"{summary[key]:.3f}" for summary in summaries) + " |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
+    parser.add_argument("--network", type=pathlib.Path, nargs="+", default=[FILE])
+    parser.add_argument("--set", dest="names", nargs="+", default=["test"], choices=[*common.SETS, *common.STYLES])
+    parser.add_argument("--every", type=int, default=1, help="take every n-th frame")
+    parser.add_argument("--worst", type=pathlib.Path, default=None)
+    parser.add_argument("--curve", action="store_true", help="print the whole curve of all goals")
+    parser.add_argument("--json", type=pathlib.Path, default=None)
+    args = parser.parse_args()
+    houses = frames.read_set(args.data, *args.names)
+    summaries = [evaluate(file, houses, " ".join(args.names), args) for file in args.network]
+    if len(summaries) > 1:
+        print_side_by_side(args.network, summaries)
     if args.json:
-        args.json.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+        args.json.write_text(json.dumps(summaries[0], indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ def imports(style, parts):
     for seed, home in enumerate(style.get("homes", []), 1):
         yield home, ["scene", "import", style["input"], "--home", home, "--name", home], seed
     for seed in style.get("furnish", []):
-        name = f"{style['input'].stem}-{seed}"
+        name = f"{style['input'].stem}{seed}"
         yield name, ["scene", "import", style["input"], "--name", name, "--furnish", seed,
                      "--furniture", parts["held"]], seed
 

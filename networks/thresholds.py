@@ -25,7 +25,7 @@ def main():
     parser.add_argument("--network", type=pathlib.Path, default=FILE)
     args = parser.parse_args()
     table = np.load(common.REPO / "networks/text_vectors.npy").astype(np.float32)
-    tally = evaluate.run(Runtime(args.network), frames.read_set(args.data, "dev"), table)
+    tally = evaluate.run(Runtime(args.network), frames.read_set(args.data, *common.DEV_SETS), table)
     chosen = []
     for name in common.GOALS:
         curve = tally.curve(name)
