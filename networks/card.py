@@ -47,15 +47,22 @@ def houses_of(data, name):
     return sorted(int(path.parent.name) for path in (data / name).glob("*/models.json"))
 
 
+def from_seeds(sets, names):
+    return ", ".join(f"{len(sets[name])} houses, seeds from {common.SETS[name]['seeds'].start}" for name in names if sets[name])
+
+
 def data_text(data, state):
     sets = {name: houses_of(data, name) for name in common.SETS}
+    seeds = ", ".join(f"seeds {min(sets[name])} to {max(sets[name])} (edition {common.SETS[name].get('edition', 1)})"
+                      for name in common.TRAIN_SETS if sets[name])
+    start = {"from": f"the weights of an earlier {state['from']}"} if "from" in state else {}
     return table("data", {
-        "houses": f"{len(sets['train'])} of crossnav world generate, seeds {common.SETS['train']['seeds'].start} to "
-                  f"{max(sets['train'], default=0)}, {state.get('frames', 0)} frames",
+        "houses": f"{sum(len(sets[name]) for name in common.TRAIN_SETS)} of crossnav world generate, {seeds}, {state.get('frames', 0)} frames",
+        **start,
         "furniture": "two thirds of the models of sweethome3d-furniture (CC0, CC-BY 3.0) and parametric shapes; the "
                      "last third, chosen by the hash of the models' names, is never trained on",
-        "development": f"{len(sets['dev'])} houses, seeds from {common.SETS['dev']['seeds'].start}",
-        "held_out": f"{len(sets['test'])} houses, seeds from {common.SETS['test']['seeds'].start}, with held-out furniture",
+        "development": from_seeds(sets, common.DEV_SETS),
+        "held_out": f"{from_seeds(sets, common.TEST_SETS)}, with held-out furniture",
         "frames_seen": state.get("frames_seen", 0), "minutes": round(state.get("used_s", 0) / 60, 1),
         "seed": state.get("seed", 0), "commit": commit()})
 
@@ -71,7 +78,7 @@ def masks_text(state):
 
 def numbers_of(checkpoint):
     state = torch.load(checkpoint, map_location="cpu", weights_only=True)
-    return {key: value for key, value in state.items() if isinstance(value, (int, float))}
+    return {key: value for key, value in state.items() if isinstance(value, (int, float, str))}
 
 
 def write(network_file, data, states, figures):

@@ -24,7 +24,7 @@ SETS = {
     "test": {"seeds": range(5101, 5111), "furniture": "held", "frames": 60},
     "test-2": {"seeds": range(6101, 6111), "furniture": "held", "frames": 60, "edition": 2},
 }
-TRAIN_SETS, DEV_SETS = ["train", "train-2"], ["dev", "dev-2"]
+TRAIN_SETS, DEV_SETS, TEST_SETS = ["train", "train-2"], ["dev", "dev-2"], ["test", "test-2"]
 
 # Styles that no training house has: homes that people drew (the archive of the package `sweethome3d`) and a
 # building of an architect, furnished with held-out furniture. Rendered on request, for evaluation only.

@@ -22,20 +22,22 @@ import runtime
 
 SIZE = common.INPUT_PX
 CAMERA_HEIGHT_M = 0.88
-BOXES = [(64, 70, 146, 196), (90, 100, 130, 150), (0, 120, 224, 224), (150, 20, 214, 90)]
+BOXES = [(44, 107, 178, 179), (63, 113, 159, 136), (0, 120, 224, 224), (150, 20, 214, 90)]
+RED, LIGHT_RED = [160, 40, 40], [185, 65, 65]
 
 
 def picture():
-    """A chair of two boards and two legs before a wall, with a picture on it; the same in the C++ test."""
+    """A red sofa before a wall, with a picture on it; the same in the C++ test."""
     v, u = np.mgrid[0:SIZE, 0:SIZE]
     focal, centre = frames.intrinsics(SIZE)
     depth = np.minimum(3.5, CAMERA_HEIGHT_M * focal / np.maximum(v - centre, 1))
     rgb = np.stack([150 + u // 8, 150 + v // 8, 140 + 0 * u], -1)
-    legs = (v >= 140) & (v < 190) & (u >= 72) & (u < 138) & ((u % 60 >= 12) & (u % 60 < 17))
-    boards = [((u >= 76) & (u < 134) & (v >= 76) & (v < 132), 2.2), ((u >= 70) & (u < 140) & (v >= 132) & (v < 140), 1.9)]
-    for where, range_m in [*boards, (legs, 2.0)]:
+    back = (u >= 63) & (u < 159) & (v >= 113) & (v < 136)
+    seat = (u >= 48) & (u < 174) & (v >= 136) & (v < 143)
+    front = (u >= 48) & (u < 174) & (v >= 143) & (v < 173)
+    for where, range_m, colour in [(back, 2.1, RED), (seat, 1.85, LIGHT_RED), (front, 1.6, RED)]:
         depth = np.where(where, range_m, depth)
-        rgb = np.where(where[..., None], [110, 60, 30], rgb)
+        rgb = np.where(where[..., None], colour, rgb)
     hung = (u >= 160) & (u < 205) & (v >= 30) & (v < 80)
     rgb = np.where(hung[..., None], [30, 60, 160], rgb)
     return rgb.astype(np.uint8), depth.astype(np.float32)

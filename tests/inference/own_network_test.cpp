@@ -32,12 +32,13 @@ Observation Picture() {
           std::min(3.5, kCameraHeight_m * obs.camera.fy / std::max(v - obs.camera.cy, 1.0));
       Rgb8 colour{static_cast<std::uint8_t>(150 + u / 8), static_cast<std::uint8_t>(150 + v / 8),
                   140};
-      const bool is_back = within(76, 134, 76, 132), is_seat = within(70, 140, 132, 140);
-      const bool is_leg = within(72, 138, 140, 190) && u % 60 >= 12 && u % 60 < 17;
-      if (is_back) range_m = 2.2;
-      if (is_seat) range_m = 1.9;
-      if (is_leg) range_m = 2.0;
-      if (is_back || is_seat || is_leg) colour = {110, 60, 30};
+      const bool is_back = within(63, 159, 113, 136), is_seat = within(48, 174, 136, 143),
+                 is_front = within(48, 174, 143, 173);
+      if (is_back) range_m = 2.1;
+      if (is_seat) range_m = 1.85;
+      if (is_front) range_m = 1.6;
+      if (is_back || is_front) colour = {160, 40, 40};
+      if (is_seat) colour = {185, 65, 65};
       if (within(160, 205, 30, 80)) colour = {30, 60, 160};
       obs.depth_m.At(u, v) = static_cast<float>(range_m);
       obs.rgb.At(u, v) = colour;
