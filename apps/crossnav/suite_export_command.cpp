@@ -10,6 +10,7 @@
 #include "crossnav/evaluation/episodes/suite.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/sim/navmesh/habitat_navmesh.h"
+#include "crossnav/world/scene/backs.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/scene/scene_writer.h"
 #include "session.h"
@@ -19,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A scene: its mesh with colours as Habitat multiplies them, its semantics with linear colours,
-/// and its navmesh.
+/// A scene: its mesh with backs and with colours as Habitat multiplies them, its semantics with
+/// linear colours, and its navmesh.
 Result<void> ExportScene(const fs::path& from, const fs::path& to,
                          const sim::NavMeshSettings& settings) {
   const auto scene = sim::LoadScene(from);
@@ -36,12 +37,13 @@ Result<void> ExportScene(const fs::path& from, const fs::path& to,
   };
   if (auto ok = write(".navmesh", *navmesh); !ok) return ok;
   if (auto ok = write(".semantic.txt", world::SemanticText(*scene)); !ok) return ok;
+  const sim::Scene backed = world::WithBacks(*scene);
   if (auto ok =
-          write(".semantic.glb", world::EncodeSemanticGlb(*scene, world::SemanticColours::kLinear));
+          write(".semantic.glb", world::EncodeSemanticGlb(backed, world::SemanticColours::kLinear));
       !ok) {
     return ok;
   }
-  return write(".glb", world::EncodeRenderGlb(*scene, world::RenderColours::kAsShown));
+  return write(".glb", world::EncodeRenderGlb(backed, world::RenderColours::kAsShown));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crossnav/core/write_file.h"
+#include "crossnav/world/scene/backs.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/shell/scene_builder.h"
 #include "sim/micro_scene.h"
@@ -36,6 +37,30 @@ sim::Scene TwoBoxes() {
   scene.mesh.material = scene.Material({200, 100, 50});
   scene.mesh.AddBox({8, 5, 0}, {9, 7, 1});
   return scene.Finish("00042-Boxes");
+}
+
+/// Regression: Habitat-Sim showed the wall behind a leaf, because it draws fronts alone.
+TEST(SceneWriter, OpenAndInvertedThingsGetBacksAndClosedThingsDoNot) {
+  const sim::Scene boxes = TwoBoxes();
+  EXPECT_EQ(WithBacks(boxes).mesh.triangles, boxes.mesh.triangles);
+
+  sim::Scene leaf = boxes;
+  leaf.mesh.triangles.pop_back();  // a hole in the last box of the couch
+  leaf.mesh.triangle_material.pop_back();
+  leaf.mesh.triangle_instance.pop_back();
+  const std::size_t of_wall = 12, all = leaf.mesh.triangles.size();
+  const sim::Scene backed = WithBacks(leaf);
+  ASSERT_EQ(backed.mesh.triangles.size(), 2 * all - of_wall);
+  for (std::size_t t = of_wall; t < all; ++t) {
+    const auto& front = backed.mesh.triangles[t];
+    const auto& back = backed.mesh.triangles[all + t - of_wall];
+    EXPECT_EQ(back, (std::array<std::uint32_t, 3>{front[2], front[1], front[0]}));
+    EXPECT_EQ(backed.mesh.triangle_instance[all + t - of_wall], backed.mesh.triangle_instance[t]);
+  }
+
+  sim::Scene inverted = boxes;
+  for (auto& triangle : inverted.mesh.triangles) std::swap(triangle[0], triangle[2]);
+  EXPECT_EQ(WithBacks(inverted).mesh.triangles.size(), 2 * boxes.mesh.triangles.size());
 }
 
 TEST(SceneWriter, SemanticColoursAsLightAreTheSameNamesToTheReader) {
