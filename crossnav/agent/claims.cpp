@@ -78,8 +78,11 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   const policy::VerifyConfig& config = now.config.verify;
   const policy::ClaimViews* seen = goal.full.claims.ViewsOf(poi.id);
   const int views = seen ? static_cast<int>(seen->p_cameras_world.size()) : 0;
-  const auto opinion =
-      OpinionOf(now.world.memory, poi.voxels, goal.text, OthersThan(goal.goal, now.world));
+  const auto others = OthersThan(goal.goal, now.world);
+  auto opinion = OpinionOf(now.world.memory, poi.voxels, goal.text, others);
+  if (opinion &&
+      IsOfSurroundings(now.world.memory, poi.voxels, now.config.map.voxel_m, *opinion, others))
+    opinion.reset();
   const auto scores = seen ? seen->scores : std::vector<policy::ViewScore>{};
   ClaimVerdict verdict = config.evidence == "views"
                              ? Judge(opinion, scores, config)

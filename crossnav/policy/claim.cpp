@@ -98,6 +98,30 @@ std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
   return opinion;
 }
 
+bool IsOfSurroundings(const memory::SemanticMemory& memory, const std::vector<VoxelKey>& voxels,
+                      double voxel_m, const MemoryOpinion& opinion,
+                      const std::vector<NamedText>& others) {
+  constexpr double kSmall_m = 0.45;  // chosen: largest side; half of a chair is larger
+  constexpr int kRing_vox = 2;       // chosen: a cell of the features from near
+  if (voxels.empty() || opinion.Margin() >= 0) return false;
+  VoxelKey lo = voxels.front(), hi = lo;
+  for (const VoxelKey& key : voxels) {
+    lo = {std::min(lo.x, key.x), std::min(lo.y, key.y), std::min(lo.z, key.z)};
+    hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), std::max(hi.z, key.z)};
+  }
+  const int side_vox = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}) + 1;
+  if (side_vox * voxel_m > kSmall_m) return false;
+  std::vector<VoxelKey> ring;
+  for (int x = lo.x - kRing_vox; x <= hi.x + kRing_vox; ++x)
+    for (int y = lo.y - kRing_vox; y <= hi.y + kRing_vox; ++y)
+      for (int z = lo.z - kRing_vox; z <= hi.z + kRing_vox; ++z)
+        if (const VoxelKey key{x, y, z};
+            std::find(voxels.begin(), voxels.end(), key) == voxels.end())
+          ring.push_back(key);
+  const auto around = OpinionOf(memory, ring, {}, others);
+  return around && around->other == opinion.other;
+}
+
 bool IsOtherView(const Vector3d& p_object, const Vector3d& p_a, const Vector3d& p_b,
                  const VerifyConfig& config) {
   if ((p_a - p_b).head<2>().norm() < config.view_baseline_m) return false;

@@ -73,6 +73,13 @@ std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
                                        std::span<const float> goal,
                                        const std::vector<NamedText>& others);
 
+/// Whether the rival that `opinion` prefers is what a small object stands on or among: its voxels
+/// are no finer than the object, and hold the features of its surroundings as well. Such an opinion
+/// says nothing about the object.
+bool IsOfSurroundings(const memory::SemanticMemory& memory, const std::vector<VoxelKey>& voxels,
+                      double voxel_m, const MemoryOpinion& opinion,
+                      const std::vector<NamedText>& others);
+
 /// Views from which an object was claimed: camera places with pairwise different views.
 struct ClaimViews {
   int poi_id = 0;

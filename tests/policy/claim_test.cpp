@@ -48,6 +48,29 @@ TEST(Opinion, IsNoneWhereNothingIsRemembered) {
   EXPECT_FALSE(OpinionOf(memory, ColumnAt(0), std::vector<float>{1, 0}, {}).has_value());
 }
 
+/// A thing of two voxels on a desk, or in the open; `around` is the feature of its surroundings.
+SemanticMemory SmallThing(std::vector<float> around) {
+  SemanticMemory memory({}, 0.1, 2);
+  for (int x = -2; x <= 3; ++x)
+    for (int y = -2; y <= 2; ++y) memory.AppendRow(MemoryRowOf({x, y, -1}, 1, around));
+  for (int x = 0; x < 2; ++x) memory.AppendRow(MemoryRowOf({x, 0, 0}, 1, {0, 1}));
+  return memory;
+}
+
+/// Regression: a bowl on a desk was refuted, because its voxels held the features of the desk.
+TEST(Opinion, OfASmallThingThatItsSurroundingsGiveSaysNothing) {
+  const std::vector<NamedText> others = {{"desk", {0, 1}}, {"floor", {1, 0}}};
+  const std::vector<VoxelKey> small = {{0, 0, 0}, {1, 0, 0}};
+  const MemoryOpinion denies{0.1, 0.9, "desk", 2};
+  EXPECT_TRUE(IsOfSurroundings(SmallThing({0, 1}), small, 0.1, denies, others));
+  EXPECT_FALSE(IsOfSurroundings(SmallThing({1, 0}), small, 0.1, denies, others))
+      << "a desk on the floor is a desk";
+  EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), ColumnAt(0), 0.1, denies, others))
+      << "as large as furniture";
+  const MemoryOpinion agrees{0.9, 0.1, "desk", 2};
+  EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), small, 0.1, agrees, others));
+}
+
 TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedClaimsEnd) {
   const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.7, 0.7, "sofa", 9},
       denies{0.5, 0.9, "sofa", 9};
