@@ -139,6 +139,7 @@ std::optional<Action> ActOn(StepState& now, Approach& approach,
 
 std::optional<Action> Act(StepState& now, const policy::Verification& verification) {
   Activity& activity = now.goal.full.activity;
+  if (const Scan* scan = std::get_if<Scan>(&activity); scan && HasEscaped(now, *scan)) EndScan(now);
   if (Scan* scan = std::get_if<Scan>(&activity)) {
     const Action turn = scan->turns.front();
     scan->turns.pop_front();

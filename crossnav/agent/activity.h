@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -65,8 +66,10 @@ using Pursuit = std::variant<Idle, GoTo, Climb, VisitPlace, Approach>;
 
 /// Turns on the spot. The pursuit that a scan interrupts goes on afterwards.
 struct Scan {
-  std::deque<Action> turns;  ///< never empty
+  std::deque<Action> turns;  ///< never empty; of an escape, with a step after each turn
   Pursuit suspended;
+  std::optional<Vector3d>
+      p_escape_world;  ///< of an escape: it ends where the body is off this foot
 };
 using Activity = std::variant<Pursuit, Scan>;
 

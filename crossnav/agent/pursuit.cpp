@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "crossnav/agent/scan.h"
 #include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/flights.h"
 
@@ -132,9 +133,14 @@ void End(StepState& now, Ending ending) {
     now.goal.full.claims.no_second_view_of = approach->poi_id;
   if (ending == Ending::kNoProgress && now.goal.full.may_squeeze) CloseGap(now, pursued->route);
   pursuit = Idle{};
-  if (!now.goal.full.may_squeeze && IsWalledIn(now) &&
-      now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalledInRadius_m))
+  if (!IsWalledIn(now)) return;
+  if (!now.goal.full.may_squeeze &&
+      now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalledInRadius_m)) {
     now.goal.events.push_back("walled in by bumps: they are forgotten here");
+  } else if (!IsScanning(now.goal.full.activity)) {
+    BeginEscape(now);
+    now.goal.events.push_back("walled in: a step is tried in every heading");
+  }
 }
 
 double RemainingOf(const Situation& now, const std::vector<VoxelKey>& path) {

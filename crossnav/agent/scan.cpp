@@ -26,6 +26,22 @@ void EndScan(StepState& now) {
   activity = std::move(suspended);
 }
 
+void BeginEscape(StepState& now) {
+  const auto headings = std::lround(360 / now.config.action.turn_deg);
+  std::deque<Action> tries{Action::kMoveForward};
+  for (long i = 1; i < headings; ++i) {
+    tries.push_back(Action::kTurnLeft);
+    tries.push_back(Action::kMoveForward);
+  }
+  BeginScan(now, std::move(tries));
+  std::get<Scan>(now.goal.full.activity).p_escape_world = now.agent.p_world;
+}
+
+bool HasEscaped(const Situation& now, const Scan& scan) {
+  return scan.p_escape_world && (now.agent.p_world - *scan.p_escape_world).head<2>().norm() >=
+                                    now.config.policy.motion.bump_m;
+}
+
 void LookAround(StepState& now) {
   const double down_rad = DegToRad(now.config.policy.motion.travel_pitch_deg);
   BeginScan(now, FullTurn(now.agent, down_rad, now.config.action));

@@ -14,6 +14,12 @@ void BeginScan(StepState& now, std::deque<Action> turns);
 /// Ends the scan, if there is one, and resumes the suspended pursuit.
 void EndScan(StepState& now);
 
+/// Tries a step in every heading, until the body moves: the way out of a place that the map takes
+/// for closed.
+void BeginEscape(StepState& now);
+/// Whether the scan is an escape that moved the body.
+bool HasEscaped(const Situation& now, const Scan& scan);
+
 /// Begins a full turn with the camera down at the ground.
 void LookAround(StepState& now);
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "agent/two_rooms.h"
+#include "crossnav/agent/act.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/core/rng.h"
@@ -114,6 +115,29 @@ TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
   EXPECT_TRUE(ground.HasBlocked()) << "one way may be closed";
   fail(20);
   EXPECT_FALSE(ground.HasBlocked());
+}
+
+// Regression: in a slot between a door leaf and a wall, where the map had no step left, the agent
+// turned on the spot to the end of the budget.
+TEST(Progress, WithoutAMarkToForgetAStepIsTriedInEveryHeading) {
+  Ground given;
+  const auto fail = [&](double x_m) {
+    GoTo go_to;
+    go_to.target.p_focus_world = Vector3d(x_m, 0, 0);
+    Begin(given.now, std::move(go_to));
+    End(given.now, Ending::kNoProgress);
+  };
+  fail(10);
+  EXPECT_FALSE(IsScanning(given.goal.full.activity));
+  fail(20);
+  ASSERT_TRUE(IsScanning(given.goal.full.activity));
+  const policy::Verification none;
+  int turns = 0;
+  for (int i = 0; i < 7; ++i) turns += Act(given.now, none) == Action::kTurnLeft;
+  EXPECT_EQ(turns, 3) << "a step after each turn";
+  given.now.agent.p_world.x() += 0.25;  // the fourth step moved the body
+  EXPECT_FALSE(Act(given.now, none).has_value());
+  EXPECT_FALSE(IsScanning(given.goal.full.activity));
 }
 
 // A body that slid along a door frame marked the middle of the door.
