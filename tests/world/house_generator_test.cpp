@@ -11,6 +11,7 @@
 #include "crossnav/world/furniture/groups.h"
 #include "crossnav/world/house/house_file.h"
 #include "crossnav/world/house/house_gate.h"
+#include "crossnav/world/layout/edition.h"
 #include "crossnav/world/scene/glb_writer.h"
 #include "crossnav/world/shell/architecture.h"
 #include "crossnav/world/stairs/stairs.h"
@@ -30,7 +31,7 @@ TEST(HouseGenerator, WritesAHouseThatTheReaderAccepts) {
   ASSERT_TRUE(report.has_value()) << report.error().Message();
   EXPECT_EQ(report->floors, 2);
   EXPECT_GE(report->instances.size(), 5U);
-  EXPECT_LT(report->bytes, kMaxSceneBytes);
+  EXPECT_LT(report->bytes, EditionOf(params.edition).most_bytes);
   const auto scene = sim::LoadScene(report->folder);
   ASSERT_TRUE(scene.has_value()) << scene.error().Message();
   const auto navmesh = sim::NavMesh::Build(*scene, {});

@@ -10,8 +10,6 @@
 
 namespace crossnav::world {
 
-inline constexpr std::uintmax_t kMaxSceneBytes = 40'000'000;
-
 /// First violated requirement: floors that are not connected, a room that cannot be reached or is
 /// mostly cut off, fewer than five of the six categories, furniture that overlaps furniture or a
 /// doorway. BlockedRoom: index of the first room without walkable ground or mostly cut off, or

@@ -141,9 +141,11 @@ Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::pa
   if (!folder) return tl::unexpected(folder.error());
   report.folder = *folder;
   for (const auto& file : fs::directory_iterator(*folder)) report.bytes += file.file_size();
-  if (report.bytes < kMaxSceneBytes) return report;
+  const std::uintmax_t most_bytes = EditionOf(params.edition).most_bytes;
+  if (report.bytes < most_bytes) return report;
   fs::remove_all(*folder);
-  return Fail(ErrorCode::kInvalid, "files larger than 40 MB", folder->string());
+  return Fail(ErrorCode::kInvalid, fmt::format("files larger than {} MB", most_bytes / 1'000'000),
+              folder->string());
 }
 
 }  // namespace

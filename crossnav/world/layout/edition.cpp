@@ -10,6 +10,7 @@ Edition Second() {
   Edition e;
   e.number = 2;
   e.max_attempts = 40;
+  e.most_bytes = 160'000'000;  // chosen: as the largest scans of HM3D; 1,000 m2 with 100 rooms
 
   e.has_wide_stairs = true;
   e.attic_chance = 0.35;

@@ -4,6 +4,8 @@
 // number, so that an ingredient of a later edition changes no house of an earlier edition.
 #pragma once
 
+#include <cstdint>
+
 #include "crossnav/core/rng.h"
 
 namespace crossnav::world {
@@ -17,6 +19,7 @@ struct Range {
 struct Edition {
   int number = 1;
   int max_attempts = 12;  ///< plans tried; chosen: more than half of them pass (`world stats`)
+  std::uintmax_t most_bytes = 40'000'000;  ///< chosen: of the files of a house
   bool has_wide_stairs = false;   ///< stairs of every steepness, with half turns of winders
   double attic_chance = 0;        ///< chance of a separate stair to the top level
   Range door_m{0.80, 0.95};       ///< clear width
