@@ -27,9 +27,12 @@ bool HasLibraries(const fs::path& folder) {
   return false;
 }
 
-/// The folder itself, or the library folder of an unpacked package in it; empty folder = installed.
+/// The file or folder itself, or the library folder of an unpacked package in it; empty =
+/// installed.
 Result<fs::path> FindLibraries(const std::string& folder) {
   const fs::path root = folder.empty() ? fs::path("/") : fs::path(folder);
+  std::error_code error;
+  if (fs::is_regular_file(root, error)) return root;
   for (const fs::path& place : {root, root / kInstalled}) {
     if (HasLibraries(place)) return place;
   }

@@ -80,7 +80,8 @@ void AddAssets(CLI::App& app, Options& o) {
               "crossnav assets import --out furniture",
               [&o](Console& c) { return AssetsImport(o.assets, o.common, c); });
   verb->add_option("DIR", o.assets.libraries,
-                   "Folder of .sh3f libraries or of the unpacked package; default: the installed "
+                   "Folder of .sh3f libraries or of the unpacked package, or one library: a .sh3f, "
+                   "or sweethome3d.jar with the program's own catalogue; default: the installed "
                    "package");
   verb->add_option(
       "--out", o.assets.out,

@@ -104,6 +104,25 @@ TEST(FurnitureImport, FitsTheCatalogueSizeAndKeepsTheCredits) {
   EXPECT_NE(text.find("creativecommons.org/licenses/by/3.0/"), std::string::npos);
 }
 
+TEST(FurnitureImport, ReadsTheCatalogueOfTheProgramItself) {
+  const test::TempFolder dir;
+  const std::string catalogue =
+      "version=6.5\nid#1=eTeks#sofa\nname#1=Sofa\ncreator#1=eTeks\nmodel#1=/m/a.obj\n"
+      "width#1=190\ndepth#1=90\nheight#1=80\n";
+  std::ofstream(dir.path() / "sweethome3d.jar", std::ios::binary)
+      << Zip({{"com/eteks/sweethome3d/io/DefaultFurnitureCatalog.properties", catalogue},
+              {"m/a.obj", kObj},
+              {"m/a.mtl", kMtl}});
+  const auto report = ImportFurniture(dir.path() / "sweethome3d.jar", dir.path() / "pack");
+  ASSERT_TRUE(report.has_value()) << report.error().Message();
+  const auto pack = FurniturePack::Load(dir.path() / "pack");
+  ASSERT_TRUE(pack.has_value()) << pack.error().Message();
+  ASSERT_EQ(pack->entries().size(), 1U);
+  EXPECT_EQ(pack->entries()[0].kind, "couch");
+  EXPECT_EQ(pack->entries()[0].source, "sweethome3d.jar 6.5 of Debian's sweethome3d");
+  EXPECT_EQ(pack->entries()[0].licence, "GNU GPL / CC-BY 3.0");
+}
+
 TEST(FurnitureImport, NamesMissingParts) {
   const test::TempFolder dir;
   EXPECT_EQ(ImportFurniture(dir.path(), dir.path() / "pack").error().code, ErrorCode::kNotFound);

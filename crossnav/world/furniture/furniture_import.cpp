@@ -106,10 +106,19 @@ struct Library {
   std::map<std::string, std::string> number_of_id;  ///< "Scopia#bed1" -> "12"
 };
 
+/// Catalogues of a library (.sh3f) and of the program itself (sweethome3d.jar).
+constexpr const char* kLibraryCatalogue = "PluginFurnitureCatalog.properties";
+constexpr const char* kProgramCatalogue =
+    "com/eteks/sweethome3d/io/DefaultFurnitureCatalog.properties";
+
+bool IsProgram(const fs::path& path) {
+  return path.extension() == ".jar";
+}
+
 Result<Library> OpenLibrary(const fs::path& path) {
   auto zip = ZipReader::Open(path);
   if (!zip) return tl::unexpected(zip.error());
-  auto text = zip->Read("PluginFurnitureCatalog.properties");
+  auto text = zip->Read(IsProgram(path) ? kProgramCatalogue : kLibraryCatalogue);
   if (!text) return tl::unexpected(text.error());
   Library library{std::move(*zip), ParseProperties(*text), path.filename().string(), {}};
   for (const auto& [key, value] : library.properties) {
@@ -121,12 +130,15 @@ Result<Library> OpenLibrary(const fs::path& path) {
 void SetLicence(PackEntry& e, const Library& library) {
   const bool is_cc0 = library.file.find("CC-0") != std::string::npos && !IsReallyCcBy(e.id);
   const bool is_us = library.file.find("KatorLegaz") != std::string::npos;
-  e.licence = is_cc0 ? "CC0 1.0" : (is_us ? "CC-BY 3.0 US" : "CC-BY 3.0");
+  e.licence = is_cc0                    ? "CC0 1.0"
+              : is_us                   ? "CC-BY 3.0 US"
+              : IsProgram(library.file) ? "GNU GPL / CC-BY 3.0"
+                                        : "CC-BY 3.0";
   e.licence_uri = is_cc0  ? "https://creativecommons.org/publicdomain/zero/1.0/"
                   : is_us ? "https://creativecommons.org/licenses/by/3.0/us/"
                           : "https://creativecommons.org/licenses/by/3.0/";
-  e.source = library.file + " " + Get(library.properties, "version") +
-             " of Debian's sweethome3d-furniture";
+  e.source = library.file + " " + Get(library.properties, "version") + " of Debian's " +
+             (IsProgram(library.file) ? "sweethome3d" : "sweethome3d-furniture");
 }
 
 Result<PackModel> ImportOne(const Library& library, const FurnitureClass& wanted,
@@ -166,15 +178,22 @@ Result<PackModel> ImportOne(const Library& library, const FurnitureClass& wanted
   return out;
 }
 
-}  // namespace
-
-Result<ImportReport> ImportFurniture(const fs::path& libraries, const fs::path& out_dir) {
-  std::vector<fs::path> files;
+/// The file itself, or the libraries in a folder.
+std::vector<fs::path> LibraryFiles(const fs::path& place) {
   std::error_code error;
-  for (const auto& f : fs::directory_iterator(libraries, error)) {
+  if (fs::is_regular_file(place, error)) return {place};
+  std::vector<fs::path> files;
+  for (const auto& f : fs::directory_iterator(place, error)) {
     if (f.path().extension() == ".sh3f") files.push_back(f.path());
   }
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+Result<ImportReport> ImportFurniture(const fs::path& libraries, const fs::path& out_dir) {
+  const std::vector<fs::path> files = LibraryFiles(libraries);
   if (files.empty()) {
     return Fail(ErrorCode::kNotFound, "no .sh3f furniture library here", libraries.string());
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Imports models of Sweet Home 3D's furniture libraries (.sh3f) into a pack: catalogue, OBJ, size
-// fit, simplification, licence and author of each.
+// Imports models of Sweet Home 3D's furniture libraries (.sh3f), or of its own catalogue, into a
+// pack: catalogue, OBJ, size fit, simplification, licence and author of each.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,9 @@ struct ImportReport {
   std::vector<std::string> skipped;  ///< id: reason
 };
 
-/// Reads every .sh3f in `libraries` (a folder) and writes the pack to `out_dir`. Models of
-/// FurnitureClasses only. kNotFound without a library.
+/// Reads every .sh3f in `libraries` (a folder), or one library (a .sh3f, or sweethome3d.jar with
+/// the program's own catalogue), and writes the pack to `out_dir`. Models of FurnitureClasses only.
+/// kNotFound without a library.
 Result<ImportReport> ImportFurniture(const std::filesystem::path& libraries,
                                      const std::filesystem::path& out_dir);
 
