@@ -23,6 +23,12 @@ constexpr int kMaxReplans = 5;             // chosen: longer paths that observat
 constexpr double kGapAhead_m = 1.0;        // chosen: a gap that the body had begun to try
 constexpr double kWalledInRadius_m = 1.0;  // chosen: bumps that may wall the agent in
 
+/// Marks were forgotten here before, and the same headings failed again.
+bool WasUnmarkedHere(const StepState& now) {
+  const auto& p_world = now.goal.full.p_unmarked_world;
+  return p_world && (*p_world - now.agent.p_world).norm() < kProgress_m;
+}
+
 /// Two pursuits in a row made no progress from the same place. An agent that reached the place is
 /// not walled in: marks of bumps are wider in the map than the obstacles.
 bool IsWalledIn(const StepState& now) {
@@ -134,8 +140,9 @@ void End(StepState& now, Ending ending) {
   if (ending == Ending::kNoProgress && now.goal.full.may_squeeze) CloseGap(now, pursued->route);
   pursuit = Idle{};
   if (!IsWalledIn(now)) return;
-  if (!now.goal.full.may_squeeze &&
+  if (!now.goal.full.may_squeeze && !WasUnmarkedHere(now) &&
       now.world.ground.ForgetBlockedAround(now.agent.p_world, kWalledInRadius_m)) {
+    now.goal.full.p_unmarked_world = now.agent.p_world;
     now.goal.events.push_back("walled in by bumps: they are forgotten here");
   } else if (!IsScanning(now.goal.full.activity)) {
     BeginEscape(now);

@@ -140,6 +140,26 @@ TEST(Progress, WithoutAMarkToForgetAStepIsTriedInEveryHeading) {
   EXPECT_FALSE(IsScanning(given.goal.full.activity));
 }
 
+// Regression: between a toilet and a wall three headings were tried in turn for 700 actions,
+// because their marks were forgotten each time.
+TEST(Progress, WhereMarksWereForgottenAStepIsTriedInEveryHeadingNext) {
+  Ground given;
+  const auto fail_twice = [&] {
+    for (const double x_m : {10, 20}) {
+      GoTo go_to;
+      go_to.target.p_focus_world = Vector3d(x_m, 0, 0);
+      given.world.ground.Block(given.now.agent.p_world + Vector3d(0.3, 0, 0.1));
+      Begin(given.now, std::move(go_to));
+      End(given.now, Ending::kNoProgress);
+    }
+  };
+  fail_twice();
+  EXPECT_FALSE(given.world.ground.HasBlocked());
+  EXPECT_FALSE(IsScanning(given.goal.full.activity));
+  fail_twice();
+  EXPECT_TRUE(IsScanning(given.goal.full.activity));
+}
+
 // A body that slid along a door frame marked the middle of the door.
 TEST(Progress, ASlidingStepMarksTheObstacleBesideIt) {
   const auto is_open = [](const Vector3d& moved, const VoxelKey& key) {
