@@ -88,15 +88,21 @@ def shading(at, rng):
     return ambient + (1 - ambient) * np.abs(normal @ lamp)
 
 
+def paints(count, rng):
+    """Colours [count,3], 0 to 255: pale and light most often, some vivid as walls that people draw, some near black."""
+    hue = rng.uniform(0, 180, count)
+    saturation = np.where(rng.random(count) < 0.25, rng.beta(3, 1, count), rng.beta(1, 2.5, count))
+    value = np.where(rng.random(count) < 0.15, rng.uniform(0.01, 0.2, count), rng.beta(2.2, 1.3, count))
+    hsv = np.stack([hue, 255 * saturation, 255 * value], -1).astype(np.uint8)[None]
+    return cv2.cvtColor(hsv, cv2.COLOR_HSV2RGB)[0].astype(np.float32)
+
+
 def restyle(image, sample, rng):
     """Other materials: some of the things or all get one colour and a pattern, and keep the light of the picture
     or lose it to flat shading. Shapes alone tell what they are then."""
     size, ids = len(sample.house.goal_of), sample.instance
     chosen = rng.random(size) < rng.choice([0.3, 0.7, 1.0])
-    hue = rng.uniform(0, 180, size)
-    saturation, value = 255 * rng.beta(1, 2.5, size), 255 * rng.beta(2.2, 1.3, size)
-    hsv = np.stack([hue, saturation, value], -1).astype(np.uint8)[None]
-    colour = cv2.cvtColor(hsv, cv2.COLOR_HSV2RGB)[0].astype(np.float32)
+    colour = paints(size, rng)
     at = points(sample)
     if rng.random() < 0.6:  # the light of the picture
         grey = image.mean(axis=2)

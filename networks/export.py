@@ -14,6 +14,7 @@ import model
 import numpy as np
 import onnx
 import torch
+import warm
 from halve import halve
 from runtime import masks_file
 from targets import STRIDE
@@ -45,6 +46,13 @@ def averaged(network, checkpoint):
     network.load_state_dict(state["average"])
     about = {key: value for key, value in state.items() if isinstance(value, (int, float))}
     return fold_norms(network.eval()), about
+
+
+def exported_masks(file):
+    """The second network of an exported file: it sees windows, so that it fits any size of the input."""
+    network = masks.Masks()
+    warm.load(network, file, prefix="masks.")
+    return fold_norms(network.eval()), {"from": file.name}
 
 
 def inputs_of(size):
@@ -81,13 +89,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
     parser.add_argument("--checkpoint", type=pathlib.Path, default=None)
-    parser.add_argument("--masks", type=pathlib.Path, default=None)
+    parser.add_argument("--masks", type=pathlib.Path, default=None, help="checkpoint, or an exported file of another size")
     parser.add_argument("--out", type=pathlib.Path, default=FILE)
     args = parser.parse_args()
     network, about = trained(args.checkpoint or args.data / "checkpoint.pt")
     export(network, args.out)
     tell(network, args.out, about)
-    second, about = averaged(masks.Masks(), args.masks or args.data / "masks.pt")
+    chosen = args.masks or args.data / "masks.pt"
+    second, about = exported_masks(chosen) if chosen.suffix == ".onnx" else averaged(masks.Masks(), chosen)
     export_masks(second, masks_file(args.out))
     tell(second, masks_file(args.out), about)
 

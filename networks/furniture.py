@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import shutil
+import subprocess
 
 import common
 
@@ -45,6 +46,16 @@ def split(pack, out):
     for name, models in parts.items():
         write_part(pack, out / name, models, manifest)
     return out / "train", out / "held"
+
+
+def program_part(program, jar, out):
+    """Folder of a pack of the drawing program's own catalogue, made where it is missing; None without its archive."""
+    if not (out / "manifest.json").exists():
+        if not jar.exists():
+            print(f"no {jar}: the package sweethome3d is not there, nor are its furniture and its homes")
+            return None
+        subprocess.run([program, "assets", "import", jar, "--out", out], capture_output=True, check=True)
+    return out
 
 
 def default_pack():

@@ -24,7 +24,7 @@ def house_options(name, seed, parts):
     have the faults of a scan."""
     edition = common.SETS[name].get("edition", 1)
     furniture = parts[common.SETS[name]["furniture"]]
-    if name in common.TRAIN_SETS and seed % (10 if edition == 1 else 4) == 0:
+    if furniture == parts["train"] and name in common.TRAIN_SETS and seed % (10 if edition == 1 else 4) == 0:
         furniture = "none"
     scan = ["--scan"] if seed % 5 == 3 else []
     return ["--furniture", furniture, "--edition", edition, *scan]
@@ -73,7 +73,16 @@ def render_scene(program, make, count, seed, out):
     shutil.rmtree(made)
 
 
+def can_make(name, parts):
+    """Whether the package is there that the set's homes or furniture are of."""
+    if name in common.STYLES:
+        return common.STYLES[name]["input"].exists()
+    return parts[common.SETS[name]["furniture"]] is not None
+
+
 def missing_of(data, name, parts):
+    if not can_make(name, parts):
+        return []
     folder = data / name
     folder.mkdir(parents=True, exist_ok=True)
     count = (common.STYLES.get(name) or common.SETS[name])["frames"]
@@ -86,11 +95,12 @@ def main():
     parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
     parser.add_argument("--pack", type=pathlib.Path, default=furniture.default_pack())
     parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
-    parser.add_argument("--sets", nargs="+", default=list(common.SETS))
+    parser.add_argument("--sets", nargs="+", default=[*common.SETS, *common.TRAIN_STYLES])
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="houses at a time")
     args = parser.parse_args()
     train, held = furniture.split(args.pack, args.data / "furniture")
-    parts = {"train": train, "held": held}
+    parts = {"train": train, "held": held,
+             "program": furniture.program_part(args.program, common.HOMES_JAR, args.data / "furniture/program")}
     for name in args.sets:
         start = time.time()
         missing = missing_of(args.data, name, parts)

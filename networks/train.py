@@ -28,6 +28,7 @@ import warm
 from model import Network
 
 SAVE_EVERY_S = 180
+DRAWN = 2.5  # chosen: two homes among a hundred houses are a fifth of what is drawn
 HARD = 3.0  # chosen: a frame with a sure false claim is drawn four times as often as one without
 UNSEEN = 0.3  # chosen: score of the false claims of frames not yet drawn
 SETTLE_BATCHES = 24  # chosen: 384 frames for the norms of a run that starts from a file
@@ -38,7 +39,7 @@ def arguments():
     parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
     parser.add_argument("--checkpoint", type=pathlib.Path, default=None)
     parser.add_argument("--from-onnx", type=pathlib.Path, default=None, help="file whose weights a new run starts from")
-    parser.add_argument("--sets", nargs="+", default=common.TRAIN_SETS)
+    parser.add_argument("--sets", nargs="+", default=[*common.TRAIN_SETS, *common.TRAIN_STYLES])
     parser.add_argument("--frames", type=int, default=200_000, help="to look at in all")
     parser.add_argument("--minutes", type=float, default=120, help="at most; the end comes at the earlier of both")
     parser.add_argument("--batch", type=int, default=16)
@@ -59,8 +60,8 @@ def autocast(device):
 
 
 def frame_weights(houses):
-    """Frames with goals that few frames show are drawn more often; frames without any less. Also which frame
-    shows which goal, stairs last."""
+    """Frames with goals that few frames show are drawn more often, and frames of homes that people drew; frames
+    without goals less. Also which frame shows which goal, stairs last."""
     places, goals = [], []
     for house in houses:
         for index in range(len(house.frames)):
@@ -75,6 +76,7 @@ def frame_weights(houses):
     goals = np.array(goals)
     rarity = 1 / np.maximum(goals.mean(0), 0.01) ** 0.5
     weights = 1.0 + (goals * rarity).max(1)
+    weights *= [DRAWN if house.name in common.LOOKED_AT else 1.0 for house, _ in places]
     return places, weights / weights.sum(), goals
 
 

@@ -86,7 +86,7 @@ def collect(network, places, weights, count, rng):
 
 
 def frames_with_goals(data):
-    places, weights, goals = train.frame_weights(frames.read_set(data, *common.TRAIN_SETS))
+    places, weights, goals = train.frame_weights(frames.read_set(data, *common.TRAIN_SETS, *common.TRAIN_STYLES))
     weights = weights * goals[:, :-1].any(1)
     return places, weights / weights.sum()
 

@@ -13,10 +13,11 @@ from onnx import numpy_helper
 HALF = "_half"  # of names of constants stored in half precision (halve.py)
 
 
-def weights_of(file):
-    """Constants of the file by the names of the network's parameters."""
-    return {row.name.removesuffix(HALF): torch.from_numpy(numpy_helper.to_array(row).copy()).float()
-            for row in onnx.load(file).graph.initializer}
+def weights_of(file, prefix=""):
+    """Constants of the file by the names of the network's parameters, which begin with `prefix` there."""
+    rows = {row.name.removesuffix(HALF): row for row in onnx.load(file).graph.initializer}
+    return {name.removeprefix(prefix): torch.from_numpy(numpy_helper.to_array(row).copy()).float()
+            for name, row in rows.items() if name.startswith(prefix)}
 
 
 def pairs(network):
@@ -29,9 +30,9 @@ def pairs(network):
                     yield f"{path}.{name}", child, after
 
 
-def load(network, file):
+def load(network, file, prefix=""):
     """Norms only add the folded bias afterwards; `settle` is still needed before training."""
-    stored = weights_of(file)
+    stored = weights_of(file, prefix)
     with torch.no_grad():
         for name, convolution, norm in pairs(network):
             convolution.weight.copy_(stored.pop(f"{name}.weight"))

@@ -127,6 +127,22 @@ def test_augmentation_keeps_shapes_and_the_same_generator_gives_the_same():
         assert (value == results[1][name]).all(), name
 
 
+def test_some_paints_are_vivid_and_some_nearly_black():
+    colours = augment.paints(2000, np.random.default_rng(1))
+    bright, spread = colours.max(1), np.ptp(colours, axis=1)
+    assert 0.08 < (bright < 52).mean() < 0.25  # of 255
+    assert 0.1 < (spread > 0.7 * bright).mean() < 0.5
+    assert (spread < 0.3 * bright).mean() > 0.4  # most are pale
+
+
+def test_frames_of_drawn_homes_are_drawn_more_often():
+    scenes = [house(), house()]
+    for one, name in zip(scenes, ["02001", common.LOOKED_AT[0]], strict=True):
+        one.name, one.frames, one.instance = name, [{}], sample().instance[None]
+    _, weights, _ = train.frame_weights(scenes)
+    assert weights[1] == pytest.approx(train.DRAWN * weights[0])
+
+
 def test_a_thing_in_another_material_keeps_its_shape():
     made = sample()
     image = made.rgb.astype(np.float32)
@@ -332,6 +348,25 @@ def test_held_out_houses_and_furniture_are_never_trained_on():
     assert sorted(looked_at + held) == sorted(common.SETS)
     assert sum(len(rows) for rows in seeds.values()) == len(set().union(*seeds.values()))
     assert max(max(seeds[name]) for name in looked_at) < 5001 <= min(min(seeds[name]) for name in held)
-    assert {common.SETS[name]["furniture"] for name in looked_at} == {"train"}
+    assert {common.SETS[name]["furniture"] for name in looked_at} == {"train", "program"}
     assert {common.SETS[name]["furniture"] for name in held} == {"held"}
     assert not set(common.STYLES) & set(common.TRAIN_SETS) and not set(common.LOOKED_AT) & set(common.HOMES)
+    assert {home for name in common.TRAIN_STYLES for home in common.STYLES[name]["homes"]} == set(common.LOOKED_AT)
+
+
+def test_masks_of_an_exported_file_are_the_same_at_another_size(tmp_path):
+    pytest.importorskip("onnx")
+    import export
+
+    torch.manual_seed(3)
+    network = masks.Masks()
+    for module in network.modules():
+        if isinstance(module, torch.nn.BatchNorm2d):
+            module.running_mean.normal_(0, 0.2)
+            module.running_var.uniform_(0.5, 2)
+    seen = torch.rand(2, 7, masks.SIZE, masks.SIZE)
+    with torch.no_grad():
+        before = network.eval()(seen)
+        export.export_masks(export.fold_norms(network), tmp_path / "a_masks.onnx", size=64)
+        after = export.exported_masks(tmp_path / "a_masks.onnx")[0](seen)
+    assert torch.allclose(before, after, atol=0.02)  # weights were stored in half precision
