@@ -17,8 +17,12 @@ import torch
 from evaluate import read_card
 from runtime import masks_file
 
+# chosen: cosine by which one name has to answer better than another. CLIP's own vectors lie within 0.2 of each other
+# (verify.refute_margin is 0.02 for them), ours without their mean within 1.
+MARGIN = 0.15
+
 LIMITS = [
-    "Trained on renders of generated houses alone: in five real frames it finds most chairs, but with low scores, and "
+    "Trained on renders alone, of generated houses and two drawn homes: in five real frames it finds most chairs, but with low scores, and "
     "calls a dining table sofa and bed (docs/networks-training.md). On real stairs it was never tried.",
     "Square pictures with a field of view of about 90 degrees, a camera 0.6 to 1.2 m above the floor, depth in "
     "metres: other cameras change what sizes and heights mean.",
@@ -39,8 +43,12 @@ def listed(values):
     return "[" + ", ".join(json.dumps(value) for value in values) + "]"
 
 
-def table(name, rows):
-    return f"\n[{name}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in rows.items())
+def rows(values):
+    return "".join(f"{key} = {json.dumps(value)}\n" for key, value in values.items())
+
+
+def table(name, values):
+    return f"\n[{name}]\n" + rows(values)
 
 
 def houses_of(data, name):
@@ -56,11 +64,13 @@ def data_text(data, state):
     seeds = ", ".join(f"seeds {min(sets[name])} to {max(sets[name])} (edition {common.SETS[name].get('edition', 1)})"
                       for name in common.TRAIN_SETS if sets[name])
     start = {"from": f"the weights of an earlier {state['from']}"} if "from" in state else {}
+    homes = [home for name in common.TRAIN_STYLES for home in common.STYLES[name]["homes"] if (data / name / home).exists()]
     return table("data", {
         "houses": f"{sum(len(sets[name]) for name in common.TRAIN_SETS)} of crossnav world generate, {seeds}, {state.get('frames', 0)} frames",
+        "homes": f"of Sweet Home 3D, drawn by people: {', '.join(homes) or 'none'}",
         **start,
-        "furniture": "two thirds of the models of sweethome3d-furniture (CC0, CC-BY 3.0) and parametric shapes; the "
-                     "last third, chosen by the hash of the models' names, is never trained on",
+        "furniture": "two thirds of the models of sweethome3d-furniture (CC0, CC-BY 3.0), parametric shapes, and Sweet Home 3D's own "
+                     "catalogue; the last third of sweethome3d-furniture, chosen by the hash of the models' names, is never trained on",
         "development": from_seeds(sets, common.DEV_SETS),
         "held_out": f"{from_seeds(sets, common.TEST_SETS)}, with held-out furniture",
         "frames_seen": state.get("frames_seen", 0), "minutes": round(state.get("used_s", 0) / 60, 1),
@@ -79,6 +89,11 @@ def masks_text(state):
 def numbers_of(checkpoint):
     state = torch.load(checkpoint, map_location="cpu", weights_only=True)
     return {key: value for key, value in state.items() if isinstance(value, (int, float, str))}
+
+
+def masks_numbers(file, card):
+    """Of the run that trained the masks; without its file the masks are those of the card."""
+    return numbers_of(file) if file.exists() else card.get("data", {}).get("masks", {})
 
 
 def write(network_file, data, states, figures):
@@ -125,6 +140,8 @@ nms_iou = 0.5
 mask = 0.5
 stairs = {thresholds.get("stairs", 0.5)}
 """
+    text += "\n[retrieval]  # numbers but `margin` by `crossnav networks calibrate`\n" + rows(
+        {"margin": MARGIN, **old.get("retrieval", {})})
     text += data_text(data, states[0]) + masks_text(states[1])
     if figures:
         text += "\n# Of networks/evaluate.py --set test: held-out houses with held-out furniture." + table(
@@ -150,7 +167,7 @@ def main():
     parser.add_argument("--figures", type=pathlib.Path, default=None)
     args = parser.parse_args()
     states = [numbers_of(args.checkpoint or args.data / "checkpoint.pt"),
-              numbers_of(args.masks or args.data / "masks.pt")]
+              masks_numbers(args.masks or args.data / "masks.pt", read_card(args.network.with_suffix(".toml")))]
     figures = rounded(json.loads(args.figures.read_text(encoding="utf-8"))) if args.figures else None
     write(args.network, args.data, states, figures)
     print(args.network.with_suffix(".toml").name, *states)

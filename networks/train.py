@@ -160,6 +160,7 @@ class Run:
                                             {"params": others, "weight_decay": 0.0}], lr=args.rate)
         self.average = Average(self.network)
         self.used_s, self.steps, self.frames_seen = 0.0, 0, 0
+        self.start = args.from_onnx.name if args.from_onnx else ""  # file of its first weights
 
     def state(self):
         return {"network": self.network.state_dict(), "average": self.average.network.state_dict(),
@@ -172,6 +173,7 @@ class Run:
         self.average.steps = state["average_steps"]
         self.optimizer.load_state_dict(state["optimizer"])
         self.used_s, self.steps, self.frames_seen = state["used_s"], state["steps"], state["frames_seen"]
+        self.start = state.get("from", self.start)
 
     def save(self, path, extra):
         torch.save({**self.state(), **extra}, path.with_suffix(".part"))
@@ -225,9 +227,9 @@ def size_at(share, args):
     return args.small_size if share < args.small_share else args.size
 
 
-def about(args, houses, places):
+def about(args, run, houses, places):
     """What the card tells of the run."""
-    start = {"from": args.from_onnx.name} if args.from_onnx else {}
+    start = {"from": run.start} if run.start else {}
     return {"seed": args.seed, "houses": len(houses), "frames": len(places), **start}
 
 
@@ -277,12 +279,12 @@ def train(args):
                   " ".join(f"{name} {value:.3f}" for name, value in means.items()), flush=True)
         if now - saved > SAVE_EVERY_S:
             saved = now
-            run.save(path, about(args, houses, places))
+            run.save(path, about(args, run, houses, places))
             if is_grown(args.data, args.sets, houses):
                 houses, places, weights = read_places(args.data, args.sets)
                 frames_of = Draw(places, weights, frames_of)
     pool.shutdown(cancel_futures=True)
-    run.save(path, about(args, houses, places))
+    run.save(path, about(args, run, houses, places))
     print(f"{path}: {run.steps} steps, {run.frames_seen} frames in {run.used_s / 60:.1f} minutes")
 
 

@@ -82,7 +82,9 @@ Result<Measured> Measure(const NetworksOptions& options, const fs::path& card,
   return measured;
 }
 
-std::string SectionOf(const Measured& measured, const evaluation::PresenceThreshold& presence) {
+/// Lines of the card; its margin is kept.
+std::string SectionOf(const Measured& measured, const evaluation::PresenceThreshold& presence,
+                      const inference::ModelCard& card) {
   const std::size_t best = evaluation::BestChoice(measured.all.counts);
   const auto& choice = measured.choices[best];
   std::string text = fmt::format(
@@ -91,6 +93,7 @@ std::string SectionOf(const Measured& measured, const evaluation::PresenceThresh
       measured.houses.size(), measured.all.queries.size(), choice.min_similarity,
       choice.min_z_score, choice.min_peak_share);
   if (presence.present_from) text += fmt::format("present_from = {}\n", *presence.present_from);
+  if (card.retrieval.margin) text += fmt::format("margin = {}\n", *card.retrieval.margin);
   return text;
 }
 
@@ -146,7 +149,7 @@ Result<void> NetworksCalibrate(const NetworksOptions& options, const CommonOptio
   const std::size_t best = evaluation::BestChoice(measured->all.counts);
   const auto text = ReadFile(path, kMostToml);
   if (!text) return tl::unexpected(text.error());
-  const std::string section = SectionOf(*measured, presence);
+  const std::string section = SectionOf(*measured, presence, *card);
   if (auto ok = WriteFileAtomically(out, inference::WithRetrieval(*text, section)); !ok) return ok;
   console.Print(CountText("defaults", measured->choices[0], measured->all.counts[0]) +
                 CountText("best", measured->choices[best], measured->all.counts[best]) +

@@ -39,6 +39,10 @@ void UseRetrieval(evaluation::RunConfig& config) {
   use(measured.min_similarity, query.min_similarity, base.min_similarity);
   use(measured.min_z_score, query.min_z_score, base.min_z_score);
   use(measured.min_peak_share, query.min_peak_share, base.min_peak_share);
+  policy::VerifyConfig& verify = config.agent.verify;
+  const policy::VerifyConfig standard;
+  use(measured.margin, verify.refute_margin, standard.refute_margin);
+  use(measured.margin, verify.strong_margin, standard.strong_margin);
 }
 
 Result<PerceptionSource> PerceptionSource::Read(const evaluation::RunConfig& config,

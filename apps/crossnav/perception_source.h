@@ -23,7 +23,7 @@ std::filesystem::path NetworksDir(const evaluation::RunConfig& config);
 /// where the card cannot be read (PerceptionSource::Read says why).
 inference::ModelCard::Retrieval RetrievalOf(const evaluation::RunConfig& config);
 
-/// Puts them in place of each query.* setting that has its default.
+/// Puts them in place of each query.* and verify.* setting that has its default.
 void UseRetrieval(evaluation::RunConfig& config);
 
 class PerceptionSource {

@@ -259,6 +259,7 @@ Result<void> ReadRetrieval(Section section, ModelCard::Retrieval& retrieval) {
   section.Number("min_z_score", retrieval.min_z_score, 0, 100);
   section.Number("min_peak_share", retrieval.min_peak_share, 0, 1);
   section.Number("present_from", retrieval.present_from, 0, 1);
+  section.Number("margin", retrieval.margin, 0, 2);
   return section.Finish();
 }
 

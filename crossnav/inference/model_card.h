@@ -78,6 +78,7 @@ struct ModelCard {
   struct Retrieval {
     std::optional<double> min_similarity, min_z_score, min_peak_share;  ///< as in QueryConfig
     std::optional<double> present_from;  ///< match from which a text is present
+    std::optional<double> margin;        ///< as VerifyConfig's refute_margin and strong_margin
   } retrieval;
 
   /// The second file of a network that has two.

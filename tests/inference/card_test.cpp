@@ -103,7 +103,8 @@ TEST_F(Cards, RetrievalThresholdsAreReadAndWrittenInPlaceOfOldOnes) {
   const std::string card =
       "family = \"dense\"\n[input]\nsize = 8\n\n[retrieval]\nmin_z_score = 2\n"
       "\n[text]  # kept\ntemplates = [\"{}\"]\n";
-  const std::string section = "[retrieval]\nmin_similarity = 0.3\npresent_from = 0.5\n";
+  const std::string section =
+      "[retrieval]\nmin_similarity = 0.3\npresent_from = 0.5\nmargin = 0.15\n";
   for (const std::string& before : {card, card.substr(0, card.find("[retrieval]"))}) {
     const std::string text = WithRetrieval(before, section);
     EXPECT_EQ(WithRetrieval(text, section), text);
@@ -113,6 +114,7 @@ TEST_F(Cards, RetrievalThresholdsAreReadAndWrittenInPlaceOfOldOnes) {
     ASSERT_TRUE(read) << read.error().Message();
     EXPECT_EQ(read->retrieval.min_similarity, 0.3);
     EXPECT_EQ(read->retrieval.present_from, 0.5);
+    EXPECT_EQ(read->retrieval.margin, 0.15);
     EXPECT_FALSE(read->retrieval.min_z_score);
   }
   EXPECT_NE(WithRetrieval(card, section).find("[text]  # kept"), std::string::npos);

@@ -22,7 +22,7 @@ import runtime
 
 SIZE = common.INPUT_PX
 CAMERA_HEIGHT_M = 0.88
-BOXES = [(44, 107, 178, 179), (63, 113, 159, 136), (0, 120, 224, 224), (150, 20, 214, 90)]
+BOXES = [(50, 122, 203, 205), (72, 129, 182, 155), (0, 137, 256, 256), (171, 23, 245, 103)]
 RED, LIGHT_RED = [160, 40, 40], [185, 65, 65]
 
 
@@ -32,13 +32,13 @@ def picture():
     focal, centre = frames.intrinsics(SIZE)
     depth = np.minimum(3.5, CAMERA_HEIGHT_M * focal / np.maximum(v - centre, 1))
     rgb = np.stack([150 + u // 8, 150 + v // 8, 140 + 0 * u], -1)
-    back = (u >= 63) & (u < 159) & (v >= 113) & (v < 136)
-    seat = (u >= 48) & (u < 174) & (v >= 136) & (v < 143)
-    front = (u >= 48) & (u < 174) & (v >= 143) & (v < 173)
+    back = (u >= 72) & (u < 182) & (v >= 129) & (v < 155)
+    seat = (u >= 55) & (u < 199) & (v >= 155) & (v < 163)
+    front = (u >= 55) & (u < 199) & (v >= 163) & (v < 198)
     for where, range_m, colour in [(back, 2.1, RED), (seat, 1.85, LIGHT_RED), (front, 1.6, RED)]:
         depth = np.where(where, range_m, depth)
         rgb = np.where(where[..., None], colour, rgb)
-    hung = (u >= 160) & (u < 205) & (v >= 30) & (v < 80)
+    hung = (u >= 183) & (u < 234) & (v >= 34) & (v < 91)
     rgb = np.where(hung[..., None], [30, 60, 160], rgb)
     return rgb.astype(np.uint8), depth.astype(np.float32)
 

@@ -12,7 +12,7 @@
 namespace crossnav::inference::test {
 namespace {
 
-constexpr int kSize = 224;
+constexpr int kSize = 256;
 constexpr double kCameraHeight_m = 0.88;
 constexpr double kClose = 1e-3;
 
@@ -32,14 +32,14 @@ Observation Picture() {
           std::min(3.5, kCameraHeight_m * obs.camera.fy / std::max(v - obs.camera.cy, 1.0));
       Rgb8 colour{static_cast<std::uint8_t>(150 + u / 8), static_cast<std::uint8_t>(150 + v / 8),
                   140};
-      const bool is_back = within(63, 159, 113, 136), is_seat = within(48, 174, 136, 143),
-                 is_front = within(48, 174, 143, 173);
+      const bool is_back = within(72, 182, 129, 155), is_seat = within(55, 199, 155, 163),
+                 is_front = within(55, 199, 163, 198);
       if (is_back) range_m = 2.1;
       if (is_seat) range_m = 1.85;
       if (is_front) range_m = 1.6;
       if (is_back || is_front) colour = {160, 40, 40};
       if (is_seat) colour = {185, 65, 65};
-      if (within(160, 205, 30, 80)) colour = {30, 60, 160};
+      if (within(183, 234, 34, 91)) colour = {30, 60, 160};
       obs.depth_m.At(u, v) = static_cast<float>(range_m);
       obs.rgb.At(u, v) = colour;
     }
