@@ -22,6 +22,7 @@ using policy::CandidateKind;
 namespace {
 
 constexpr double kArrived_m = 0.35;    // chosen: one forward step and a voxel
+constexpr double kAtEnd_m = 1.0;       // chosen: of the end of a path: a look from there will do
 constexpr int kLooksAtTarget = 6;      // chosen: half a turn, or less and a pitch
 constexpr double kTouching_m = 0.001;  // chosen: beside a blocked column, not in it
 
@@ -60,13 +61,18 @@ std::optional<Action> LookAt(StepState& now, Pursued& pursued, const Vector3d& p
   return look;
 }
 
+/// No step leads on from here; a few turns later the pursuit ends without progress.
+Action TurnWithoutProgress(const Situation& now, Pursued& pursued) {
+  pursued.route.idle_steps += now.config.policy.explore.progress_steps / 3;
+  pursued.route.motion.clear();
+  return Action::kTurnLeft;
+}
+
 /// On arrival the agent looks at the target once, then gives it up.
 std::optional<Action> ActOnExploration(StepState& now, Pursued& pursued) {
   if (DistanceToEnd(now) > kArrived_m) {
     if (auto action = Walk(now, pursued.route)) return action;
-    pursued.route.idle_steps += now.config.policy.explore.progress_steps / 3;
-    pursued.route.motion.clear();
-    return Action::kTurnLeft;
+    return TurnWithoutProgress(now, pursued);
   }
   if (auto look = LookAt(now, pursued, pursued.target.p_focus_world, kLooksAtTarget)) return look;
   pursued.looks = kLooksAtTarget;
@@ -96,6 +102,7 @@ std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Ver
   HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(visit.place)];
   if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && poi.looked == 0) {
     if (auto action = Walk(now, visit.route)) return action;
+    if (DistanceToEnd(now) > kAtEnd_m) return TurnWithoutProgress(now, visit);
   }
   const Vector3d p_aim = policy::AimPoint(poi.voxels, now.agent.p_world, now.config.map.voxel_m);
   if (poi.looked == 0) {

@@ -167,8 +167,10 @@ PathCheck CheckPath(const Situation& now) {
   const double voxel_m = now.config.map.voxel_m;
   double nearest_m = 1e9;
   for (std::size_t i = 0; i < std::min(route.path.size(), kStrayPlaces); ++i) {
-    const double d = (CenterOf(route.path[i], voxel_m) - now.agent.p_world).head<2>().norm();
-    if (d > nearest_m) continue;
+    const Vector3d off = CenterOf(route.path[i], voxel_m) - now.agent.p_world;
+    // A flight below or above the agent may be a part of the same path.
+    const double d = off.head<2>().norm();
+    if (d > nearest_m || std::abs(off.z()) > kStray_m) continue;
     check.walked = i;
     nearest_m = d;
   }

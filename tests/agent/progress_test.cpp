@@ -95,6 +95,49 @@ struct Ground {
   }
 };
 
+// Regression: on the landing between two flights of one shaft, the path's lower flight counted as
+// walked, and the agent followed the ground floor's path on the floor above.
+TEST(Progress, APathGoesOnUnderItsOwnFlightOnlyAfterTheFlight) {
+  Ground given;
+  GoTo go_to;
+  const double voxel_m = given.config.map.voxel_m;
+  const geometry::VoxelKey start = geometry::KeyOf(given.now.agent.p_world, voxel_m);
+  // Down along x, and back below: the last place lies under the first.
+  for (int i = 0; i <= 12; ++i) go_to.route.path.push_back(start + geometry::VoxelKey{i, 0, -i});
+  for (int i = 11; i >= 0; --i)
+    go_to.route.path.push_back(start + geometry::VoxelKey{i, 0, i - 24});
+  go_to.target.p_focus_world = CenterOf(go_to.route.path.back(), voxel_m);
+  Begin(given.now, std::move(go_to));
+  const PathCheck check = CheckPath(given.now);
+  EXPECT_TRUE(check.is_near);
+  EXPECT_EQ(check.walked, 0U);
+}
+
+// Regression: an agent stuck in a narrow gap looked at three remembered places from there, all of
+// them on other floors, and counted them as visited without success.
+TEST(Progress, ARememberedPlaceThatIsNotReachedIsNotLookedAt) {
+  Ground given;
+  const geometry::VoxelKey start =
+      geometry::KeyOf(given.now.agent.p_world, given.config.map.voxel_m);
+  HistoryPoi place;
+  place.voxels = {start + geometry::VoxelKey{14, 0, 5}};
+  place.p_center_world = CenterOf(place.voxels.front(), given.config.map.voxel_m);
+  given.goal.history = {place};
+  VisitPlace visit;
+  visit.place = 0;
+  for (int i = 0; i <= 12; ++i) visit.route.path.push_back(start + geometry::VoxelKey{i, 0, 0});
+  for (int i = -3; i <= 3; ++i)
+    for (const int edge : {-3, 3}) {
+      given.world.ground.Block(given.now.agent.p_world + Vector3d(0.1 * i, 0.1 * edge, 0.1));
+      given.world.ground.Block(given.now.agent.p_world + Vector3d(0.1 * edge, 0.1 * i, 0.1));
+    }
+  Begin(given.now, std::move(visit));
+  given.now.agent.pitch_rad = DegToRad(given.config.policy.motion.travel_pitch_deg);
+  for (int i = 0; i < 40; ++i) (void)Act(given.now, {});
+  EXPECT_EQ(given.goal.history.front().looked, 0);
+  EXPECT_FALSE(given.goal.history.front().is_exhausted);
+}
+
 // Regression: marks of bumps on all sides of a narrow place closed every exit, to the end of the
 // budget.
 TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
