@@ -113,7 +113,7 @@ std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Ver
     return ++poi.looked, kWobble[wobble];
   poi.is_exhausted = true;
   if (now.world.revision)
-    now.world.objects.Disprove(CanonicalName(now.goal.goal), poi.voxels,
+    now.world.objects.Disprove(SpacedName(now.goal.goal), poi.voxels,
                                {now.world.day, now.world.step});
   now.goal.events.push_back("history POI without success, similarity " +
                             std::to_string(poi.similarity) + " score " + std::to_string(poi.score));

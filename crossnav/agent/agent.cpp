@@ -13,6 +13,7 @@
 #include "crossnav/agent/observation_check.h"
 #include "crossnav/agent/onemap_policy.h"
 #include "crossnav/agent/paper_policy.h"
+#include "crossnav/agent/passing_sights.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/whereabouts.h"
@@ -145,6 +146,7 @@ Result<void> Agent::SetGoal(const std::string& wish) {
   LookAtHome(impl_->world, impl_->config, &fresh);
   fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
   impl_->goal = std::move(fresh);
+  impl_->world.full.asked.insert(name);
   impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
   impl_->world.full.field.BeginGoal();
   impl_->world.paper.bumps.Clear();
@@ -190,6 +192,7 @@ void Agent::RestoreObjects(std::vector<objects::ObjectRecord> records, int day) 
   World& world = impl_->world;
   CROSSNAV_CHECK(world.step == 0, "a saved memory is given before the first step");
   world.objects.Load(std::move(records));
+  world.has_loaded_objects = true;
   world.day = day;
   LocateObjects(&world);
 }
@@ -275,7 +278,13 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
   world.coverage.Add(end_voxels, p_camera_world, full.inspect_range_m, voxel_m);
   if (config.policy.profile == "onemap") world.onemap.map.Add(end_voxels, obs, config.fusion);
   clock.Stop("evidence");
-  NoteObjects(lifted, percept->detections, obs, &world, &goal);
+  std::vector<PassingSight> passing;
+  if (NoticesThings(config)) {
+    auto looked = LookInPassing(perception, obs, config, goal.goal, &world);
+    if (!looked) return tl::unexpected(looked.error());
+    passing = std::move(*looked);
+  }
+  NoteObjects({goal.goal, percept->detections, lifted}, passing, obs, &world, &goal);
   clock.Stop("objects");
   return Seen{std::move(sightings), std::move(*percept)};
 }

@@ -101,6 +101,11 @@ void PrepareApproach(StepState& now, int poi_id) {
   EndScan(now);
 }
 
+/// memory.mode = revise: the place was seen to be empty on the way to it.
+bool IsSettledFromAfar(const Situation& now, const VisitPlace& visit) {
+  return now.world.revision && now.goal.history[static_cast<std::size_t>(visit.place)].is_exhausted;
+}
+
 void CarryOut(StepState& /*now*/, Keep /*keep*/) {}
 void CarryOut(StepState& now, Drop drop) {
   End(now, drop.ending);
@@ -136,6 +141,10 @@ Choice Choose(const Situation& now) {
   }
   if (IsScanning(activity)) return choice;
   const bool is_visiting = std::holds_alternative<VisitPlace>(pursuit);
+  if (is_visiting && IsSettledFromAfar(now, std::get<VisitPlace>(pursuit))) {
+    choice.next = Drop{Ending::kGone};
+    return choice;
+  }
   if (is_visiting) {
     choice.findings.path = CheckPath(now);
     if (choice.findings.path->IsOpen()) return choice;

@@ -123,7 +123,7 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
     goal.full.claims.rejected.push_back(
         {poi.id, poi.voxels, poi.p_center_world, poi.confidence, views});
   }
-  now.world.objects.Refute(CanonicalName(goal.goal), poi.voxels);
+  now.world.objects.Refute(SpacedName(goal.goal), poi.voxels);
   goal.live.Discard(poi.id);
 }
 

@@ -8,6 +8,7 @@
 #include "crossnav/agent/exploration_candidates.h"
 #include "crossnav/agent/exploration_prices.h"
 #include "crossnav/agent/hooks.h"
+#include "crossnav/agent/last_resort.h"
 #include "crossnav/agent/object_search.h"
 #include "crossnav/core/check.h"
 #include "crossnav/policy/flights.h"
@@ -43,12 +44,14 @@ std::vector<PricedCandidate> PriceCandidates(const Situation& now, const VoxelKe
 }
 
 /// The search of a known house comes first. Where it has no view left before most was looked at,
-/// its map is wrong, and frontiers count as in an unknown house.
+/// ways are closed: last resorts try to open them. If none helps, the map is wrong, and frontiers
+/// count as in an unknown house.
 std::vector<PricedCandidate> PriceCandidatesOrSearch(const Situation& now, const VoxelKey& start,
                                                      ExplorationPrices* prices) {
   if (!now.goal.full.search) return PriceCandidates(now, start, prices);
   auto all = PriceSearch(now, start);
   if (!all.empty() || IsSurelyAbsent(now) || IsSearchOver(now)) return all;
+  if (now.world.revision && HasOpeningResort(now.goal)) return all;
   return PriceCandidates(now, start, prices);
 }
 

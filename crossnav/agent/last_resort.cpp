@@ -85,10 +85,23 @@ bool SearchClosely(StepState& now) {
   return true;
 }
 
-constexpr std::array kResorts = {TakeGuesses,   LookAroundAgain, ForgetBumps,    Squeeze,
-                                 SearchClosely, StepOnSeats,     AskMemoryAgain, TryAllAgain};
+/// memory.mode = revise: the search goes on without the places that cannot be seen any more.
+bool LeaveOutUnreachable(StepState& now) {
+  if (!LeaveOutHidden(now)) return false;
+  now.goal.events.push_back("nothing left: places out of reach are left out");
+  return true;
+}
+
+constexpr std::array kResorts = {TakeGuesses, LookAroundAgain,     ForgetBumps,
+                                 Squeeze,     LeaveOutUnreachable, SearchClosely,
+                                 StepOnSeats, AskMemoryAgain,      TryAllAgain};
+constexpr std::size_t kOpening = 5;  // the first of them open ways, or leave out what has none
 
 }  // namespace
+
+bool HasOpeningResort(const GoalState& goal) {
+  return goal.full.last_resorts < kOpening;
+}
 
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;

@@ -9,4 +9,8 @@ namespace crossnav::agent {
 /// Applies the next resort; each is used once for a goal. False if none is left.
 bool TryLastResort(StepState& now);
 
+/// Whether last resorts are left that drop marks of bumps, try narrow gaps, or leave out what
+/// cannot be reached.
+bool HasOpeningResort(const GoalState& goal);
+
 }  // namespace crossnav::agent

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/agent/object_notes.h"
 
+#include <utility>
+
 #include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/category_table.h"
+#include "crossnav/objects/alias.h"
 
 namespace crossnav::agent {
 namespace {
 
-std::vector<objects::SeenObject> SeenOf(const std::string& category,
-                                        const std::vector<policy::Sighting>& sightings,
-                                        const std::vector<perception::Detection>& detections) {
-  std::vector<objects::SeenObject> seen;
+void AddSeen(const std::string& category, const std::vector<policy::Sighting>& sightings,
+             const std::vector<perception::Detection>& detections,
+             std::vector<objects::SeenObject>* seen) {
   for (const policy::Sighting& sighting : sightings) {
     objects::SeenObject object;
     object.category = category;
@@ -21,25 +23,32 @@ std::vector<objects::SeenObject> SeenOf(const std::string& category,
       object.mask = &detection.mask;
       object.box = {detection.box.u0, detection.box.v0, detection.box.u1, detection.box.v1};
     }
-    seen.push_back(std::move(object));
+    seen->push_back(std::move(object));
   }
-  return seen;
 }
 
 }  // namespace
 
-void NoteObjects(const std::vector<policy::Sighting>& sightings,
-                 const std::vector<perception::Detection>& detections, const Observation& obs,
-                 World* world, GoalState* goal) {
-  const std::string category = CanonicalName(goal->goal);
+void NoteObjects(const GoalSight& own, const std::vector<PassingSight>& passing,
+                 const Observation& obs, World* world, GoalState* goal) {
+  const std::string category = SpacedName(own.name);
   const objects::Moment when{world->day, world->step};
-  world->objects.Note(SeenOf(category, sightings, detections), obs, when);
-  const auto gone = world->objects.Doubt(category, obs, when);
+  std::vector<objects::SeenObject> seen;
+  std::vector<std::string> asked = {category};
+  AddSeen(category, own.sightings, own.detections, &seen);
+  for (const PassingSight& sight : passing) {
+    asked.push_back(SpacedName(sight.name));
+    AddSeen(asked.back(), sight.sightings, sight.detections, &seen);
+  }
+  world->objects.Note(seen, obs, when);
+  const auto gone = world->objects.Doubt(asked, obs, when);
   if (!world->revision) return;
   for (const int index : gone) {
     const auto& record = world->objects.records()[static_cast<std::size_t>(index)];
     goal->events.push_back("no longer there: " + record.category);
-    if (record.category == category) goal->full.search.reset();  // where it may be has changed
+    if (record.category != objects::KnownAs(world->objects.records(), own.name)) continue;
+    SettlePlaceOf(record, goal);
+    goal->full.search.reset();  // where it may be has changed
   }
 }
 

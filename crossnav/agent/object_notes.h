@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: MIT
 // Records of objects as the agent keeps them: from detections of every frame, and what contradicts
-// them. They are kept in every mode; decisions read them under memory.mode = revise only.
+// them. They are kept in every mode; decisions read them where a memory was loaded.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "crossnav/agent/passing_sights.h"
 #include "crossnav/agent/state.h"
 #include "crossnav/core/observation.h"
-#include "crossnav/perception/perception.h"
-#include "crossnav/policy/live_poi.h"
 
 namespace crossnav::agent {
 
-/// Notes the sightings of one frame, lifted from `detections`, and doubts what the frame does not
-/// show. Says in the goal's events what counts as gone now.
-void NoteObjects(const std::vector<policy::Sighting>& sightings,
-                 const std::vector<perception::Detection>& detections, const Observation& obs,
-                 World* world, GoalState* goal);
+/// Sightings of the goal, without objects that were rejected.
+struct GoalSight {
+  const std::string& name;
+  const std::vector<perception::Detection>& detections;
+  const std::vector<policy::Sighting>& sightings;
+};
+
+/// Notes the sightings of one frame, of the goal and in passing, and doubts objects that the frame
+/// does not show. Under memory.mode = revise, remembered places of the goal that turn out empty
+/// are settled from afar. Says in the goal's events which objects count as gone now.
+void NoteObjects(const GoalSight& own, const std::vector<PassingSight>& passing,
+                 const Observation& obs, World* world, GoalState* goal);
 
 }  // namespace crossnav::agent

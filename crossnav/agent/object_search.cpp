@@ -10,15 +10,17 @@
 
 #include "crossnav/agent/exploration_candidates.h"
 #include "crossnav/agent/explore.h"
+#include "crossnav/agent/passing_sights.h"
 #include "crossnav/agent/search_views.h"
 #include "crossnav/agent/whereabouts.h"
-#include "crossnav/core/category_table.h"
+#include "crossnav/objects/alias.h"
 #include "crossnav/policy/frontier_worth.h"
 #include "crossnav/scenegraph/build_graph.h"
 
 namespace crossnav::agent {
 
 using geometry::VoxelKey;
+using objects::KnownAs;
 using policy::Candidate;
 using policy::CandidateKind;
 using policy::SearchPatch;
@@ -28,6 +30,8 @@ namespace {
 constexpr double kOtherKind = 0.15;  // chosen: of tops for a thing of the ground, and vice versa
 constexpr double kWide_m = 0.4;      // chosen: reaches into the next patch
 constexpr double kTop_m = 0.25;      // chosen: lowest top of furniture
+constexpr double kBeside = 0.25;     // chosen: of things that left their place, near it
+constexpr double kBeside_m = 1.2;    // chosen: the next place on a table, or beside it
 constexpr double kHintGain = 0.5;    // chosen: half of the hints are the goal
 constexpr double kCommit = 0.8;      // chosen: price of the target in progress, as a share
 constexpr double kAround_m = 6;      // chosen: patches about the agent, a view and a step
@@ -51,10 +55,35 @@ std::optional<double> UsualHeight(const World& world, const std::string& categor
   return count > 0 ? std::optional(sum_m / count) : std::nullopt;
 }
 
+void ScaleTo(double sum, std::map<VoxelKey, double>* shares) {
+  double now = 0;
+  for (const auto& [cell, share] : *shares) now += share;
+  if (now <= 0) return;
+  for (auto& [cell, share] : *shares) share *= sum / now;
+}
+
+/// Of `shares`, the patches beside the last place of the goal, in sum kBeside: things are moved on
+/// their furniture, too.
+std::map<VoxelKey, double> SharesBeside(const World& world, const GoalState& goal,
+                                        const std::map<VoxelKey, double>& shares) {
+  std::map<VoxelKey, double> beside;
+  const auto lost =
+      objects::LastLost(world.objects.records(), KnownAs(world.objects.records(), goal.goal));
+  for (const auto& [cell, share] : shares) {
+    const Vector3d& p_world = world.full.field.patches().at(cell).p_world;
+    if (std::any_of(lost.begin(), lost.end(), [&](const objects::ObjectRecord* record) {
+          return record->box_world_m.exteriorDistance(p_world) <= kBeside_m;
+        }))
+      beside.emplace(cell, share);
+  }
+  ScaleTo(kBeside, &beside);
+  return beside;
+}
+
 /// Probability of each patch, in sum 1.
 std::map<VoxelKey, double> SharesOf(const World& world, const GoalState& goal,
                                     const std::map<int, double>& odds) {
-  const auto height_m = UsualHeight(world, CanonicalName(goal.goal));
+  const auto height_m = UsualHeight(world, KnownAs(world.objects.records(), goal.goal));
   std::map<VoxelKey, double> shares;
   std::map<VoxelKey, int> rooms;
   std::map<int, double> in_room;
@@ -74,15 +103,14 @@ std::map<VoxelKey, double> SharesOf(const World& world, const GoalState& goal,
     }
     shares[cell] = share;
   }
-  double sum = 0;
+  const std::map<VoxelKey, double> beside = SharesBeside(world, goal, shares);
   for (auto& [cell, share] : shares) {
     const int room = world.revision ? rooms[cell] : 0;
     const auto it = odds.find(room);
     share *= (odds.empty() ? 1 : it == odds.end() ? 0 : it->second) / in_room[room];
-    sum += share;
   }
-  if (sum > 0)
-    for (auto& [cell, share] : shares) share /= sum;
+  ScaleTo(beside.empty() ? 1 : 1 - kBeside, &shares);
+  for (const auto& [cell, share] : beside) shares[cell] += share;
   return shares;
 }
 
@@ -244,6 +272,16 @@ bool HasPlaceLeft(const Situation& now) {
   });
 }
 
+/// Probabilities of the patches and of what is left to see.
+void Weigh(const World& world, const GoalState& goal, ObjectSearch* search) {
+  search->step = world.step;
+  search->shares = SharesOf(world, goal, search->odds);
+  search->unseen = 0;
+  for (const auto& [cell, patch] : world.full.field.patches())
+    if (const auto it = search->shares.find(cell); it != search->shares.end())
+      search->unseen += it->second * Unnoticed(world.full.field, cell, patch, *search);
+}
+
 }  // namespace
 
 void UpdateSearch(StepState& now) {
@@ -255,23 +293,19 @@ void UpdateSearch(StepState& now) {
   now.world.full.field.Look(now.obs, now.config.policy.explore.inspect_range_m);
   if (!search && now.world.revision && !HasPlaceLeft(now)) {
     LocateObjects(&now.world);
+    const std::string category = KnownAs(now.world.objects.records(), now.goal.goal);
     search.emplace();
-    search->odds = RoomOdds(now.world.objects.records(), now.world.revision->rooms,
-                            CanonicalName(now.goal.goal));
+    search->odds = RoomOdds(now.world.objects.records(), now.world.revision->rooms, category);
+    search->was_noticed = WasNoticedThroughout(now.world, now.goal.goal);
     search->notice_range_m = NoticeRange(now.world, now.goal, now.config);
-    const Vector3d sides_m = UsualSides(now.world, CanonicalName(now.goal.goal));
+    const Vector3d sides_m = UsualSides(now.world, category);
     search->is_tall = sides_m.z() >= SearchPatch::kHigh_m;
     search->is_wide = sides_m.head<2>().maxCoeff() >= kWide_m;
     if (const auto start = now.world.ground.StandingAt(now.agent.p_world))
       search->hidden = HiddenPatches(now, *start, *search);
   }
   if (!search || (search->step >= 0 && now.world.step - search->step < kRefresh_steps)) return;
-  search->step = now.world.step;
-  search->shares = SharesOf(now.world, now.goal, search->odds);
-  search->unseen = 0;
-  for (const auto& [cell, patch] : now.world.full.field.patches())
-    if (const auto it = search->shares.find(cell); it != search->shares.end())
-      search->unseen += it->second * Unnoticed(now.world.full.field, cell, patch, *search);
+  Weigh(now.world, now.goal, &*search);
 }
 
 bool BeginCloseSearch(StepState& now) {
@@ -283,10 +317,23 @@ bool BeginCloseSearch(StepState& now) {
   return true;
 }
 
+bool LeaveOutHidden(StepState& now) {
+  auto& search = now.goal.full.search;
+  const auto start = now.world.ground.StandingAt(now.agent.p_world);
+  if (!search || !now.world.revision || !start) return false;
+  const auto before = search->hidden.size();
+  search->hidden.merge(HiddenPatches(now, *start, *search));
+  if (search->hidden.size() == before) return false;
+  Weigh(now.world, now.goal, &*search);
+  return true;
+}
+
 void SearchNearer(StepState& now, double share_of_range) {
   now.world.full.field.BeginGoal();
   if (auto& search = now.goal.full.search) {
     search->notice_range_m *= share_of_range;
+    search->was_noticed = false;
+    search->settled.clear();
     search->step = -1;
   }
 }
@@ -319,7 +366,8 @@ bool IsViewOpen(const Situation& now, const Candidate& view) {
 }
 
 void SettleView(StepState& now, const Candidate& view) {
-  now.world.full.field.Settle(view.beyond);
+  if (auto& search = now.goal.full.search)
+    search->settled.insert(view.beyond.begin(), view.beyond.end());
 }
 
 bool IsSurelyAbsent(const Situation& now) {

@@ -16,6 +16,9 @@ void UpdateSearch(StepState& now);
 /// Searches the house that was explored in vain, from near. False if a search is on already.
 bool BeginCloseSearch(StepState& now);
 
+/// Leaves out patches that no place within reach shows now. False where none is left out anew.
+bool LeaveOutHidden(StepState& now);
+
 /// Everything near enough counts as not looked at, at a shorter range.
 void SearchNearer(StepState& now, double share_of_range);
 

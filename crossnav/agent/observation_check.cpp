@@ -79,17 +79,24 @@ Result<void> CheckObservation(const Observation& obs) {
   return CheckMounting(obs);
 }
 
+Result<void> CheckDetections(const std::vector<perception::Detection>& detections,
+                             const Observation& obs) {
+  for (const auto& detection : detections) {
+    if (detection.mask.width != obs.depth_m.width || detection.mask.height != obs.depth_m.height)
+      return Fail(ErrorCode::kMismatch, "a mask has another size than the frame",
+                  "perception.segmenter");
+    if (!std::isfinite(detection.confidence) || !std::isfinite(detection.mask_quality))
+      return Fail(ErrorCode::kMismatch, "a confidence is not finite", "perception.detector");
+  }
+  return {};
+}
+
 Result<void> CheckPercept(const perception::Percept& percept, const Observation& obs) {
+  if (auto ok = CheckDetections(percept.detections, obs); !ok) return ok;
   const auto bad = [](const char* what, const char* who) {
     return Fail(ErrorCode::kMismatch, what, who);
   };
   const int width = obs.depth_m.width, height = obs.depth_m.height;
-  for (const auto& detection : percept.detections) {
-    if (detection.mask.width != width || detection.mask.height != height)
-      return bad("a mask has another size than the frame", "perception.segmenter");
-    if (!std::isfinite(detection.confidence) || !std::isfinite(detection.mask_quality))
-      return bad("a confidence is not finite", "perception.detector");
-  }
   const auto& stairs = percept.stair_probability;
   if (stairs.width != width || stairs.height != height ||
       stairs.data.size() != obs.depth_m.data.size())

@@ -3,6 +3,8 @@
 // map.
 #pragma once
 
+#include <vector>
+
 #include "crossnav/core/observation.h"
 #include "crossnav/core/result.h"
 #include "crossnav/perception/perception.h"
@@ -12,6 +14,10 @@ namespace crossnav::agent {
 /// Errors name the key: poses that are not finite and rigid, images of another size than their
 /// intrinsics, a mounting that no robot has.
 Result<void> CheckObservation(const Observation& obs);
+
+/// Checks that masks fit the frame and that confidences are finite.
+Result<void> CheckDetections(const std::vector<perception::Detection>& detections,
+                             const Observation& obs);
 
 /// Checks that a network's answer fits the frame: an error that names it, never a read out of
 /// bounds.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 
+#include "crossnav/agent/passing_sights.h"
 #include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
@@ -24,7 +25,10 @@ std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& go
     poi.similarity = cluster.similarity;
     places.push_back(std::move(poi));
   }
-  if (world.revision) places = Revised(std::move(places), world, goal);
+  if (world.revision)
+    places = Revised(std::move(places), world, goal, NoticesThings(config));
+  else if (world.has_loaded_objects && NoticesThings(config))
+    places = WithRecords(std::move(places), world, goal);
   if (goal.described) places = FittingPlaces(std::move(places), world, goal);
   return places;
 }

@@ -31,6 +31,7 @@ Vector3d PointOf(const SearchPatch& patch, const ObjectSearch& search) {
 /// Chance that the goal stands at the patch and was not noticed, given that it stands there.
 double UnnoticedAt(const SearchPatch& patch, const ObjectSearch& search) {
   const policy::Looked& looked = search.is_tall ? patch.high : patch.low;
+  if (search.was_noticed) return looked.in_run_m <= search.notice_range_m ? 0 : 1;
   if (looked.for_goal_m <= search.notice_range_m) return 0;
   return looked.in_run_m <= search.notice_range_m ? kMissed : 1;
 }
@@ -39,6 +40,7 @@ double UnnoticedAt(const SearchPatch& patch, const ObjectSearch& search) {
 
 double Unnoticed(const policy::SearchField& field, const VoxelKey& cell, const SearchPatch& patch,
                  const ObjectSearch& search) {
+  if (search.settled.contains(cell)) return 0;
   const double here = UnnoticedAt(patch, search);
   if (!search.is_wide || here == 0) return here;
   constexpr std::size_t kBeside = 4;  // chosen: more than one side of the eight around it

@@ -48,8 +48,11 @@ struct FullWorld {
   std::optional<AgentPose> before_forward;    ///< pose before the last forward step
   int flat_frames = 0;  ///< consecutive frames on flat ground off the exploration level
   policy::SearchField field;
-  double confirmed_similarity = -1;      ///< lowest of a confirmed object and its goal's text
-  std::vector<policy::NamedText> names;  ///< rival names of claims, verify.memory = on
+  double confirmed_similarity = -1;          ///< lowest of a confirmed object and its goal's text
+  std::vector<policy::NamedText> names;      ///< rival names of claims, verify.memory = on
+  std::set<std::string> asked;               ///< goals so far, as the detector was asked
+  std::set<std::string> unknown_names;       ///< that the detector does not know; spaced
+  std::set<std::string> noticed_throughout;  ///< asked for since the first frame; spaced
 };
 
 /// World state of policy.profile = paper.
@@ -90,6 +93,7 @@ struct World {
   OneMapWorld onemap;
   objects::ObjectBook objects;
   int day = 0;                       ///< runs with the loaded memory before this one
+  bool has_loaded_objects = false;   ///< records of an earlier run
   std::optional<Revision> revision;  ///< empty: no memory was loaded, or memory.mode = keep
 
   /// Brings states and ground up to date with the evidence.
@@ -147,6 +151,8 @@ struct ObjectSearch {
   std::map<int, double> odds;                   ///< by room of the graph; empty = all ground alike
   std::map<geometry::VoxelKey, double> shares;  ///< probability of each patch, in sum 1
   std::set<geometry::VoxelKey> hidden;          ///< patches that no place within reach shows
+  std::set<geometry::VoxelKey> settled;         ///< patches of views that were taken
+  bool was_noticed = false;                     ///< every frame of the run looked for the goal
   bool is_tall = false;                         ///< it reaches the high points of the patches
   bool is_wide = false;                         ///< it reaches into the next patch
   double notice_range_m = 0;  ///< up to which a look tells whether the goal is there

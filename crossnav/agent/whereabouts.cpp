@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "crossnav/core/category_table.h"
 #include "crossnav/geometry/map_blocks.h"
+#include "crossnav/objects/alias.h"
 #include "crossnav/scenegraph/build_graph.h"
 
 namespace crossnav::agent {
@@ -20,6 +20,8 @@ constexpr double kStillThere = 0.5;        // chosen: share of a place's voxels 
 constexpr double kSamePlace = 0.3;         // chosen: share of a place's voxels in a record's box
 constexpr double kNoticed_rad = 1.0 / 12;  // chosen: least size in the picture, 5 degrees
 constexpr double kLeastNotice_m = 2.0;     // chosen: the smallest things are met that near
+constexpr int kLeastViews = 2;             // chosen: frames of a record, as for a live POI
+constexpr double kFirst = 2;               // chosen: more than the places that count alike
 
 double ShareOfSurfaces(const World& world, const std::vector<VoxelKey>& voxels) {
   const auto count = std::count_if(voxels.begin(), voxels.end(), [&](const VoxelKey& key) {
@@ -69,6 +71,29 @@ HistoryPoi PlaceOf(const ObjectRecord& record, double score) {
   return place;
 }
 
+double BestScore(const std::vector<HistoryPoi>& places) {
+  double best = 1;
+  for (const HistoryPoi& place : places) best = std::max(best, place.score);
+  return best;
+}
+
+bool HasRecord(const World& world, const std::string& category) {
+  const auto& records = world.objects.records();
+  return std::any_of(records.begin(), records.end(), [&](const ObjectRecord& record) {
+    return record.category == category && record.views >= kLeastViews;
+  });
+}
+
+/// Adds the record's place where no other place covers it.
+void AddPlace(const World& world, const ObjectRecord& record, double score,
+              std::vector<HistoryPoi>* places) {
+  const auto covers = [&](const HistoryPoi& place) {
+    return ShareIn(world, place.voxels, record) >= kSamePlace;
+  };
+  const bool is_covered = std::any_of(places->begin(), places->end(), covers);
+  if (!is_covered) places->push_back(PlaceOf(record, score));
+}
+
 }  // namespace
 
 Vector3d UsualSides(const World& world, const std::string& category) {
@@ -80,7 +105,7 @@ Vector3d UsualSides(const World& world, const std::string& category) {
 }
 
 double NoticeRange(const World& world, const GoalState& goal, const Config& config) {
-  const Vector3d sides_m = UsualSides(world, CanonicalName(goal.goal));
+  const Vector3d sides_m = UsualSides(world, objects::KnownAs(world.objects.records(), goal.goal));
   const double size_m = std::sqrt(sides_m.head<2>().maxCoeff() * sides_m.z());
   const double range_m = config.policy.explore.inspect_range_m;
   if (size_m <= 0) return range_m;
@@ -124,22 +149,38 @@ void LocateObjects(World* world) {
 }
 
 std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& world,
-                                const GoalState& goal) {
-  const std::string category = CanonicalName(goal.goal);
-  double best_score = 1;
-  for (const HistoryPoi& place : places) best_score = std::max(best_score, place.score);
+                                const GoalState& goal, bool notices_things) {
+  const std::string category = objects::KnownAs(world.objects.records(), goal.goal);
+  const bool is_complete = notices_things && HasRecord(world, category);
+  const double score = BestScore(places);
   std::erase_if(places, [&](const HistoryPoi& place) {
     const int opinion = OpinionOf(world, place.voxels, category);
-    return opinion < 0 || (opinion == 0 && ShareOfSurfaces(world, place.voxels) < kStillThere);
+    return opinion < 0 ||
+           (opinion == 0 && (is_complete || ShareOfSurfaces(world, place.voxels) < kStillThere));
   });
+  for (const ObjectRecord& record : world.objects.records())
+    if (record.category == category && record.views >= kLeastViews && !world.objects.IsGone(record))
+      AddPlace(world, record, score, &places);
+  return places;
+}
+
+std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World& world,
+                                    const GoalState& goal) {
+  const std::string category = objects::KnownAs(world.objects.records(), goal.goal);
+  const double score = kFirst * BestScore(places);
   for (const ObjectRecord& record : world.objects.records()) {
-    if (record.category != category || world.objects.IsGone(record) || record.views < 2) continue;
-    const bool is_covered = std::any_of(places.begin(), places.end(), [&](const HistoryPoi& place) {
-      return ShareIn(world, place.voxels, record) >= kSamePlace;
+    if (record.category != category || record.views < kLeastViews) continue;
+    std::erase_if(places, [&](const HistoryPoi& place) {
+      return place.score < score && ShareIn(world, place.voxels, record) >= kSamePlace;
     });
-    if (!is_covered) places.push_back(PlaceOf(record, best_score));
+    places.push_back(PlaceOf(record, score));
   }
   return places;
+}
+
+void SettlePlaceOf(const ObjectRecord& record, GoalState* goal) {
+  for (HistoryPoi& place : goal->history)
+    place.is_exhausted |= ShareCovered(place.voxels, record) >= kStillThere;
 }
 
 }  // namespace crossnav::agent

@@ -34,8 +34,18 @@ Revision RevisionOf(const World& world);
 /// Floor and room of every record by the loaded map.
 void LocateObjects(World* world);
 
-/// Leaves out places that records or the map contradict; adds records that no place covers.
+/// memory.mode = revise: places that records or the map contradict are left out, and so are places
+/// without a record where the goal's records are complete (`notices_things`). Records that are
+/// believed are added.
 std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& world,
-                                const GoalState& goal);
+                                const GoalState& goal, bool notices_things);
+
+/// memory.mode = keep: all records of the goal are believed, and are visited before places without
+/// a record.
+std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World& world,
+                                    const GoalState& goal);
+
+/// The goal's remembered places that are the record's need no visit: the record is gone.
+void SettlePlaceOf(const objects::ObjectRecord& record, GoalState* goal);
 
 }  // namespace crossnav::agent

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "crossnav/core/category_table.h"
+#include "crossnav/objects/alias.h"
 #include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/build_graph.h"
 
@@ -75,7 +76,7 @@ KnownHome HomeOf(const scenegraph::SceneGraph& graph,
   std::set<std::string> asked;
   for (std::size_t i = 0; i < records.size(); ++i) {
     asked.insert(CanonicalName(records[i].category));
-    if (!IsBelieved(records[i])) continue;
+    if (!IsBelieved(records[i]) || objects::IsAlias(records[i], records)) continue;
     home.things.push_back(ThingOf(records[i], graph));
     home.things.back().record = static_cast<int>(i);
   }

@@ -201,7 +201,7 @@ std::vector<int> ObjectBook::Note(std::span<const SeenObject> seen, const Observ
   return ids;
 }
 
-std::vector<int> ObjectBook::Doubt(const std::string& category, const Observation& obs,
+std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Observation& obs,
                                    const Moment& when) {
   std::vector<int> gone;
   const Vector3d p_camera = obs.T_world_camera.translation();
@@ -218,7 +218,8 @@ std::vector<int> ObjectBook::Doubt(const std::string& category, const Observatio
       continue;
     const FrameView view = ViewOf(record.voxels, obs, voxel_m_);
     const bool is_free = view.free >= config_.good_view && view.surface <= kMostSurface;
-    const bool is_other = record.category == category && view.Visible() >= kLeastVisible &&
+    const bool is_asked = std::find(asked.begin(), asked.end(), record.category) != asked.end();
+    const bool is_other = is_asked && view.Visible() >= kLeastVisible &&
                           view.free + view.surface + view.hidden >= config_.good_view &&
                           view.pixels >= std::max(kLeastPixels, kLeastImage * image);
     if (!is_free && !is_other) continue;

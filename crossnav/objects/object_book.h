@@ -48,10 +48,11 @@ class ObjectBook {
   std::vector<int> Note(std::span<const SeenObject> seen, const Observation& obs,
                         const Moment& when);
 
-  /// Doubts objects whose place this frame shows well and from near, without the object. `category`
-  /// is the detector's query: for other categories only free space at the place counts. Skips
-  /// records of this frame's Note. Returns indices of records that fell below `gone`.
-  std::vector<int> Doubt(const std::string& category, const Observation& obs, const Moment& when);
+  /// Doubts objects whose place this frame shows well and from near, without the object. `asked`
+  /// are the categories that the detector looked for: for others only free space at the place
+  /// counts. Skips records of this frame's Note. Returns indices of records that fell below `gone`.
+  std::vector<int> Doubt(std::span<const std::string> asked, const Observation& obs,
+                         const Moment& when);
 
   /// A claim about the object was refuted: `voxels` show something else.
   void Refute(const std::string& category, std::span<const geometry::VoxelKey> voxels);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace crossnav::objects {
 namespace {
@@ -35,15 +36,6 @@ double CompanyOf(const RoomSets& sets, std::size_t rooms, const std::string& cat
   return std::clamp(given / base, 1 / kMostCompany, kMostCompany);
 }
 
-/// Where objects of the category were that are gone now.
-std::vector<const ObjectRecord*> Lost(std::span<const ObjectRecord> records,
-                                      const std::string& category) {
-  std::vector<const ObjectRecord*> lost;
-  for (const ObjectRecord& record : records)
-    if (record.category == category && record.confidence < 0.5) lost.push_back(&record);
-  return lost;
-}
-
 double NearnessOf(const RoomPlace& room, const std::vector<const ObjectRecord*>& lost) {
   double nearness = 1;
   for (const ObjectRecord* record : lost) {
@@ -57,6 +49,22 @@ double NearnessOf(const RoomPlace& room, const std::vector<const ObjectRecord*>&
 
 }  // namespace
 
+std::vector<const ObjectRecord*> LastLost(std::span<const ObjectRecord> records,
+                                          const std::string& category) {
+  // A place that was disproved tells where the object was if it was never seen.
+  const auto last_of = [](const ObjectRecord& record) {
+    return std::pair(record.views > 0, record.last_seen_day);
+  };
+  std::vector<const ObjectRecord*> lost;
+  for (const ObjectRecord& record : records) {
+    if (record.category != category || record.confidence >= 0.5) continue;
+    if (!lost.empty() && last_of(record) < last_of(*lost.front())) continue;
+    if (!lost.empty() && last_of(record) > last_of(*lost.front())) lost.clear();
+    lost.push_back(&record);
+  }
+  return lost;
+}
+
 double Company(std::span<const ObjectRecord> records, std::span<const RoomPlace> rooms,
                const std::string& category, const std::string& other) {
   return CompanyOf(RoomsByCategory(records), rooms.size(), category, other);
@@ -65,7 +73,7 @@ double Company(std::span<const ObjectRecord> records, std::span<const RoomPlace>
 std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
                                std::span<const RoomPlace> rooms, const std::string& category) {
   const RoomSets sets = RoomsByCategory(records);
-  const auto lost = Lost(records, category);
+  const auto lost = LastLost(records, category);
   std::map<int, double> odds;
   double sum = 0;
   for (const RoomPlace& room : rooms) {

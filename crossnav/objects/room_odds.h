@@ -26,6 +26,11 @@ struct RoomPlace {
 std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
                                std::span<const RoomPlace> rooms, const std::string& category);
 
+/// The last places of objects of the category that are gone: the records that were seen last, by
+/// day.
+std::vector<const ObjectRecord*> LastLost(std::span<const ObjectRecord> records,
+                                          const std::string& category);
+
 /// P(a room holds `category` | it holds `other`) over P(a room holds it), smoothed by one room;
 /// 1 = nothing is known. From records with a room, gone or not: what was somewhere may be again.
 double Company(std::span<const ObjectRecord> records, std::span<const RoomPlace> rooms,

@@ -98,12 +98,6 @@ void SearchField::Look(const Observation& obs, double range_m) {
   }
 }
 
-void SearchField::Settle(std::span<const VoxelKey> cells) {
-  for (const VoxelKey& cell : cells)
-    if (const auto it = patches_.find(cell); it != patches_.end())
-      it->second.low = it->second.high = {0, 0};
-}
-
 void SearchField::BeginGoal() {
   for (auto& [cell, patch] : patches_)
     patch.low.for_goal_m = patch.high.for_goal_m = Looked{}.for_goal_m;

@@ -6,7 +6,6 @@
 
 #include <limits>
 #include <map>
-#include <span>
 #include <vector>
 
 #include "crossnav/core/observation.h"
@@ -42,9 +41,6 @@ class SearchField {
 
   /// Notes the distance of the points within `range_m` that this frame shows.
   void Look(const Observation& obs, double range_m);
-
-  /// Counts the patches in `cells` as looked at for the goal: a view of them showed all it could.
-  void Settle(std::span<const geometry::VoxelKey> cells);
 
   void BeginGoal();
 

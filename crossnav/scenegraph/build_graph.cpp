@@ -7,6 +7,7 @@
 #include <set>
 
 #include "crossnav/core/cells.h"
+#include "crossnav/objects/alias.h"
 #include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/cut_rooms.h"
 
@@ -183,7 +184,8 @@ void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& 
 void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
                 double least) {
   for (const objects::ObjectRecord& record : records) {
-    if (record.confidence < least || record.views == 0) continue;
+    if (record.confidence < least || record.views == 0 || objects::IsAlias(record, records))
+      continue;
     GraphObject object;
     object.category = record.category;
     object.p_center_world = record.centre_world_m;

@@ -16,6 +16,7 @@ using crossnav::testing::BoxOf;
 using crossnav::testing::BoxRooms;
 using geometry::VoxelKey;
 
+const std::vector<std::string> kChairs = {"chair"}, kBeds = {"bed"};
 const Box3 kChair = BoxOf(3.0, 1.8, 0, 3.5, 2.3, 0.9);
 const Box3 kOther = BoxOf(3.0, 2.5, 0, 3.5, 3.0, 0.9);  // 0.7 m further
 
@@ -123,7 +124,7 @@ TEST(ObjectBook, APlaceSeenFreeFromNearMakesTheObjectGone) {
   world.rooms.solids.clear();
   std::vector<int> gone;
   for (int i = 0; i < 4 && gone.empty(); ++i)
-    gone = book.Doubt("chair", world.Look(1.0 + 0.3 * i, 2.0, 0), {1, i});
+    gone = book.Doubt(kChairs, world.Look(1.0 + 0.3 * i, 2.0, 0), {1, i});
   EXPECT_EQ(gone, std::vector<int>{0});
   EXPECT_TRUE(book.IsGone(book.records().front()));
 }
@@ -135,9 +136,9 @@ TEST(ObjectBook, LookingAgainFromTheSamePlaceIsNoNewEvidence) {
   SeeIt(world, kChair, 4, book);
   world.rooms.solids.clear();
   const Observation obs = world.Look(1.0, 2.0, 0);
-  (void)book.Doubt("chair", obs, {1, 0});
+  (void)book.Doubt(kChairs, obs, {1, 0});
   const double once = book.records().front().confidence;
-  for (int i = 1; i < 10; ++i) (void)book.Doubt("chair", obs, {1, i});
+  for (int i = 1; i < 10; ++i) (void)book.Doubt(kChairs, obs, {1, i});
   EXPECT_EQ(book.records().front().confidence, once);
 }
 
@@ -148,7 +149,7 @@ TEST(ObjectBook, AnOccludedPlaceIsNotContradicted) {
   SeeIt(world, kChair, 4, book);
   const double before = book.records().front().confidence;
   world.rooms.solids = {BoxOf(2.0, 0, 0, 2.1, 4, 2.6)};  // a wall before it, and it is gone
-  for (int i = 0; i < 4; ++i) (void)book.Doubt("chair", world.Look(0.5, 1.0 + 0.5 * i, 0), {1, i});
+  for (int i = 0; i < 4; ++i) (void)book.Doubt(kChairs, world.Look(0.5, 1.0 + 0.5 * i, 0), {1, i});
   EXPECT_EQ(book.records().front().confidence, before);
 }
 
@@ -161,11 +162,27 @@ TEST(ObjectBook, AnythingElseAtThePlaceContradictsOnlyWhatTheDetectorWasAskedFor
   // The same box stands there, and the detector says nothing.
   for (int i = 0; i < 6; ++i) {
     const Observation obs = world.Look(1.0, 1.0 + 0.3 * i, 0);
-    (void)asked.Doubt("chair", obs, {1, i});
-    (void)not_asked.Doubt("bed", obs, {1, i});
+    (void)asked.Doubt(kChairs, obs, {1, i});
+    (void)not_asked.Doubt(kBeds, obs, {1, i});
   }
   EXPECT_TRUE(asked.IsGone(asked.records().front()));
   EXPECT_GT(not_asked.records().front().confidence, 0.9);
+}
+
+TEST(ObjectBook, EachOfSeveralCategoriesThatTheDetectorWasAskedForIsContradicted) {
+  World world;
+  world.rooms.solids = {kChair, kOther};
+  ObjectBook book;
+  for (int i = 0; i < 4; ++i) {
+    const Observation obs = world.Look(1.0, 1.6 + 0.3 * i, 0);
+    const Sight chair = SightOf(kChair, obs), bed = SightOf(kOther, obs, "bed");
+    (void)book.Note(std::vector<SeenObject>{chair.seen, bed.seen}, obs, {0, i});
+  }
+  const std::vector<std::string> both = {"bed", "chair"};
+  for (int i = 0; i < 6; ++i) (void)book.Doubt(both, world.Look(1.0, 1.0 + 0.3 * i, 0), {1, i});
+  ASSERT_EQ(book.records().size(), 2U);
+  EXPECT_TRUE(book.IsGone(book.records()[0]));
+  EXPECT_TRUE(book.IsGone(book.records()[1]));
 }
 
 TEST(ObjectBook, ThingsSeenFromTooFarAwayAreNotContradicted) {
@@ -176,7 +193,7 @@ TEST(ObjectBook, ThingsSeenFromTooFarAwayAreNotContradicted) {
   SeeIt(world, kChair, 4, book);
   const double before = book.records().front().confidence;
   world.rooms.solids.clear();
-  for (int i = 0; i < 4; ++i) (void)book.Doubt("chair", world.Look(-6, 1 + 0.5 * i, 0), {1, i});
+  for (int i = 0; i < 4; ++i) (void)book.Doubt(kChairs, world.Look(-6, 1 + 0.5 * i, 0), {1, i});
   EXPECT_EQ(book.records().front().confidence, before);
 }
 

@@ -42,6 +42,20 @@ TEST(RoomOdds, RoomsWithTheFurnitureThatUsuallyStandsBesideItAreLikelier) {
   EXPECT_LT(Company(records, rooms, "plant", "bathtub"), 1);
 }
 
+TEST(RoomOdds, OnlyTheLastPlaceOfAThingThatMovedTwiceCounts) {
+  std::vector<ObjectRecord> records = {RecordOf("plant", 0, 0, 0.01), RecordOf("plant", 3, 1, 0.01),
+                                       RecordOf("plant", 2, 0, 0.01)};
+  records[0].last_seen_day = 0;
+  records[1].last_seen_day = 1;
+  records[2].last_seen_day = 2;
+  records[2].views = 0;  // disproved, never seen
+  const auto lost = LastLost(records, "plant");
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_EQ(lost.front()->room, 3);
+  const auto odds = RoomOdds(records, kRooms, "plant");
+  EXPECT_GT(odds.at(3), 2 * odds.at(0));
+}
+
 TEST(RoomOdds, WithoutRecordsAllRoomsOfOneSizeAreAlike) {
   const auto odds = RoomOdds({}, kRooms, "chair");
   EXPECT_NEAR(odds.at(0), 0.25, 1e-9);

@@ -197,7 +197,7 @@ void ObjectSurvey::Look(const Observation& obs, const sim::Simulator& simulator)
   const auto start = std::chrono::steady_clock::now();
   const objects::Moment when{0, views_++};
   book_.Note(seen, obs, when);
-  (void)book_.Doubt("", obs, when);
+  (void)book_.Doubt({}, obs, when);
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -121,13 +121,14 @@ class GroundTruthSegmenter : public perception::Segmenter {
     count.erase(0);
     // Walls and floors often fill more of the box than the object: prefer the instance that fits
     // the box.
+    const std::map<int, PixelBox> own = OwnBoxes(frame, count);
     int best = 0;
     double best_score = -1;
     for (const auto& [id, pixels] : count) {
       const SceneInstance* instance = simulator_.scene().FindInstance(id);
       const bool is_goal = instance != nullptr && !instance->category.empty();
       const double score =
-          BoxOverlap(frame, id, box) + (is_goal ? 0.5 : 0) + 1e-9 * static_cast<double>(pixels);
+          BoxOverlap(own.at(id), box) + (is_goal ? 0.5 : 0) + 1e-9 * static_cast<double>(pixels);
       if (score > best_score) {
         best = id;
         best_score = score;
@@ -136,16 +137,30 @@ class GroundTruthSegmenter : public perception::Segmenter {
     return best;
   }
 
-  /// Intersection over union of `box` and the box of the visible pixels of `id`.
-  static double BoxOverlap(const Frame& frame, int id, const PixelBox& box) {
-    PixelBox own{1 << 30, 1 << 30, 0, 0};
+  /// Boxes of the visible pixels of the instances in `count`.
+  static std::map<int, PixelBox> OwnBoxes(const Frame& frame, const std::map<int, int>& count) {
+    std::map<int, PixelBox> own;
+    for (const auto& [id, pixels] : count) own[id] = {1 << 30, 1 << 30, 0, 0};
+    std::int32_t last_id = -1;
+    PixelBox* last = nullptr;
     for (int v = 0; v < frame.instance.height; ++v) {
       for (int u = 0; u < frame.instance.width; ++u) {
-        if (frame.instance.At(u, v) != id) continue;
-        own = {std::min(own.u0, u), std::min(own.v0, v), std::max(own.u1, u + 1),
-               std::max(own.v1, v + 1)};
+        const std::int32_t id = frame.instance.At(u, v);
+        if (id != last_id) {
+          const auto found = own.find(id);
+          last = found == own.end() ? nullptr : &found->second;
+          last_id = id;
+        }
+        if (last == nullptr) continue;
+        *last = {std::min(last->u0, u), std::min(last->v0, v), std::max(last->u1, u + 1),
+                 std::max(last->v1, v + 1)};
       }
     }
+    return own;
+  }
+
+  /// Intersection over union of two boxes.
+  static double BoxOverlap(const PixelBox& own, const PixelBox& box) {
     const PixelBox both{std::max(own.u0, box.u0), std::max(own.v0, box.v0),
                         std::min(own.u1, box.u1), std::min(own.v1, box.v1)};
     if (both.u1 <= both.u0 || both.v1 <= both.v0) return 0;
