@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // `scene import` of IFC files through IfcOpenShell (scripts/setup.sh ifc); skipped where it is
 // missing. shared/data/ifc/Duplex.ifc is beside the repository in its workplaces only.
+// CROSSNAV_LONG_TESTS=1 mutates 300 files instead of 6.
+#include <array>
 #include <chrono>
 
 #include "cli_fixture.h"
+#include "crossnav/core/rng.h"
 #include "support/places.h"
 
 namespace crossnav::test {
@@ -194,6 +197,56 @@ TEST_F(IfcCli, ATruncatedFileIsRefusedInOneLineOrReadInPart) {
     if (outcome.exit_code == 0) continue;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_FALSE(fs::exists(At("ended"))) << i;
+  }
+}
+
+/// One to eight changes of a file: bytes, numbers, names of items, lines that are gone or twice.
+std::string Mutated(std::string text, Rng& rng) {
+  constexpr std::array kHostile = {"-1.", "0.", "1.E300", "NAN", "99999999", "$", "*", "()", "''"};
+  const auto at = [&] { return rng.Below(static_cast<std::uint32_t>(text.size())); };
+  for (int change = rng.Int(1, 8); change > 0; --change) {
+    const std::size_t line = text.find('\n', at());
+    const std::size_t next = line == text.npos ? text.npos : text.find('\n', line + 1);
+    const std::size_t number = text.find_first_of("0123456789", at());
+    switch (rng.Below(5)) {
+      case 0:
+        text[at()] = static_cast<char>(rng.Int(0, 255));
+        break;
+      case 1:
+        if (next != text.npos) text.erase(line, next - line);
+        break;
+      case 2:
+        if (next != text.npos) text.insert(next, text.substr(line, next - line));
+        break;
+      case 3:
+        if (number != text.npos)
+          text.replace(number, text.find_first_not_of("0123456789.", number) - number,
+                       kHostile[rng.Below(kHostile.size())]);
+        break;
+      default:
+        if (number != text.npos) text[number] = static_cast<char>('0' + rng.Int(0, 9));
+    }
+  }
+  return text;
+}
+
+TEST_F(IfcCli, AMutatedFileIsRefusedInOneLineOrBecomesAScene) {
+  if (!HasReader()) GTEST_SKIP() << "no IfcOpenShell; scripts/setup.sh ifc installs it";
+  const std::uint64_t files = std::getenv("CROSSNAV_LONG_TESTS") != nullptr ? 300 : 6;
+  for (std::uint64_t seed = 0; seed < files; ++seed) {
+    Rng rng(seed, 0);
+    const std::string bytes = Mutated(SmallIfc(), rng);
+    WriteText(At("mutated.ifc"), bytes);
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome outcome = Run("scene import mutated.ifc --out mutated --seconds 5");
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(took.count(), 20) << seed;
+    EXPECT_EQ(fs::exists(At("mutated")), outcome.exit_code == 0) << seed << outcome.err;
+    fs::remove_all(At("mutated"));
+    if (outcome.exit_code == 0) continue;
+    EXPECT_EQ(outcome.exit_code, 1) << seed << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << seed << outcome.err;
+    EXPECT_NE(outcome.err.find("mutated.ifc"), std::string::npos) << seed << outcome.err;
   }
 }
 
