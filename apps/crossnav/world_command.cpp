@@ -22,8 +22,11 @@ Json HouseJson(const world::HouseReport& house) {
 }
 
 std::string HouseText(const world::HouseReport& house) {
-  std::string text = fmt::format("{}  {} floors, {:.0f} m2 walkable", house.folder.string(),
-                                 house.floors, house.area_m2);
+  int rooms = 0;
+  for (const auto& [name, count] : house.rooms) rooms += count;
+  std::string text =
+      fmt::format("{}  {:.1f} MB, {} floors, {} rooms, {:.0f} m2 walkable", house.folder.string(),
+                  static_cast<double>(house.bytes) / 1e6, house.floors, rooms, house.area_m2);
   for (const auto& [kind, count] : house.stairs) text += fmt::format(", {} {}", count, kind);
   for (const auto& [category, count] : house.instances)
     text += fmt::format(", {} {}", count, category);
