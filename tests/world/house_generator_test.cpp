@@ -173,6 +173,14 @@ TEST(HouseGenerator, EveryOfficeOfFourLargeFloorsHasAPlan) {
   }
 }
 
+// Regression: with 160 MB for all houses of edition 2, another plan of seed 6036 passed, and the
+// held-out set had another house.
+TEST(HouseGenerator, HousesOfADrawnSizeKeepTheirLimitOfBytes) {
+  EXPECT_EQ(MostBytesOf(1, 4 * 250), 40'000'000U);
+  EXPECT_EQ(MostBytesOf(2, 4 * 240), 40'000'000U);
+  EXPECT_EQ(MostBytesOf(2, 4 * 250), 160'000'000U);
+}
+
 TEST(HouseGenerator, AnOfficeIsACorridorOfManyRooms) {
   HouseParams params;
   params.edition = 2;

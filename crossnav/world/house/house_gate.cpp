@@ -7,12 +7,16 @@
 
 #include "crossnav/world/furniture/furnish.h"
 #include "crossnav/world/furniture/groups.h"
+#include "crossnav/world/layout/edition.h"
 
 namespace crossnav::world {
 namespace {
 
 constexpr double kSample_m = 0.35;       // chosen: grid on which rooms are probed
 constexpr double kReachableShare = 0.6;  // chosen: share of a room's walkable ground
+
+constexpr double kLargestDrawn_m2 = 960;  // chosen: four floors of 240 m2 (house_generator.cpp)
+constexpr std::uintmax_t kDrawnBytes = 40'000'000;
 
 tl::unexpected<Error> Refuse(std::string what, std::string where) {
   return Fail(ErrorCode::kInvalid, std::move(what), std::move(where));
@@ -120,6 +124,10 @@ Result<void> CheckFurniture(const HousePlan& plan) {
 std::optional<int> BlockedRoom(const HousePlan& plan, const sim::NavMesh& navmesh) {
   const auto blocked = FindBlocked(plan, navmesh);
   return blocked ? std::optional(blocked->room) : std::nullopt;
+}
+
+std::uintmax_t MostBytesOf(int edition, double built_m2) {
+  return built_m2 > kLargestDrawn_m2 ? EditionOf(edition).most_bytes : kDrawnBytes;
 }
 
 Result<void> CheckHouse(const HousePlan& plan, const sim::Scene& scene,

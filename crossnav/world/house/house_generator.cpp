@@ -141,7 +141,8 @@ Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::pa
   if (!folder) return tl::unexpected(folder.error());
   report.folder = *folder;
   for (const auto& file : fs::directory_iterator(*folder)) report.bytes += file.file_size();
-  const std::uintmax_t most_bytes = EditionOf(params.edition).most_bytes;
+  const HouseParams settled = Settled(params);
+  const std::uintmax_t most_bytes = MostBytesOf(params.edition, settled.floors * settled.area_m2);
   if (report.bytes < most_bytes) return report;
   fs::remove_all(*folder);
   return Fail(ErrorCode::kInvalid, fmt::format("files larger than {} MB", most_bytes / 1'000'000),
