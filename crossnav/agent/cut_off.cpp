@@ -88,6 +88,8 @@ CutOff FindCutOff(const Situation& now) {
       now.goal.history.begin(), now.goal.history.end(),
       [](const HistoryPoi& poi) { return !poi.is_exhausted && poi.unreachable_step; }));
   cut_off.ground_m2 = CutOffGround(now, reached);
+  cut_off.reached_m2 =
+      static_cast<double>(reached.size()) * now.config.map.voxel_m * now.config.map.voxel_m;
   return cut_off;
 }
 

@@ -9,10 +9,11 @@
 namespace crossnav::agent {
 
 struct CutOff {
-  int levels = 0;        ///< that the agent stood on
-  int flights = 0;       ///< seen or walked, with an end that is cut off
-  int places = 0;        ///< remembered places that answer the goal
-  double ground_m2 = 0;  ///< ground at the height of a level, as far as it is more than corners
+  int levels = 0;         ///< that the agent stood on
+  int flights = 0;        ///< seen or walked, with an end that is cut off
+  int places = 0;         ///< remembered places that answer the goal
+  double ground_m2 = 0;   ///< ground at the height of a level, as far as it is more than corners
+  double reached_m2 = 0;  ///< ground that is not cut off, of any height
   bool IsEmpty() const { return levels + flights + places == 0 && ground_m2 == 0; }
 };
 

@@ -11,6 +11,8 @@
 namespace crossnav::agent {
 namespace {
 
+constexpr double kStranded_m2 = 1.0;  // chosen: less ground than that of a landing
+
 bool LookAroundAgain(StepState& now) {
   if ((now.goal.p_looked_around_world - now.agent.p_world).norm() < 0.5) return false;
   LookAround(now);
@@ -47,6 +49,15 @@ bool StepOnSeats(StepState& now) {
   now.goal.full.may_step_on_seats = true;
   ForgiveUnreachable(&now.goal);
   now.goal.events.push_back("cut off: " + Describe(cut_off) + "; rises like seats are tried");
+  return true;
+}
+
+/// On a steep flight the foot may be between two treads of the map, so that no path begins there.
+bool StepOut(StepState& now) {
+  const CutOff cut_off = FindCutOff(now);
+  if (cut_off.IsEmpty() || cut_off.reached_m2 >= kStranded_m2) return false;
+  BeginEscape(now);
+  now.goal.events.push_back("stranded: a step is tried in every heading");
   return true;
 }
 
@@ -92,10 +103,12 @@ bool LeaveOutUnreachable(StepState& now) {
   return true;
 }
 
-constexpr std::array kResorts = {TakeGuesses, LookAroundAgain,     ForgetBumps,
-                                 Squeeze,     LeaveOutUnreachable, SearchClosely,
-                                 StepOnSeats, AskMemoryAgain,      TryAllAgain};
-constexpr std::size_t kOpening = 5;  // the first of them open ways, or leave out what has none
+// A step out may end on another tread that no path leaves: it is tried several times.
+constexpr std::array kResorts = {
+    TakeGuesses,         LookAroundAgain, ForgetBumps, Squeeze, StepOut,
+    LeaveOutUnreachable, SearchClosely,   StepOnSeats, StepOut, StepOut,
+    AskMemoryAgain,      TryAllAgain,     StepOut};
+constexpr std::size_t kOpening = 6;  // the first of them open ways, or leave out what has none
 
 }  // namespace
 

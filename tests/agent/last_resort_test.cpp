@@ -3,7 +3,9 @@
 // and the views that decide about a hint. On ground set by hand.
 #include "crossnav/agent/last_resort.h"
 
+#include <algorithm>
 #include <string>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +92,23 @@ TEST(CutOff, WhereNothingIsCutOffNoRuleIsRelaxed) {
   EXPECT_FALSE(given.goal.full.may_squeeze);
   EXPECT_FALSE(given.goal.full.may_step_on_seats);
   EXPECT_EQ(given.goal.events.back(), "all explored; cut off: nothing");
+}
+
+// Regression: on steep flights (bench stairs, high risers, seeds 21 and 39) the navmesh's foot was
+// between two treads of the map; the agent declared all explored on the flight.
+TEST(CutOff, AStrandedAgentTriesAStepInEveryHeading) {
+  TwoFloors given;
+  AddGround(given.world.map, 60, 0, 63, 8, 8);
+  given.world.ground.Rebuild(given.world.map);
+  given.now.agent.p_world = given.now.eye.p_world = Vector3d(6.15, 0.4, 0.9);
+  given.goal.p_looked_around_world = given.now.agent.p_world;
+  bool has_stepped = false;
+  while (!has_stepped && TryLastResort(given.now))
+    has_stepped = given.goal.events.back().find("stranded") == 0;
+  ASSERT_TRUE(has_stepped);
+  const Scan* scan = std::get_if<Scan>(&given.goal.full.activity);
+  ASSERT_NE(scan, nullptr);
+  EXPECT_EQ(std::count(scan->turns.begin(), scan->turns.end(), Action::kMoveForward), 12);
 }
 
 // Remembered places upstairs counted as visited from the storey below.
