@@ -118,8 +118,9 @@ def read_card(path):
 
 
 def evaluate(file, houses, names, args):
-    """Prints the tables of one network; also the tally and the summary."""
-    table = np.load(common.REPO / "networks/text_vectors.npy").astype(np.float32)
+    """Prints the tables of one network, whose text vectors lie beside it; also the tally and the summary."""
+    beside = file.with_name("text_vectors.npy")
+    table = np.load(beside if beside.exists() else common.REPO / "networks/text_vectors.npy").astype(np.float32)
     network = Runtime(file)
     thresholds = read_card(file.with_suffix(".toml")).get("thresholds", {}).get("heat", [0.3] * 6)
     tally = run(network, houses, table, args.every)
