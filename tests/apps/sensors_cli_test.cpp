@@ -58,7 +58,8 @@ TEST_F(RealFrames, ARobotFindsItselfInAMapOfOtherFrames) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json result = Json::parse(outcome.out, nullptr, false);
   EXPECT_EQ(result["trials"], 63);
-  EXPECT_LE(result["wrong"]["count"].get<int>(), 1);
+  EXPECT_GE(result["right"]["count"].get<int>(), 57);
+  EXPECT_LE(result["wrong"]["count"].get<int>(), 4);  // single views decide here, too
 }
 
 TEST_F(SensorsCli, OneSourceOfLostRobotsIsNeeded) {
