@@ -106,6 +106,7 @@ ADAPTERS = {
     "zstd": (r"^zstd", ["crossnav/trace/mcap_*.cpp", "crossnav/store/*.cpp"]),
     "SQLite": (r"^sqlite3", ["crossnav/store/*"]),
     "simdjson": (r"^simdjson", ["crossnav/evaluation/episodes/episode_reader.cpp",
+                                "crossnav/evaluation/episodes/picture_json.h",
                                 "crossnav/trace/json_reader.h"]),
     "nlohmann-json": (r"^nlohmann/", ["crossnav/evaluation/reporting/comparison.cpp",
                                       "crossnav/evaluation/episodes/episode_writer.cpp",

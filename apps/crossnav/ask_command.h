@@ -24,6 +24,13 @@ struct WordBenchOptions {
   int count = 10, each = 12;
   bool with_failures = false;
 };
+struct PictureBenchOptions {
+  std::uint64_t seed = 301;
+  int count = 10, each = 3;
+  std::string perception;  ///< oracle | networks; empty = eval.perception
+};
+Result<void> BenchPictures(const PictureBenchOptions& options, const CommonOptions& common,
+                           Console& console);
 Result<void> BenchWords(const WordBenchOptions& options, const CommonOptions& common,
                         Console& console);
 

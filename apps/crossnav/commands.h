@@ -132,7 +132,7 @@ struct EpisodesOptions {
   std::string scene_list;             ///< file of names, one a line; empty = every scene
   std::vector<int> first;             ///< episodes with their first transition at stage 1, 2, ...
   bool by_scene = false;              ///< one scene in memory at a time
-  std::string goals_as = "category";  ///< category, description, or mixed
+  std::string goals_as = "category";  ///< category, description, picture, or mixed
 };
 Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOptions& common,
                               Console& console);
@@ -262,6 +262,8 @@ struct MapOptions {
   bool surfaces_only = false, skip_damaged = false;
   std::vector<std::string> objects;  ///< of the graph: categories to look for
   std::string pictures;              ///< of the graph: folder; empty = none
+  std::string picture;               ///< of the query, instead of `text`: PNG
+  std::vector<int> box;              ///< about the object in it; empty = in the middle
 };
 Result<void> MapInfo(const MapOptions& options, const CommonOptions& common, Console& console);
 Result<void> MapQuery(const MapOptions& options, const CommonOptions& common, Console& console);
@@ -306,7 +308,8 @@ Result<void> BenchStairs(const StairsOptions& options, const CommonOptions& comm
 struct GraphBenchOptions {
   int count = 10, edition = 1;
   std::uint64_t seed = 1;
-  std::string pictures;  ///< folder; empty = none
+  std::string pictures;    ///< folder; empty = none
+  std::string perception;  ///< of the objects: oracle | networks; empty = eval.perception
 };
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console);
@@ -324,8 +327,10 @@ struct LocalizeBenchOptions {
   std::string scenes;
   std::string twins;  ///< same | own: houses whose floors are one plan, instead of scenes
   std::uint64_t house_seed = 1;
-  int houses = 10;  ///< twins
+  std::string recording;  ///< instead of scenes: frames of a real sensor
+  int houses = 10;        ///< twins
   int count = 100;
+  int views = 12;  ///< of a recording, per robot
   std::uint64_t seed = 1;
 };
 Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOptions& common,

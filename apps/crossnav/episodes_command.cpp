@@ -77,18 +77,24 @@ Result<evaluation::EpisodeFile> Draw(const EpisodesOptions& options,
   return evaluation::GenerateEpisodes(*scenes, config, wishes);
 }
 
-/// Goals as descriptions: all that can be, or two of three.
-Result<int> Describe(const EpisodesOptions& options, const evaluation::RunConfig& config,
-                     const std::vector<std::string>& ids, evaluation::EpisodeFile& file) {
-  if (options.goals_as == "category") return 0;
-  const double share = options.goals_as == "mixed" ? 2.0 / 3.0 : 1.0;
-  int count = 0;
+/// Goals in the form that was asked for; "mixed" has the three forms in equal parts.
+Result<evaluation::MixedGoals> MixGoals(const EpisodesOptions& options,
+                                        const evaluation::RunConfig& config,
+                                        const std::vector<std::string>& ids,
+                                        evaluation::EpisodeFile& file) {
+  evaluation::MixedGoals count;
+  if (options.goals_as == "category") return count;
+  const evaluation::GoalMix mix = options.goals_as == "mixed"
+                                      ? evaluation::GoalMix{1.0 / 3, 1.0 / 3}
+                                  : options.goals_as == "picture" ? evaluation::GoalMix{0, 1}
+                                                                  : evaluation::GoalMix{1, 0};
   for (const std::string& id : ids) {
     const auto context = evaluation::SceneContext::Load(options.scenes, id, config);
     if (!context) return tl::unexpected(context.error());
-    const auto described = evaluation::DescribeGoals(**context, id, share, options.seed, file);
-    if (!described) return described;
-    count += *described;
+    const auto mixed = evaluation::MixGoals(**context, id, mix, options.seed, file);
+    if (!mixed) return mixed;
+    count.descriptions += mixed->descriptions;
+    count.pictures += mixed->pictures;
   }
   return count;
 }
@@ -118,8 +124,8 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
   auto file = Draw(options, *config, *scenes, console);
   if (!file) return tl::unexpected(file.error());
   console.EndProgress();
-  const auto described = Describe(options, *config, *scenes, *file);
-  if (!described) return tl::unexpected(described.error());
+  const auto mixed = MixGoals(options, *config, *scenes, *file);
+  if (!mixed) return tl::unexpected(mixed.error());
   for (evaluation::Episode& episode : file->episodes) episode.track = options.track;
   if (auto ok = evaluation::WriteEpisodes(options.out, *file); !ok) return ok;
   const Tally tally = Count(*file);
@@ -130,7 +136,8 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
       fmt::format("{}: {} episodes in {} scenes, {} require a floor change (first at stage {})\n",
                   options.out, tally.episodes, scenes->size(), tally.cross_floor, stages));
   if (options.goals_as != "category")
-    console.Print(fmt::format("  {} of their goals are descriptions\n", *described));
+    console.Print(fmt::format("  {} of their goals are descriptions, {} pictures\n",
+                              mixed->descriptions, mixed->pictures));
   console.Log(fmt::format("peak memory {:.0f} MiB", PeakMegabytes()));
   if (file->certificate_edition > 1) {
     console.Print(fmt::format("  {} of {} goal objects are confirmed from nowhere\n",
@@ -146,6 +153,8 @@ Result<void> EpisodesGenerate(const EpisodesOptions& options, const CommonOption
                          {"alternating", tally.alternating},
                          {"first_transition_stage", tally.first_stage},
                          {"certificate_edition", file->certificate_edition},
+                         {"descriptions", mixed->descriptions},
+                         {"pictures", mixed->pictures},
                          {"goal_objects", tally.goal_objects},
                          {"not_confirmable", tally.not_confirmable}}));
   return {};

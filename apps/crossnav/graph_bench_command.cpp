@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.h"
 #include "crossnav/evaluation/files/output_path.h"
 #include "crossnav/evaluation/trials/graph_trials.h"
 #include "graph_picture.h"
+#include "perception_source.h"
 
 namespace crossnav::app {
 namespace {
@@ -51,8 +53,16 @@ std::string Row(const std::string& name, const evaluation::GraphScore& score,
 
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console) {
-  const auto config = LoadConfig(common);
+  auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
+  if (!options.perception.empty()) config->eval.perception = options.perception;
+  const auto source = PerceptionSource::Read(*config);
+  if (!source) return tl::unexpected(source.error());
+  std::optional<perception::PerceptionSuite> suite;  // empty = ground truth
+  if (auto made = source->MakeSuite()) {
+    if (!*made) return tl::unexpected(made->error());
+    suite = std::move(**made);
+  }
   if (auto ok = evaluation::CheckOutputFolder(options.pictures, "--pictures"); !ok) return ok;
   evaluation::GraphScore all;
   evaluation::ObjectScore objects;
@@ -61,7 +71,8 @@ Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& c
   for (int i = 0; i < options.count; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
     console.Progress(fmt::format("house {} of {}", i + 1, options.count));
-    const auto trial = evaluation::TryGraph(seed, options.edition, *config);
+    const auto trial =
+        evaluation::TryGraph(seed, options.edition, *config, suite ? &*suite : nullptr);
     if (!trial) return tl::unexpected(trial.error());
     all += trial->score;
     objects += trial->objects;

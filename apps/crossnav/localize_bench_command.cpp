@@ -9,6 +9,8 @@
 #include "crossnav/evaluation/running/timing.h"
 #include "crossnav/evaluation/scoring/metrics.h"
 #include "crossnav/evaluation/trials/localize_trials.h"
+#include "crossnav/evaluation/trials/recorded_trials.h"
+#include "crossnav/recordings/recording.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -149,17 +151,38 @@ Result<void> TryTwins(const LocalizeBenchOptions& options, const evaluation::Run
   return {};
 }
 
+/// Frames of a real sensor; "actions" are views there.
+Result<void> TryRecording(const LocalizeBenchOptions& options, const evaluation::RunConfig& config,
+                          Console& console, PlaceCounts& summary) {
+  std::vector<Observation> frames;
+  const auto read =
+      recordings::ReadRecording(options.recording, {}, [&](const auto&, const auto& frame) {
+        frames.push_back(frame.obs);
+        frames.back().rgb = {};  // geometry alone decides
+        return Result<void>();
+      });
+  if (!read) return tl::unexpected(read.error());
+  const auto result = evaluation::TryRecorded(frames, config, options.views, options.seed);
+  if (!result) return tl::unexpected(result.error());
+  console.Print(fmt::format("{} frames, {} of them in the map; camera {:.2f} m above the ground\n",
+                            result->frames, result->mapped, result->camera_height_m));
+  for (const LostTrial& trial : result->trials) summary.Add(trial);
+  return {};
+}
+
 }  // namespace
 
 Result<void> BenchLocalize(const LocalizeBenchOptions& options, const CommonOptions& common,
                            Console& console) {
   const auto config = LoadConfig(common);
   if (!config) return tl::unexpected(config.error());
-  if (options.scenes.empty() == options.twins.empty())
-    return Fail(ErrorCode::kInvalid, "give the one or the other", "--scenes, --twins");
+  const int sources = !options.scenes.empty() + !options.twins.empty() + !options.recording.empty();
+  if (sources != 1)
+    return Fail(ErrorCode::kInvalid, "give one of them", "--scenes, --twins, --recording");
   PlaceCounts summary;
-  auto ok = options.twins.empty() ? TryScenes(options, *config, console, summary)
-                                  : TryTwins(options, *config, console, summary);
+  auto ok = !options.recording.empty() ? TryRecording(options, *config, console, summary)
+            : options.twins.empty()    ? TryScenes(options, *config, console, summary)
+                                       : TryTwins(options, *config, console, summary);
   if (!ok) return ok;
   console.EndProgress();
   Report(summary, options, console);
@@ -178,6 +201,11 @@ void AddLocalizeBench(CLI::App& bench, Options& o) {
           "Instead: generated houses whose floors are one plan, with the same furniture or "
           "their own")
       ->check(CLI::IsMember({"same", "own"}));
+  localize->add_option("--recording", o.localize_bench.recording,
+                       "Instead: frames of a real sensor with poses (docs/recordings.md); of each "
+                       "three the second makes the map, robots wake up at the others");
+  localize->add_option("--views", o.localize_bench.views, "Views of a recording until unknown")
+      ->check(CLI::Range(1, 1000));
   localize->add_option("--house-seed", o.localize_bench.house_seed, "Of the first of them");
   localize->add_option("--houses", o.localize_bench.houses, "How many of them")
       ->check(CLI::Range(1, 100000));

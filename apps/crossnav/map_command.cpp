@@ -180,7 +180,19 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
                               Console& console) {
   const auto loaded = Load(options, config, console);
   if (!loaded) return tl::unexpected(loaded.error());
-  const auto vectors = EncodeText(options.file, options.text, loaded->header, config);
+  if (options.text.empty() == options.picture.empty())
+    return Fail(ErrorCode::kInvalid, "give the one or the other", "TEXT, --picture");
+  std::string asked = options.text;
+  Result<TextVectors> vectors;
+  if (options.picture.empty()) {
+    vectors = EncodeText(options.file, options.text, loaded->header, config);
+  } else {
+    auto picture =
+        EncodePicture(options.file, options.picture, options.box, loaded->header, config);
+    if (!picture) return tl::unexpected(picture.error());
+    asked = picture->category + " of " + options.picture;
+    vectors = std::move(picture->vectors);
+  }
   if (!vectors) return tl::unexpected(vectors.error());
   memory::QueryConfig query = config.agent.query;
   query.top_k = options.top;
@@ -191,7 +203,7 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
   const memory::Verdict verdict = memory::Judge(match, from);
   Json places = Json::array();
   MapAnswer answer;
-  answer.text = VerdictText(options.text, match, encoder, from, found.empty());
+  answer.text = VerdictText(asked, match, encoder, from, found.empty());
   for (std::size_t i = 0; verdict != memory::Verdict::kAbsent && i < found.size(); ++i) {
     const memory::MemoryCluster& cluster = found[i];
     const Vector3d& p = cluster.p_center_world;
@@ -206,7 +218,7 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
     places.push_back(ClusterJson(cluster, match.places[i], place, loaded->map.config().voxel_m,
                                  options.with_voxels));
   }
-  answer.json = Json({{"text", options.text},
+  answer.json = Json({{"text", asked},
                       {"verdict", memory::NameOf(verdict)},
                       {"match", match.best},
                       {"present_from", from ? Json(*from) : Json()},

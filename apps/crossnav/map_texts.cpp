@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "crossnav/agent/pictured_goal.h"
+#include "crossnav/core/read_file.h"
 #include "crossnav/memory/history_poi.h"
 #include "crossnav/memory/query_match.h"
+#include "crossnav/perception/goal_picture.h"
 #include "crossnav/scenegraph/find_objects.h"
 #include "crossnav/sim/sensing/ground_truth_encoder.h"
 #include "perception_source.h"
@@ -41,6 +44,33 @@ Result<TextVectors> EncodeWith(perception::DenseEncoder& encoder, const std::str
 }
 
 }  // namespace
+
+Result<PictureQuery> EncodePicture(const std::string& file, const std::string& picture,
+                                   const std::vector<int>& box, const store::MapHeader& header,
+                                   const evaluation::RunConfig& config) {
+  const auto source = PerceptionSource::Read(config);
+  if (!source) return tl::unexpected(source.error());
+  if (auto ok = CheckEncoder(header, source->EncoderName(), file); !ok)
+    return tl::unexpected(ok.error());
+  auto suite = source->MakeSuite();
+  if (!suite)
+    return Fail(ErrorCode::kUnsupported,
+                "pictures are read by networks; add --set eval.perception=networks", picture);
+  if (!*suite) return tl::unexpected(suite->error());
+  const auto bytes = ReadFile(picture);
+  if (!bytes) return tl::unexpected(bytes.error());
+  std::optional<perception::PixelBox> about;
+  if (box.size() == 4) about = perception::PixelBox{box[0], box[1], box[2], box[3]};
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes->data());
+  const auto goal = perception::DecodeGoalPicture({data, bytes->size()}, about, picture);
+  if (!goal) return tl::unexpected(goal.error());
+  auto pictured = agent::PicturedGoalOf(*goal, **suite);
+  if (!pictured) return tl::unexpected(pictured.error());
+  auto vectors = EncodeWith(*(*suite)->encoder, pictured->category, config);
+  if (!vectors) return tl::unexpected(vectors.error());
+  vectors->text = std::move(pictured->object);
+  return PictureQuery{std::move(*vectors), std::move(pictured->category)};
+}
 
 std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
   const auto from = memory::PresentFrom(encoder);

@@ -33,6 +33,16 @@ Result<std::unique_ptr<perception::DenseEncoder>> EncoderFor(const std::string& 
 Result<TextVectors> EncodeText(const std::string& file, const std::string& text,
                                const store::MapHeader& header, const evaluation::RunConfig& config);
 
+/// A picture (PNG) as a query: the vector of the object that it shows, and its category.
+struct PictureQuery {
+  TextVectors vectors;
+  std::string category;
+};
+/// Error kUnsupported: ground truth, which reads no pictures of files.
+Result<PictureQuery> EncodePicture(const std::string& file, const std::string& picture,
+                                   const std::vector<int>& box, const store::MapHeader& header,
+                                   const evaluation::RunConfig& config);
+
 /// From which match on a text is present in a map with features of `encoder`.
 std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config);
 

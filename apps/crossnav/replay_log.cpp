@@ -71,8 +71,10 @@ Result<void> ReplayLog::OnStep(const evaluation::StepView& step) {
   const auto changes = static_cast<std::int64_t>(step.trace.voxel_changes.size());
   const bool is_remembered = is_first_ && step.state.map().Stats().known > changes;
   is_first_ = false;
-  if (is_remembered) return writer_.Write({WithWholeMap(step), &step.observation, &sight});
-  return writer_.Write({step.trace, &step.observation, &sight});
+  const auto graph = graph_.Update(step.state, step.trace);
+  const trace::GraphNote* note = graph ? &*graph : nullptr;
+  if (is_remembered) return writer_.Write({WithWholeMap(step), &step.observation, &sight, note});
+  return writer_.Write({step.trace, &step.observation, &sight, note});
 }
 
 Result<void> ReplayLog::OnStageEnd(const evaluation::StageRecord& stage) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "crossnav/agent/graph_watch.h"
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/evaluation/running/runner.h"
 #include "crossnav/trace/replay_writer.h"
@@ -36,6 +37,7 @@ class ReplayLog : public evaluation::RunObserver {
  private:
   explicit ReplayLog(trace::ReplayWriter writer) : writer_(std::move(writer)) {}
   trace::ReplayWriter writer_;
+  agent::GraphWatch graph_;
   bool is_first_ = true;
   int last_step_ = 0, goal_index_ = 0;
 };

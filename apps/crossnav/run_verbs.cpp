@@ -136,8 +136,9 @@ void AddSuites(CLI::App& app, Options& o) {
       ->expected(2);
   for (CLI::App* verb : {make, run, report, exported}) {
     verb->add_option("NAME", o.suite.name,
-                     "crossnav-mfmon-1, crossnav-mfmon-1-mini or crossnav-mfmon-1-val, with -pack "
-                     "behind it for furniture of a pack; crossnav-mfmon-2, or one of its tracks: "
+                     "crossnav-mfmon-1, -mini or -val, crossnav-goat-1 (goals of three kinds), "
+                     "-mini or -val, with -pack behind it for furniture of a pack; "
+                     "crossnav-lifelong-1, -mini or -val; crossnav-mfmon-2, or one of its tracks: "
                      "crossnav-mfmon-2/generated, /drawn or /bim")
         ->required();
     verb->add_option("--out", o.suite.out, "Folder of suites; default: out/suites");
@@ -285,7 +286,13 @@ void AddMap(CLI::App& app, Options& o) {
     verb->add_option("MAP", o.map.file, "Map file")->required();
     verb->add_flag("--skip-damaged", o.map.skip_damaged, "Skip damaged parts");
   }
-  query->add_option("TEXT", o.map.text, "Text to search for")->required();
+  query->add_option("TEXT", o.map.text, "Text to search for");
+  query->add_option("--picture", o.map.picture,
+                    "Instead: a picture (PNG) of the object, by the networks");
+  query->add_option("--box", o.map.box, "About the object in the picture; default: its middle")
+      ->type_name("U0,V0,U1,V1")
+      ->delimiter(',')
+      ->expected(4);
   query->add_option("--top", o.map.top, "Places at most")->check(CLI::Range(1, 1000));
   query
       ->add_option("--from", o.map.from,
@@ -338,6 +345,7 @@ void AddTools(CLI::App& app, Options& o) {
   graph->add_option("--edition", o.graph_bench.edition, "Of the generator")
       ->check(CLI::Range(1, 2));
   graph->add_option("--pictures", o.graph_bench.pictures, "Folder for a picture of each floor");
+  AddPerception(graph, o.graph_bench.perception);
   AddDaysBench(*bench, o);
   AddLocalizeBench(*bench, o);
   CLI::App* noise = AddVerb(*bench, o, "noise", "Success and map error under each kind of noise",

@@ -222,8 +222,9 @@ void AddEpisodes(CLI::App& app, Options& o) {
                      "Keep one scene in memory at a time; draws other episodes than without");
   generate
       ->add_option("--goals-as", o.episodes.goals_as,
-                   "category; description: of one object each; mixed: two of three so")
-      ->check(CLI::IsMember({"category", "description", "mixed"}));
+                   "category; description: of one object each; picture: of one object each; mixed: "
+                   "the three in equal parts, as GOAT-Bench")
+      ->check(CLI::IsMember({"category", "description", "picture", "mixed"}));
   generate->add_flag("--repeats", o.episodes.repeats, "Allow a category twice in an episode");
   generate->add_option("--out", o.episodes.out, "Episode file (.json or .json.gz)")->required();
   CLI::App* check = AddVerb(*episodes, o, "check", "Proves every certificate again",

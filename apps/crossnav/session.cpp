@@ -38,7 +38,7 @@ Result<const evaluation::SceneContext*> SceneCache::Get(const std::string& scene
     (*context)->UseGoals(file_->goals_by_category, scene_id);
   if (file_ != nullptr && file_->certificate_edition > 1)
     (*context)->UseMarks(file_->goals_by_category, scene_id);
-  if (file_ != nullptr) (*context)->UseDescriptions(file_->goals_by_category, scene_id);
+  if (file_ != nullptr) (*context)->UseInstanceGoals(file_->goals_by_category, scene_id);
   entries_.push_back({scene_id, std::move(*context)});
   return entries_.back().context.get();
 }

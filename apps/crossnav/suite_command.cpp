@@ -7,6 +7,7 @@
 
 #include "crossnav/evaluation/episodes/suite.h"
 #include "crossnav/evaluation/files/output_path.h"
+#include "crossnav/evaluation/generation/described_goals.h"
 #include "crossnav/evaluation/generation/episode_generator.h"
 #include "crossnav/evaluation/running/worker_pool.h"
 #include "eval_progress.h"
@@ -53,6 +54,20 @@ evaluation::GeneratorOptions DrawingOf(const evaluation::SuiteDefinition& suite,
   return drawing;
 }
 
+/// Goals of three kinds in equal parts, scene by scene.
+Result<void> MixGoals(const evaluation::SuiteDefinition& suite, const SuitePlace& place,
+                      const evaluation::RunConfig& config, const std::vector<std::string>& ids,
+                      evaluation::EpisodeFile& file) {
+  constexpr evaluation::GoalMix kThirds{1.0 / 3, 1.0 / 3};
+  for (const std::string& id : ids) {
+    const auto context = evaluation::SceneContext::Load(place.scenes(), id, config);
+    if (!context) return tl::unexpected(context.error());
+    const auto mixed = evaluation::MixGoals(**context, id, kThirds, suite.episode_seed, file);
+    if (!mixed) return tl::unexpected(mixed.error());
+  }
+  return {};
+}
+
 /// In a single worker: it loads the scenes, and this process stays free to fork.
 Result<void> MakeEpisodes(const evaluation::SuiteDefinition& suite, const SuitePlace& place,
                           const evaluation::RunConfig& config, Console& console) {
@@ -72,6 +87,9 @@ Result<void> MakeEpisodes(const evaluation::SuiteDefinition& suite, const SuiteP
     if (!file) return tl::unexpected(file.error());
     for (evaluation::Episode& episode : file->episodes) episode.track = suite.track;
     console.EndProgress();
+    if (suite.mixes_goals)
+      if (auto ok = MixGoals(suite, place, config, *ids, *file); !ok)
+        return tl::unexpected(ok.error());
     if (auto ok = evaluation::WriteEpisodes(place.episodes(), *file); !ok) {
       return tl::unexpected(ok.error());
     }

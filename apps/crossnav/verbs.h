@@ -52,6 +52,7 @@ struct Options {
   LocalizeBenchOptions localize_bench;
   SensorTrialOptions sensor_trials;
   WordBenchOptions word_bench;
+  PictureBenchOptions picture_bench;
   ServeOptions serve;
   Command command;
 };

@@ -27,6 +27,7 @@ void WatchFeed::Check(const Result<void>& done) {
 }
 
 void WatchFeed::Start(const trace::ReplayInfo& info, const agent::Agent& agent) {
+  graph_ = {};
   if (watch_) Check(watch_->Start(info, &agent.map()));
 }
 
@@ -34,7 +35,8 @@ void WatchFeed::Add(const Observation& obs, const trace::StepTrace& trace,
                     const perception::Percept& percept, const agent::Agent& agent) {
   if (!watch_) return;
   const trace::Sight sight = agent::SightOf(percept, agent.goal_text());
-  Check(watch_->Add({trace, &obs, &sight}));
+  const auto graph = graph_.Update(agent, trace);
+  Check(watch_->Add({trace, &obs, &sight, graph ? &*graph : nullptr}));
 }
 
 void WatchFeed::AddStage(const trace::StageResult& stage) {

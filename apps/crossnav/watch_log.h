@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "crossnav/agent/graph_watch.h"
 #include "crossnav/evaluation/running/runner.h"
 #include "crossnav/watch/watch.h"
 
@@ -32,6 +33,7 @@ class WatchFeed {
 
   watch::Watch* watch_;
   Console& console_;
+  agent::GraphWatch graph_;
 };
 
 /// WatchFeed of a running episode.

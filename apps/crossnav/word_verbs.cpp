@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `ask` and `bench words`.
+// `ask`, `bench words` and `bench pictures`.
 #include "verbs.h"
 
 namespace crossnav::app {
@@ -34,6 +34,16 @@ void AddWordTrials(CLI::App& bench, Options& o) {
   words->add_option("--each", o.word_bench.each, "Descriptions of each kind a house")
       ->check(CLI::Range(1, 10000));
   words->add_flag("--failures", o.word_bench.with_failures, "List what was understood wrongly");
+  CLI::App* pictures =
+      AddVerb(bench, o, "pictures", "Pictures of objects of generated houses, found in their maps",
+              "crossnav bench pictures --seed 301 --count 10",
+              [&o](Console& c) { return BenchPictures(o.picture_bench, o.common, c); });
+  pictures->add_option("--seed", o.picture_bench.seed, "Of the first house");
+  pictures->add_option("--count", o.picture_bench.count, "Houses")->check(CLI::Range(1, 100000));
+  pictures->add_option("--each", o.picture_bench.each, "Pictures of each category a house")
+      ->check(CLI::Range(1, 1000));
+  pictures->add_option("--perception", o.picture_bench.perception,
+                       "oracle (ground truth), or networks; default: eval.perception");
 }
 
 }  // namespace crossnav::app

@@ -87,6 +87,7 @@ struct Agent::Impl {
   Impl(const Config& c, perception::PerceptionSuite p, Hooks* h)
       : given(c), config(c), perception(std::move(p)), hooks(h), world(c) {}
 
+  Result<void> Begin(GoalState fresh);
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);
   std::vector<policy::Sighting> Lift(const std::vector<perception::Detection>& detections,
                                      const Observation& obs);
@@ -127,34 +128,47 @@ std::vector<geometry::SeenStair> Agent::seen_stairs() const {
 Result<void> Agent::SetGoal(const std::string& wish) {
   auto described = DescribedGoalOf(wish, *impl_->perception.encoder);
   if (!described) return tl::unexpected(described.error());
-  const std::string& name = *described ? (*described)->category : wish;
-  auto text = impl_->perception.encoder->EncodeText(name);
-  if (!text) return tl::unexpected(text.error());
-  LearnNames(*impl_->perception.encoder, impl_->config, &impl_->world);
   GoalState fresh;
-  fresh.goal = name;
-  fresh.index = impl_->goal.index + 1;
+  fresh.goal = *described ? (*described)->category : wish;
+  fresh.described = std::move(*described);
+  fresh.events.push_back("goal activated: " + wish);
+  return impl_->Begin(std::move(fresh));
+}
+
+Result<void> Agent::SetGoal(const perception::GoalPicture& picture) {
+  auto pictured = PicturedGoalOf(picture, impl_->perception);
+  if (!pictured) return tl::unexpected(pictured.error());
+  GoalState fresh;
+  fresh.goal = pictured->category;
+  fresh.events.push_back("goal activated: " + pictured->name + ", of a " + pictured->category);
+  fresh.pictured = std::move(*pictured);
+  return impl_->Begin(std::move(fresh));
+}
+
+/// Starts the search; `fresh` has the goal, and nothing of its search yet.
+Result<void> Agent::Impl::Begin(GoalState fresh) {
+  auto text = perception.encoder->EncodeText(fresh.goal);
+  if (!text) return tl::unexpected(text.error());
+  LearnNames(*perception.encoder, config, &world);
+  fresh.index = goal.index + 1;
   fresh.text = std::move(*text);
-  if (impl_->config.query.relevancy == "contrastive") {
-    auto background =
-        perception::EncodeTexts(*impl_->perception.encoder, memory::kBackgroundPrompts);
+  if (config.query.relevancy == "contrastive") {
+    auto background = perception::EncodeTexts(*perception.encoder, memory::kBackgroundPrompts);
     if (!background) return tl::unexpected(background.error());
     fresh.background = std::move(*background);
   }
-  fresh.events.push_back("goal activated: " + wish);
-  fresh.described = std::move(*described);
-  LookAtHome(impl_->world, impl_->config, &fresh);
-  fresh.history = RememberedPlaces(impl_->world, fresh, impl_->config);
-  impl_->goal = std::move(fresh);
-  impl_->world.full.asked.insert(name);
-  impl_->goal.full.inspect_range_m = impl_->config.policy.explore.inspect_range_m;
-  impl_->world.full.field.BeginGoal();
-  impl_->world.paper.bumps.Clear();
-  impl_->world.onemap.map.ClearChecked();
+  LookAtHome(world, config, &fresh);
+  fresh.history = RememberedPlaces(world, fresh, config);
+  goal = std::move(fresh);
+  world.full.asked.insert(goal.goal);
+  goal.full.inspect_range_m = config.policy.explore.inspect_range_m;
+  world.full.field.BeginGoal();
+  world.paper.bumps.Clear();
+  world.onemap.map.ClearChecked();
   // Inspected ground needs no second look because the memory answers for it. Without History POIs
   // nothing answers, so that a new goal inspects all ground again, unless keep_coverage is set.
-  const policy::PoiConfig& poi = impl_->config.policy.poi;
-  if (!poi.use_history && !poi.keep_coverage) impl_->world.coverage.Clear();
+  const policy::PoiConfig& poi = config.policy.poi;
+  if (!poi.use_history && !poi.keep_coverage) world.coverage.Clear();
   return {};
 }
 
@@ -199,6 +213,10 @@ void Agent::RestoreObjects(std::vector<objects::ObjectRecord> records, int day) 
 
 std::vector<objects::ObjectRecord> Agent::objects() const {
   return impl_->world.objects.Confirmed();
+}
+
+std::span<const objects::ObjectRecord> Agent::records() const {
+  return impl_->world.objects.records();
 }
 
 /// The goal in 3D, without objects that were rejected; as weak as a hint may be.

@@ -51,6 +51,11 @@ class Agent {
   /// stairs and features stay.
   Result<void> SetGoal(const std::string& goal);
 
+  /// Activates a goal that is a picture: the instance that it shows is to be found, not another
+  /// one of its category. Read once, by the suite (perception/goal_picture.h). kInvalid: sides or
+  /// box out of limits.
+  Result<void> SetGoal(const perception::GoalPicture& picture);
+
   /// Starts from a saved memory, the lifelong case: the map's states, stairs and features are known
   /// before the first goal. Call before SetGoal. The world frame is the saved one. Errors: another
   /// voxel size or feature dimension.
@@ -71,6 +76,8 @@ class Agent {
   /// Objects that the agent has records of, those that are gone and places disproved among them:
   /// what is saved with the memory.
   std::vector<objects::ObjectRecord> objects() const;
+  /// All records, those of a single frame among them, unordered; until the next step.
+  std::span<const objects::ObjectRecord> records() const;
   /// Text vector of the active goal; empty before the first.
   std::span<const float> goal_text() const;
   const geometry::VoxelMap& map() const;

@@ -7,6 +7,7 @@
 #include "crossnav/agent/object_search.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/wanted_instance.h"
 
 namespace crossnav::agent {
 namespace {
@@ -76,7 +77,7 @@ bool TryAllAgain(StepState& now) {
   goal.full.attempts.clear();
   goal.full.looks.clear();
   goal.live.ForgiveDiscarded();
-  if (goal.described) goal.described->set_aside.clear();
+  goal.instances.set_aside.clear();
   goal.tried_viewpoints.clear();
   goal.failed_views = 0;
   goal.full.failed.clear();

@@ -14,6 +14,7 @@
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/shared_parts.h"
+#include "crossnav/agent/wanted_instance.h"
 
 namespace crossnav::agent {
 

@@ -29,6 +29,20 @@ void AddSeen(const std::string& category, const std::vector<policy::Sighting>& s
 
 }  // namespace
 
+std::optional<std::size_t> RecordAt(const World& world, const std::string& category,
+                                    const Vector3d& p_world) {
+  std::optional<std::size_t> nearest;
+  double least_m = kSameObject_m;
+  const auto& records = world.objects.records();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const double away_m = (records[i].centre_world_m - p_world).norm();
+    if (records[i].category != category || away_m > least_m) continue;
+    least_m = away_m;
+    nearest = i;
+  }
+  return nearest;
+}
+
 void NoteObjects(const GoalSight& own, const std::vector<PassingSight>& passing,
                  const Observation& obs, World* world, GoalState* goal) {
   const std::string category = SpacedName(own.name);

@@ -3,6 +3,8 @@
 // them. They are kept in every mode; decisions read them where a memory was loaded.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "crossnav/agent/passing_sights.h"
@@ -10,6 +12,12 @@
 #include "crossnav/core/observation.h"
 
 namespace crossnav::agent {
+
+inline constexpr double kSameObject_m = 0.5;  // chosen: of a record and a POI of one object
+
+/// Index of the record of the object at a point.
+std::optional<std::size_t> RecordAt(const World& world, const std::string& category,
+                                    const Vector3d& p_world);
 
 /// Sightings of the goal, without objects that were rejected.
 struct GoalSight {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "crossnav/agent/passing_sights.h"
+#include "crossnav/agent/wanted_instance.h"
 #include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
@@ -16,8 +17,8 @@ std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& go
                                          const Config& config) {
   std::vector<HistoryPoi> places;
   if (!config.policy.poi.use_history || world.memory.Size() == 0) return places;
-  for (const auto& cluster :
-       memory::Query(world.memory, goal.text, config.query, goal.background)) {
+  const std::vector<float>& asked = goal.pictured ? goal.pictured->object : goal.text;
+  for (const auto& cluster : memory::Query(world.memory, asked, config.query, goal.background)) {
     HistoryPoi poi;
     poi.voxels = cluster.voxels;
     poi.p_center_world = cluster.p_center_world;
@@ -29,8 +30,7 @@ std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& go
     places = Revised(std::move(places), world, goal, NoticesThings(config));
   else if (world.has_loaded_objects && NoticesThings(config))
     places = WithRecords(std::move(places), world, goal);
-  if (goal.described) places = FittingPlaces(std::move(places), world, goal);
-  return places;
+  return FittingPlaces(std::move(places), world, goal);
 }
 
 std::optional<double> SimilarityAt(const World& world, const GoalState& goal,

@@ -14,6 +14,7 @@
 #include "crossnav/agent/activity.h"
 #include "crossnav/agent/config.h"
 #include "crossnav/agent/described_goal.h"
+#include "crossnav/agent/pictured_goal.h"
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/history_poi.h"
@@ -229,10 +230,18 @@ struct OneMapGoalState {
   int stuck_steps = 0;                     ///< at the end of the path to it
 };
 
+/// Live POIs under a goal that means one instance.
+struct InstanceChoice {
+  bool takes_guesses = false;  ///< nothing is left to explore
+  std::set<int> set_aside;     ///< ids of live POIs that do not fit
+};
+
 /// Reinitialised by every new goal.
 struct GoalState {
   std::string goal;                        ///< name of a category or an object
   std::optional<DescribedGoal> described;  ///< more was said than the name
+  std::optional<PicturedGoal> pictured;    ///< the goal is a picture
+  InstanceChoice instances;                ///< of a goal that is described or pictured
   int index = -1;
   std::vector<float> text;
   std::vector<std::vector<float>> background;  ///< text vectors for query.relevancy = contrastive

@@ -134,6 +134,16 @@ bool IsPng(std::span<const std::uint8_t> bytes) {
   return bytes.size() > 8 && png_sig_cmp(bytes.data(), 0, 8) == 0;
 }
 
+Result<std::array<int, 2>> PngSize(std::span<const std::uint8_t> bytes, const std::string& where) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
+    return Fail(ErrorCode::kMalformed, std::string("PNG image: ") + image.message, where);
+  const std::array<int, 2> size{static_cast<int>(image.width), static_cast<int>(image.height)};
+  png_image_free(&image);
+  return size;
+}
+
 Result<Image<Rgba8>> DecodePng(std::span<const std::uint8_t> bytes, const std::string& where) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

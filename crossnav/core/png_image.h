@@ -24,6 +24,9 @@ std::string EncodePng(const Image<std::uint8_t>& grey);
 /// True if the bytes begin with the PNG signature.
 bool IsPng(std::span<const std::uint8_t> bytes);
 
+/// Width and height of a PNG; its pixels are not unpacked. kMalformed: no PNG, or broken.
+Result<std::array<int, 2>> PngSize(std::span<const std::uint8_t> bytes, const std::string& where);
+
 using Rgba8 = std::array<std::uint8_t, 4>;
 
 /// Any PNG as colour with alpha. kUnsupported: more than 2^26 pixels; kMalformed: broken, or too

@@ -126,6 +126,8 @@ void ObjectBook::Merge(ObjectRecord& record, Watch& watch, const SeenObject& see
     record.colour = colour;
   }
   watch.colour_views = std::min<std::int64_t>(watch.colour_views + 1, 20);
+  if (std::exchange(watch.has_old_colours, false)) watch.colours = {};
+  watch.colours.Add(obs.rgb, *seen.mask, seen.box);
   const double pixels =
       static_cast<double>(seen.box.u1 - seen.box.u0) * (seen.box.v1 - seen.box.v0);
   if (pixels < kPictureGain * watch.picture_px) return;
@@ -155,6 +157,7 @@ int ObjectBook::MergeTwins(int index) {
       record.picture_png = twin.picture_png;
       watches_[index].picture_px = watches_[i].picture_px;
     }
+    watches_[index].colours.Add(watches_[i].colours);
     const int id = record.id;
     records_.erase(records_.begin() + static_cast<std::ptrdiff_t>(i));
     watches_.erase(watches_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -283,8 +286,10 @@ void ObjectBook::Load(std::vector<ObjectRecord> records) {
     next_id_ = std::max(next_id_, records_[i].id + 1);
     watches_[i].colour_views = std::min(records_[i].views, 20);
     // A saved picture stays until a sighting has at least as many pixels.
-    if (!records_[i].picture_png.empty())
-      watches_[i].picture_px = kPictureSide_px * kPictureSide_px;
+    if (records_[i].picture_png.empty()) continue;
+    watches_[i].picture_px = kPictureSide_px * kPictureSide_px;
+    watches_[i].colours = ColoursOfPortrait(records_[i].picture_png);
+    watches_[i].has_old_colours = true;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crossnav/core/observation.h"
+#include "crossnav/objects/appearance.h"
 #include "crossnav/objects/object_record.h"
 #include "crossnav/objects/portrait.h"
 
@@ -62,6 +63,9 @@ class ObjectBook {
   void Disprove(const std::string& category, std::vector<geometry::VoxelKey> voxels,
                 const Moment& when);
 
+  /// Colours of the object of records()[index], from all its sightings, or from its saved picture
+  /// until there is one.
+  const ColourHistogram& ColoursOf(int index) const { return watches_[index].colours; }
   /// Unordered; includes records of a single frame.
   const std::vector<ObjectRecord>& records() const { return records_; }
   /// Records to save, by id: objects confirmed by enough frames, and disproved places.
@@ -85,6 +89,8 @@ class ObjectBook {
     Vector3d p_doubted_world = Vector3d::Constant(1e9);  ///< camera of the last contradiction
     Vector3d doubted_along = Vector3d::Zero();           ///< and its direction
     std::int64_t colour_views = 0;
+    ColourHistogram colours;
+    bool has_old_colours = false;  ///< of the saved picture alone
   };
 
   int FindFor(const SeenObject& seen, const Vector3d& centre, std::int64_t step) const;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ namespace crossnav::perception {
 struct PixelBox {
   int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
   double Area() const { return static_cast<double>(u1 - u0) * (v1 - v0); }
+  friend bool operator==(const PixelBox&, const PixelBox&) = default;
 };
 
 struct Detection {
@@ -68,6 +70,26 @@ class DenseEncoder {
   virtual Result<std::vector<float>> EncodeText(std::string_view text) = 0;
 };
 
+/// A goal as a picture: a photograph of the wanted object (perception/goal_picture.h).
+struct GoalPicture {
+  RgbImage rgb;
+  std::optional<PixelBox> box;  ///< about the object; empty = it is in the middle
+};
+
+/// What a goal's picture says of its object.
+struct PictureReading {
+  std::string category;  ///< as the detector knows it
+  MaskImage mask;        ///< pixels of the object; not empty
+  FeatureGrid features;  ///< of the encoder, over the whole picture
+};
+
+/// Reads goals that are pictures. Optional: without it the other interfaces do (ReadPicture).
+class PictureReader {
+ public:
+  virtual ~PictureReader() = default;
+  virtual Result<PictureReading> Read(const GoalPicture& picture) = 0;
+};
+
 /// Unit vectors of the texts that the encoder can encode (a table of names may lack some). Error
 /// kUnsupported: it can encode none of them.
 Result<std::vector<std::vector<float>>> EncodeTexts(DenseEncoder& encoder,
@@ -85,6 +107,7 @@ struct PerceptionSuite {
   std::unique_ptr<Segmenter> segmenter;
   std::unique_ptr<StairSegmenter> stairs;
   std::unique_ptr<DenseEncoder> encoder;
+  std::unique_ptr<PictureReader> pictures = nullptr;  ///< null = by the four above
 
   /// Runs all four interfaces on one frame. Deterministic if they are.
   Result<Percept> Look(const Observation& obs, std::string_view goal);

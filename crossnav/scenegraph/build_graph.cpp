@@ -181,10 +181,11 @@ void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& 
   }
 }
 
-void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
-                double least) {
+void AddRecords(SceneGraph& graph, std::span<const objects::ObjectRecord> records, double least,
+                int least_views) {
   for (const objects::ObjectRecord& record : records) {
-    if (record.confidence < least || record.views == 0 || objects::IsAlias(record, records))
+    if (record.confidence < least || record.views < least_views ||
+        objects::IsAlias(record, records))
       continue;
     GraphObject object;
     object.category = record.category;

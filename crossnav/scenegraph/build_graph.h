@@ -2,6 +2,8 @@
 // Scene graph of a saved map: floors and rooms from its geometry alone, objects from its memory.
 #pragma once
 
+#include <span>
+
 #include "crossnav/geometry/stair_flight.h"
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/memory/semantic_memory.h"
@@ -24,9 +26,9 @@ std::optional<int> RoomAt(const SceneGraph& graph, int floor, const Vector3d& p_
 /// Sets floor and room of every record by the graph.
 void LocateRecords(const SceneGraph& graph, std::vector<objects::ObjectRecord>& records);
 
-/// Adds records with a confidence of `least` or more as objects.
-void AddRecords(SceneGraph& graph, const std::vector<objects::ObjectRecord>& records,
-                double least = 0.5);
+/// Adds records with a confidence of `least` or more, from `least_views` or more, as objects.
+void AddRecords(SceneGraph& graph, std::span<const objects::ObjectRecord> records,
+                double least = 0.5, int least_views = 1);
 
 /// Gives the object its id, floor and room, and appends it.
 void AddObject(SceneGraph& graph, GraphObject object);

@@ -52,6 +52,7 @@ std::string LiveStep(const ReplayFrame& frame, const ReplayOptions& options) {
   json.Key("sight").Raw(has_sight ? ToJson(NoteOf(*frame.sight)) : std::string("null"));
   json.Field("maps", std::string_view(maps));
   json.Field("runs", std::string_view(Base64(EncodeVoxelRuns(frame.trace.voxel_changes))));
+  if (frame.graph != nullptr) json.Key("graph").Raw(ToJson(*frame.graph));
   json.EndObject();
   return json.Take();
 }

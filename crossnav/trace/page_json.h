@@ -6,14 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "crossnav/core/base64.h"
 #include "crossnav/core/image.h"
 #include "crossnav/trace/json_text.h"
 #include "crossnav/trace/replay.h"
 
 namespace crossnav::trace {
-
-/// With padding.
-std::string Base64(std::string_view bytes);
 
 /// Grey PNG in base64; empty where there is no depth.
 std::string DepthText(const Image<std::uint16_t>& depth_mm);

@@ -12,6 +12,7 @@
 #include "crossnav/core/box.h"
 #include "crossnav/core/image.h"
 #include "crossnav/core/observation.h"
+#include "crossnav/trace/graph_note.h"
 #include "crossnav/trace/sight.h"
 #include "crossnav/trace/step_trace.h"
 
@@ -52,12 +53,13 @@ struct StageResult {
   double shortest_m = 0;
 };
 
-/// A step as input of the writer. `observation` and `sight` may be null: the step then has no
-/// images, or no results of perception.
+/// A step as input of the writer. `observation`, `sight` and `graph` may be null: the step then has
+/// no images, no results of perception, or the graph of the step before it.
 struct ReplayFrame {
   const StepTrace& trace;
   const Observation* observation = nullptr;
   const Sight* sight = nullptr;
+  const GraphNote* graph = nullptr;  ///< where it changed in this step
 };
 
 /// A step as output of the reader.
@@ -66,7 +68,8 @@ struct ReplayStep {
   std::string image_jpeg;         ///< empty if not written
   Image<std::uint16_t> depth_mm;  ///< 0 = invalid; empty if not written
   std::optional<SightNote> sight;
-  std::string maps_png;  ///< MapsOf the sight; empty if not written
+  std::string maps_png;            ///< MapsOf the sight; empty if not written
+  std::optional<GraphNote> graph;  ///< where it changed in this step
 };
 
 struct Replay {

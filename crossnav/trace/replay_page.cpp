@@ -58,6 +58,10 @@ std::string PageData(const Replay& replay) {
     json.Raw(step.sight ? ToJson(*step.sight) : std::string("null"));
   json.EndArray().Key("maps").BeginArray();
   for (const ReplayStep& step : replay.steps) json.Value(std::string_view(Base64(step.maps_png)));
+  json.EndArray().Key("graphs").BeginArray();
+  for (std::size_t i = 0; i < replay.steps.size(); ++i)
+    if (const auto& graph = replay.steps[i].graph)
+      json.BeginObject().Field("index", i).Key("graph").Raw(ToJson(*graph)).EndObject();
   json.EndArray();
   AppendVoxels(json, replay);
   json.EndObject();

@@ -49,6 +49,13 @@ Result<void> ReadBoxes(std::string_view data, ReplayStep& step) {
   return {};
 }
 
+Result<void> ReadGraph(std::string_view data, ReplayStep& step) {
+  auto note = GraphNoteFromJson(data);
+  if (!note) return tl::unexpected(note.error());
+  step.graph = std::move(*note);
+  return {};
+}
+
 Result<void> ReadDepth(std::string_view data, ReplayStep& step) {
   std::uint64_t width = 0, height = 0;
   std::string_view pixels, encoding;
@@ -102,6 +109,7 @@ Result<void> Take(Replay& replay, const std::string& topic, const McapMessage& m
                     : topic == "/perception/boxes"  ? ReadBoxes
                     : topic == "/perception/maps"   ? ReadMaps
                     : topic == "/map/voxel_changes" ? ReadChanges
+                    : topic == "/map/graph"         ? ReadGraph
                     : topic == "/agent/step"        ? ReadStepText
                                                     : nullptr;
   if (read == nullptr) return {};

@@ -12,6 +12,7 @@ std::string_view ReplayDescriptors();
 std::string_view StepJsonSchema();
 std::string_view StageJsonSchema();
 std::string_view SightJsonSchema();
+std::string_view GraphJsonSchema();
 /// Template that replay_page.h fills (viewer/src, packed into one file).
 std::string_view ReplayPageTemplate();
 

@@ -22,7 +22,7 @@ using geometry::VoxelState;
 struct Channels {
   std::uint16_t tf = 0, pose = 0, image = 0, calibration = 0, depth = 0;
   std::uint16_t step = 0, changes = 0, cloud = 0, plan = 0, goals = 0, log = 0, stage = 0;
-  std::uint16_t boxes = 0, maps = 0, flights = 0;
+  std::uint16_t boxes = 0, maps = 0, flights = 0, graph = 0;
 };
 
 Channels AddChannels(McapWriter& mcap) {
@@ -49,6 +49,7 @@ Channels AddChannels(McapWriter& mcap) {
   c.stage = json("/episode/stage", "crossnav.Stage", StageJsonSchema());
   c.boxes = json("/perception/boxes", "crossnav.Sight", SightJsonSchema());
   c.maps = proto("/perception/maps", "foxglove.CompressedImage");
+  c.graph = json("/map/graph", "crossnav.Graph", GraphJsonSchema());
   return c;
 }
 
@@ -174,6 +175,7 @@ Result<void> ReplayWriter::Write(const ReplayFrame& frame) {
   w.PutMap(t, trace);
   w.Put(w.channels.plan, t, EncodePlan(t, trace));
   if (trace.flights) w.Put(w.channels.flights, t, EncodeFlights(t, *trace.flights));
+  if (frame.graph != nullptr) w.Put(w.channels.graph, t, ToJson(*frame.graph));
   w.PutLog(t, trace);
   return w.mcap.EndGroup();
 }

@@ -2,6 +2,7 @@
 // Agent: set_goal, step, restore, and the result of a step.
 #include "crossnav/agent/agent.h"
 
+#include "crossnav/perception/goal_picture.h"
 #include "crossnav/trace/trace_json.h"
 #include "hooks_handle.h"
 #include "map_handle.h"
@@ -12,6 +13,20 @@ namespace {
 
 using agent::StepResult;
 using StatesOut = Array<std::uint8_t, nb::ndim<1>>;
+
+perception::GoalPicture ToPicture(const RgbIn& rgb) {
+  static_assert(sizeof(Rgb8) == 3);
+  constexpr std::size_t kMost = perception::kMostPictureSide_px;
+  if (rgb.shape(0) > kMost || rgb.shape(1) > kMost)
+    Raise(ErrorCode::kInvalid, "has a side of more than " + std::to_string(kMost) + " px",
+          "picture");
+  perception::GoalPicture picture;
+  picture.rgb.height = static_cast<int>(rgb.shape(0));
+  picture.rgb.width = static_cast<int>(rgb.shape(1));
+  const auto* first = reinterpret_cast<const Rgb8*>(rgb.data());
+  picture.rgb.data.assign(first, first + rgb.shape(0) * rgb.shape(1));
+  return picture;
+}
 
 /// The agent with the Python objects that it calls; they are destroyed after it.
 struct AgentHandle {
@@ -34,6 +49,17 @@ void SetGoal(AgentHandle& self, const std::string& goal) {
   {
     const nb::gil_scoped_release others_run;
     Unwrap(self.agent.SetGoal(goal));
+  }
+  self.has_goal = true;
+}
+
+void SetPicture(AgentHandle& self, const RgbIn& rgb, const std::optional<std::array<int, 4>>& box) {
+  perception::GoalPicture picture = ToPicture(rgb);
+  if (box) picture.box = {(*box)[0], (*box)[1], (*box)[2], (*box)[3]};
+  const InUse guard(self.in_use);
+  {
+    const nb::gil_scoped_release others_run;
+    Unwrap(self.agent.SetGoal(picture));
   }
   self.has_goal = true;
 }
@@ -134,7 +160,10 @@ void BindAgent(nb::module_& m) {
           nb::sig("def __init__(self, perception: Perception, config: crossnav._config.Settings = "
                   "None, hooks: Hooks | None = None) -> None"))
       .def("set_goal", &SetGoal, "goal"_a,
-           "Activates a goal; map, stairs and features stay as they are.")
+           "Activates a goal, a name or a description; map, stairs and features stay as they are.")
+      .def("set_goal", &SetPicture, "picture"_a, "box"_a = nb::none(),
+           "Activates a goal that is a picture, (H, W, 3) uint8: the instance that it shows is "
+           "wanted. `box` (u0, v0, u1, v1) is about it; without, it is in the middle.")
       .def("step", &Step, "observation"_a, "One step. Other threads run meanwhile.")
       .def("restore", &Restore, "map"_a, "memory"_a,
            "Starts from a copy of a saved map, its stairs and a memory; before the first goal.")

@@ -292,6 +292,19 @@ void BindEncoder(nb::module_& m) {
           "Unit vector (dim(),) float32.");
 }
 
+/// Shares a reader that Python does not see.
+class PictureLink : public perception::PictureReader {
+ public:
+  explicit PictureLink(std::shared_ptr<perception::PictureReader> reader)
+      : reader_(std::move(reader)) {}
+  Result<perception::PictureReading> Read(const perception::GoalPicture& picture) override {
+    return reader_->Read(picture);
+  }
+
+ private:
+  std::shared_ptr<perception::PictureReader> reader_;
+};
+
 }  // namespace
 
 PerceptionSuite PerceptionHandle::Suite() const {
@@ -300,6 +313,7 @@ PerceptionSuite PerceptionHandle::Suite() const {
   suite.segmenter = std::make_unique<SegmenterLink>(nb::cast<Segmenter&>(segmenter));
   suite.stairs = std::make_unique<StairsLink>(nb::cast<StairSegmenter&>(stairs));
   suite.encoder = std::make_unique<EncoderLink>(nb::cast<DenseEncoder&>(encoder));
+  if (pictures) suite.pictures = std::make_unique<PictureLink>(pictures);
   return suite;
 }
 

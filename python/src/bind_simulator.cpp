@@ -6,8 +6,12 @@
 #include <cmath>
 
 #include "crossnav/core/rng.h"
+#include "crossnav/evaluation/episodes/picture_view.h"
+#include "crossnav/evaluation/generation/goal_pictures.h"
 #include "crossnav/evaluation/scoring/outcome.h"
+#include "crossnav/perception/goal_picture.h"
 #include "crossnav/sim/sensing/ground_truth.h"
+#include "crossnav/sim/sensing/ground_truth_pictures.h"
 #include "perception_handle.h"
 #include "scene_handle.h"
 
@@ -26,9 +30,12 @@ struct Body {
   SceneHandle scene;
   evaluation::RunConfig config;
   sim::Simulator simulator;
+  sim::KnownPictures pictures;  ///< taken by take_picture
   bool is_placed = false;
   std::atomic<bool> in_use{false};
 };
+
+using RgbOut = Array<std::uint8_t, nb::shape<-1, -1, 3>>;
 
 struct SimulatorHandle {
   std::shared_ptr<Body> body;
@@ -85,6 +92,18 @@ struct TrueEncoder : perception::DenseEncoder {
   std::unique_ptr<DenseEncoder> inner;
 };
 
+/// Reads the pictures that the simulator has taken so far.
+struct TruePictures : perception::PictureReader {
+  explicit TruePictures(std::shared_ptr<Body> b) : body(std::move(b)) {}
+  Result<perception::PictureReading> Read(const perception::GoalPicture& picture) override {
+    auto reader = sim::MakeGroundTruthPictureReader(body->simulator, body->config.ground_truth,
+                                                    body->pictures);
+    if (!reader) return tl::unexpected(reader.error());
+    return (*reader)->Read(picture);
+  }
+  std::shared_ptr<Body> body;
+};
+
 /// A new Python object of the interface's type.
 template <class Interface, class Part>
 nb::object Own(const std::shared_ptr<Body>& body, std::unique_ptr<Interface> inner) {
@@ -98,7 +117,29 @@ PerceptionHandle GroundTruth(const SimulatorHandle& self) {
   return {Own<perception::Detector, TrueDetector>(self.body, std::move(suite.detector)),
           Own<perception::Segmenter, TrueSegmenter>(self.body, std::move(suite.segmenter)),
           Own<perception::StairSegmenter, TrueStairs>(self.body, std::move(suite.stairs)),
-          Own<perception::DenseEncoder, TrueEncoder>(self.body, std::move(suite.encoder))};
+          Own<perception::DenseEncoder, TrueEncoder>(self.body, std::move(suite.encoder)),
+          std::make_shared<TruePictures>(self.body)};
+}
+
+/// A picture of an instance, as episodes have them as goals.
+RgbOut TakePicture(const SimulatorHandle& self, int instance_id, std::uint64_t seed) {
+  Body& body = *self.body;
+  const InUse guard(body.in_use), scene(*body.scene.in_use);
+  const evaluation::SceneContext& context = *body.scene.context;
+  const sim::SceneInstance* instance = context.scene().FindInstance(instance_id);
+  if (instance == nullptr)
+    Raise(ErrorCode::kInvalid, "is no instance of the scene", std::to_string(instance_id));
+  Rng rng(seed);
+  auto taken = evaluation::PictureTaker(context).TakeOf(*instance, rng);
+  if (!taken)
+    Raise(ErrorCode::kInvalid, "has no place to stand with a good view of it",
+          std::to_string(instance_id));
+  body.pictures[perception::NameOfPicture(taken->picture)] = evaluation::ViewOf(*taken);
+  RgbImage& rgb = taken->picture.rgb;
+  std::vector<std::uint8_t> bytes;
+  for (const Rgb8& p : rgb.data) bytes.insert(bytes.end(), {p.r, p.g, p.b});
+  return ToArray<RgbOut>(std::move(bytes), {static_cast<std::size_t>(rgb.height),
+                                            static_cast<std::size_t>(rgb.width), std::size_t{3}});
 }
 
 // --- Moving and looking -------------------------------------------------------------------------
@@ -265,6 +306,9 @@ void BindSimulator(nb::module_& m) {
                    "H x W int32: true instance ids of the last view.")
       .def("ground_truth", &GroundTruth,
            "Perception answered from the last view. For tests, and for runs that say so.")
+      .def("take_picture", &TakePicture, "instance"_a, "seed"_a = 0, kOwnArray,
+           "A picture (H, W, 3) of an instance from a place nearby, for Agent.set_goal. The "
+           "simulator's ground truth reads the pictures that it has taken.")
       .def("is_reached", &IsReached, "goal"_a, "Would a STOP here be a success?")
       .def("is_claim_near", &IsClaimNear, "goal"_a, "p_claimed_world"_a,
            "Does the point lie within the success radius of a true instance?")

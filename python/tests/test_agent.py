@@ -66,6 +66,22 @@ def test_a_step_tells_what_happened(agent: crossnav.Agent, simulator: crossnav.S
     assert "integrate" in result.timing_ms
 
 
+def test_a_goal_may_be_a_picture(agent: crossnav.Agent, simulator: crossnav.Simulator) -> None:
+    sofa = next(o["id"] for o in simulator.scene.objects if o["category"] == "sofa")
+    picture = simulator.take_picture(sofa, seed=2)
+    assert picture.shape == (256, 256, 3) and picture.dtype == np.uint8
+    agent.set_goal(picture)
+    result = agent.step(simulator.observe())
+    assert result.trace["goal"] == "sofa"
+    assert any("picture" in event for event in result.trace["events"])
+    with pytest.raises(crossnav.Error, match="the simulator took"):
+        agent.set_goal(np.ascontiguousarray(picture[::-1]))
+    with pytest.raises(crossnav.Error, match="box"):
+        agent.set_goal(picture, box=(0, 0, 300, 10))
+    with pytest.raises(crossnav.Error, match="no instance"):
+        simulator.take_picture(10**6)
+
+
 def test_the_map_can_be_read_but_not_written(agent: crossnav.Agent,
                                              simulator: crossnav.Simulator) -> None:
     agent.set_goal("sofa")

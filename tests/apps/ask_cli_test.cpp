@@ -2,6 +2,8 @@
 // Questions about a saved map, and described goals, on the command line.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "apps/cli_fixture.h"
 
 namespace crossnav {
@@ -53,6 +55,33 @@ TEST_F(AskCli, DescribedGoalsAreOfOneObjectEach) {
       EXPECT_EQ(goals.size(), 1u) << key;
     }
   EXPECT_GT(described, 0);
+}
+
+TEST_F(AskCli, GoalsOfThreeKindsArePlayedAndReportedByKind) {
+  ASSERT_EQ(Run("episodes generate --scenes scenes --count 4 --goals 2 --seed 3 --out p.json "
+                "--goals-as picture")
+                .exit_code,
+            0);
+  Json file = Json::parse(test::ReadText(At("p.json")));
+  ASSERT_FALSE(file["goal_pictures"].empty());
+  const std::string name = file["goal_pictures"].begin().key();
+  int objects = 0;
+  for (const auto& [key, goals] : file["goals_by_category"].items())
+    if (key.ends_with("_" + name)) objects += static_cast<int>(goals.size());
+  EXPECT_EQ(objects, 1);
+  const auto eval = Run("eval --scenes scenes --episodes p.json --out run --quiet --json" +
+                        std::string(kSmall) + " --set eval.action_budget=20");
+  ASSERT_EQ(eval.exit_code, 0) << eval.err;
+  const Outcome metrics = Run("metrics run/results.jsonl --json");
+  ASSERT_EQ(metrics.exit_code, 0) << metrics.err;
+  EXPECT_GE(Json::parse(metrics.out)["kinds"]["picture"]["executed"], 1);
+
+  file["goal_pictures"][name]["png"] = "AAAA";
+  test::WriteText(At("bad.json"), file.dump());
+  const Outcome bad = Run("eval --scenes scenes --episodes bad.json --out bad");
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_NE(bad.err.find(name), std::string::npos) << bad.err;
+  EXPECT_EQ(std::count(bad.err.begin(), bad.err.end(), '\n'), 1) << bad.err;
 }
 
 }  // namespace

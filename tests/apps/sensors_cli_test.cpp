@@ -50,6 +50,23 @@ TEST_F(RealFrames, AMapOfRealFramesHoldsInFramesThatWereLeftOut) {
   for (const Json& plant : room["known_plants"]) EXPECT_LT(plant["error_m"].get<double>(), 0.3);
 }
 
+TEST_F(RealFrames, ARobotFindsItselfInAMapOfOtherFrames) {
+  const std::string data = test::SharedPath("data/hololens");
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << "no real frames: " << data;
+  const Outcome outcome =
+      Run("bench localize --recording " + data + " --quiet --json --set map.clearing=evidence");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json result = Json::parse(outcome.out, nullptr, false);
+  EXPECT_EQ(result["trials"], 63);
+  EXPECT_GE(result["right"]["count"].get<int>(), 57);
+  EXPECT_LE(result["wrong"]["count"].get<int>(), 4);  // single views decide here, too
+}
+
+TEST_F(SensorsCli, OneSourceOfLostRobotsIsNeeded) {
+  EXPECT_EQ(Run("bench localize").exit_code, 1);
+  EXPECT_EQ(Run("bench localize --scenes scenes --recording scenes").exit_code, 1);
+}
+
 TEST_F(SensorsCli, AFolderWithoutFramesIsNamed) {
   const Outcome outcome = Run("bench sensors scenes");
   EXPECT_EQ(outcome.exit_code, 1);

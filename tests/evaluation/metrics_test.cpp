@@ -159,5 +159,22 @@ TEST(Bootstrap, PairedDifferenceIsNarrowerThanTwoIndependentIntervals) {
   EXPECT_LT(difference.interval.high - difference.interval.low, single.high - single.low);
 }
 
+TEST(Metrics, KindsOfGoalsAreKeptApart) {
+  EpisodeRecord episode = MakeEpisode("a", 3, {{true, 4, 4}, {true, 4, 8}, {false, 4, 9}});
+  EXPECT_TRUE(PerKind({&episode, 1}).empty());
+  episode.goals = {"chair", "the red chair", "picture 0123456789abcdef"};
+  for (std::size_t k = 0; k < 3; ++k) episode.stages[k].goal = episode.goals[k];
+  const auto kinds = PerKind({&episode, 1});
+  ASSERT_EQ(kinds.size(), 3U);
+  EXPECT_EQ(NameOf(kinds[1].kind), "description");
+  EXPECT_EQ(kinds[1].executed, 1);
+  EXPECT_EQ(kinds[1].successes, 1);
+  EXPECT_DOUBLE_EQ(kinds[1].spl, 0.5);
+  EXPECT_EQ(NameOf(kinds[2].kind), "picture");
+  EXPECT_EQ(kinds[2].successes, 0);
+  EXPECT_EQ(PerCategory({&episode, 1}).count("picture"), 1U);
+  EXPECT_EQ(CountOutcomes({&episode, 1}).count("description"), 1U);
+}
+
 }  // namespace
 }  // namespace crossnav::evaluation

@@ -10,6 +10,7 @@
 #include "crossnav/evaluation/records/result_records.h"
 #include "crossnav/evaluation/settings/config_file.h"
 #include "crossnav/geometry/map_blocks.h"
+#include "crossnav/perception/goal_picture.h"
 #include "crossnav/store/block_codec.h"
 #include "crossnav/store/map_file.h"
 #include "crossnav/trace/preview.h"
@@ -183,6 +184,15 @@ void AddEpisodes(const Seeds& seeds) {
   file.goals_by_category["House.glb_bed"] = {{7, "bed_7", "bed", {1, 2, 3}, {{1, 1, 1}}}};
   (void)evaluation::WriteEpisodes(seeds.Path("episodes", "ours.json"), file);
   (void)evaluation::WriteEpisodes(seeds.Path("episodes", "ours.json.gz"), file);
+  auto picture = std::make_shared<evaluation::StagePicture>();
+  picture->picture.rgb = RgbImage(32, 32, {120, 120, 120});
+  picture->picture.box = perception::PixelBox{8, 8, 24, 24};
+  picture->camera_height_m = 1;
+  picture->hfov_deg = 70;
+  const std::string name = perception::NameOfPicture(picture->picture);
+  file.episodes[0].goals[1] = name;
+  file.episodes[0].pictures[name] = picture;
+  (void)evaluation::WriteEpisodes(seeds.Path("episodes", "picture.json"), file);
   seeds.Put("episodes", "objectnav.json",
             R"({"episodes":[{"episode_id":"0","scene_id":"hm3d/a/b.glb","start_position":[1,2,3],)"
             R"("start_rotation":[0,0,0,1],"object_category":"bed","goals":[]}],)"
@@ -244,13 +254,15 @@ void AddReplays(const Seeds& seeds) {
   seeds.Put("trace_json", "info.json", trace::ToJson(sample.info));
   seeds.Put("trace_json", "stage.json", trace::ToJson(sample.stages[0]));
   seeds.Put("trace_json", "sight.json", trace::ToJson(trace::NoteOf(frame.sight)));
+  const trace::GraphNote& graph = *sample.frames[10].graph;
+  seeds.Put("trace_json", "graph.json", trace::ToJson(graph));
   seeds.Put("voxel_runs", "runs", trace::EncodeVoxelRuns(frame.trace.voxel_changes));
   const fs::path file = seeds.Scratch("replay.tmp");
   {
     trace::ReplayOptions small;
     small.cloud_every_steps = 0;
     auto writer = trace::ReplayWriter::Open(file, sample.info, small);
-    (void)writer->Write({frame.trace, &frame.observation, &frame.sight});
+    (void)writer->Write({frame.trace, &frame.observation, &frame.sight, &graph});
     (void)writer->WriteStage(sample.stages[0]);
     (void)writer->Close();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/trace/trace_json.h"
+#include "crossnav/trace/graph_note.h"
 #include "crossnav/trace/replay_json.h"
 #include "crossnav/trace/sight.h"
 #include "fuzz/harness.h"
@@ -11,4 +12,6 @@ FUZZ(trace_json, input) {
   (void)crossnav::trace::ReplayInfoFromJson(text);
   (void)crossnav::trace::StageResultFromJson(text);
   (void)crossnav::trace::SightNoteFromJson(text);
+  if (const auto graph = crossnav::trace::GraphNoteFromJson(text))
+    (void)crossnav::trace::ToJson(*graph);
 }

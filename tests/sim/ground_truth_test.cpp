@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
+#include "crossnav/perception/goal_picture.h"
 #include "micro_scene.h"
 
 namespace crossnav::sim::test {
@@ -155,6 +159,48 @@ TEST(GroundTruth, AllPartsWorkTogether) {
   EXPECT_EQ(percept->features.dim, 768);  // tab:supp_configuration, "Dense output"
   EXPECT_EQ(percept->features.rows, 24);
   EXPECT_EQ(percept->features.cols, 24);
+}
+
+/// A picture of an instance from (2, 2.4), and what ground truth needs of it.
+std::pair<perception::GoalPicture, PictureView> PictureOf(const TruthWorld& w, int instance) {
+  PictureView view{instance, CameraPose({{2, 2.4, 0}, 0, 0}, 1.2), 80};
+  perception::GoalPicture picture;
+  picture.rgb = w.caster.Render(IntrinsicsFromHfov(64, 64, DegToRad(80)), view.T_world_camera).rgb;
+  return {std::move(picture), view};
+}
+
+TEST(GroundTruthPictures, APictureIsReadAsTheInstanceThatItShows) {
+  TruthWorld w;
+  const auto [picture, view] = PictureOf(w, w.near_chair);
+  auto suite =
+      *GroundTruthPerception(w.simulator, {}, {{perception::NameOfPicture(picture), view}});
+  const auto reading = perception::ReadPicture(suite, picture, {});
+  ASSERT_TRUE(reading) << reading.error().Message();
+  EXPECT_EQ(reading->category, "chair");
+  EXPECT_GT(std::count(reading->mask.data.begin(), reading->mask.data.end(), 1), 50);
+  // Its features are nearer to the chair's text than the others of the picture.
+  const auto text = *suite.encoder->EncodeText("chair");
+  const auto cosine = [&](const std::vector<float>& v) {
+    return std::inner_product(v.begin(), v.end(), text.begin(), 0.0);
+  };
+  EXPECT_GT(cosine(perception::PooledFeature(reading->features, reading->mask)),
+            cosine(perception::PooledFeature(reading->features, reading->mask, true)) + 0.1);
+}
+
+TEST(GroundTruthPictures, OtherPicturesAndAbsentObjectsAreErrors) {
+  TruthWorld w;
+  const auto [picture, view] = PictureOf(w, w.near_chair);
+  const std::string name = perception::NameOfPicture(picture);
+  const auto code = [&](const KnownPictures& known) {
+    const auto suite = *GroundTruthPerception(w.simulator, {}, known);
+    const auto reading = perception::ReadPicture(suite, picture, {});
+    EXPECT_FALSE(reading);
+    return reading ? ErrorCode::kIo : reading.error().code;
+  };
+  EXPECT_EQ(code({}), ErrorCode::kUnsupported);
+  EXPECT_EQ(code({{name, {4711, view.T_world_camera, 80}}}), ErrorCode::kMismatch);
+  EXPECT_EQ(code({{name, {w.near_chair, CameraPose({{1, 1, 0}, DegToRad(180), 0}, 1.2), 80}}}),
+            ErrorCode::kMismatch);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ Result<void> WriteSample(const std::filesystem::path& path) {
   if (!writer) return tl::unexpected(writer.error());
   auto stage = episode.stages.begin();
   for (const SampleFrame& frame : episode.frames) {
-    auto done = writer->Write({frame.trace, &frame.observation, &frame.sight});
+    auto done = writer->Write(
+        {frame.trace, &frame.observation, &frame.sight, frame.graph ? &*frame.graph : nullptr});
     if (done && stage != episode.stages.end() && stage->last_step == frame.trace.step) {
       done = writer->WriteStage(*stage++);
     }

@@ -57,6 +57,54 @@ TEST(Replay, ComesBackStepByStep) {
   }
 }
 
+TEST(Replay, KeepsTheGraphWhereItChanged) {
+  const test::TempFolder folder;
+  const fs::path path = folder.path() / "a.mcap";
+  {
+    auto writer = ReplayWriter::Open(path, Sample().info);
+    ASSERT_TRUE(writer);
+    for (const SampleFrame& frame : Sample().frames)
+      ASSERT_TRUE(
+          writer->Write({frame.trace, nullptr, nullptr, frame.graph ? &*frame.graph : nullptr}));
+    ASSERT_TRUE(writer->Close());
+  }
+  const auto replay = ReadReplay(path);
+  ASSERT_TRUE(replay) << replay.error().Message();
+  ASSERT_GT(replay->steps.size(), 80U);
+  for (std::size_t i = 0; i < replay->steps.size(); ++i) {
+    const auto &read = replay->steps[i].graph, &written = Sample().frames[i].graph;
+    ASSERT_EQ(read.has_value(), written.has_value()) << i;
+    if (read) EXPECT_EQ(ToJson(*read), ToJson(*written));
+  }
+  const std::string page = ReplayPage(*replay);
+  EXPECT_NE(page.find("\"graphs\":[{\"index\":10,"), std::string::npos);
+}
+
+TEST(GraphNote, JsonRoundTripsAndDamageIsNamed) {
+  const GraphNote& note = *Sample().frames[80].graph;
+  const std::string json = ToJson(note);
+  const auto read = GraphNoteFromJson(json);
+  ASSERT_TRUE(read) << read.error().Message();
+  EXPECT_EQ(ToJson(*read), json);
+  EXPECT_EQ(read->objects[1].category, "plant");
+  EXPECT_EQ(read->relations[0].kind, "above");
+  const auto expect = [&](const std::string& from, const std::string& to, const char* where) {
+    std::string bad = json;
+    ASSERT_NE(bad.find(from), std::string::npos) << from;
+    bad.replace(bad.find(from), from.size(), to);
+    const auto damaged = GraphNoteFromJson(bad);
+    ASSERT_FALSE(damaged) << to;
+    EXPECT_NE(damaged.error().Message().find(where), std::string::npos)
+        << damaged.error().Message();
+  };
+  expect("\"rooms\"", "\"walls\"", "rooms");
+  expect("[0,0,8,0]", "[0,0,8]", "outline[0]");
+  expect("\"id\":1,\"category\"", "\"id\":1e99,\"category\"", "objects[1].id");
+  expect("\"from\":1", "\"from\":\"1\"", "relations[0].from");
+  EXPECT_FALSE(GraphNoteFromJson("[]"));
+  EXPECT_FALSE(GraphNoteFromJson(""));
+}
+
 TEST(Replay, KeepsImages) {
   const test::TempFolder folder;
   const fs::path path = folder.path() / "a.mcap";

@@ -156,6 +156,33 @@ std::vector<Waypoint> MakeRoute() {
           {{1.6, 1.5, kStorey}, 2, "target_approach", "the POI is within the approach range"}};
 }
 
+/// Two rooms on two floors; a bed, and a plant beside it once both floors are known.
+GraphNote GraphOf(bool has_upper_floor) {
+  GraphNote note;
+  const auto room = [](int id, double height_m) {
+    return GraphNote::Room{id,
+                           height_m,
+                           24,
+                           {4, 2, height_m},
+                           {{0, 0, 8, 0}, {8, 0, 8, 4}, {8, 4, 0, 4}, {0, 4, 0, 0}}};
+  };
+  note.floors_m = {0};
+  note.rooms = {room(0, 0)};
+  Box3 bed;
+  bed.min = {0.2, 0.2, 0};
+  bed.max = {2.2, 1.8, 0.5};
+  note.objects = {{0, "bed", 0, bed}};
+  if (!has_upper_floor) return note;
+  note.floors_m.push_back(kStorey);
+  note.rooms.push_back(room(1, kStorey));
+  Box3 plant;
+  plant.min = {0.2, 0.2, kStorey};
+  plant.max = {0.7, 0.7, kStorey + 1.1};
+  note.objects.push_back({1, "plant", 1, plant});
+  note.relations = {{"above", 1, 0}};
+  return note;
+}
+
 class Recorder {
  public:
   explicit Recorder(int image_px) : house_(MakeHouse()), route_(MakeRoute()), image_px_(image_px) {
@@ -250,6 +277,7 @@ class Recorder {
     }
     frame.observation = Look(house_, t.T_world_camera, image_px_);
     frame.sight = SightOf(frame.observation);
+    if (t.step == 10 || t.step == 80) frame.graph = GraphOf(t.step == 80);
     UpdateMap(frame);
     AddCandidates(to, t);
     episode_.frames.push_back(std::move(frame));

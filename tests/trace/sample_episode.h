@@ -4,6 +4,7 @@
 // scripted. Deterministic, no files.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "crossnav/core/observation.h"
@@ -14,7 +15,8 @@ namespace crossnav::trace {
 struct SampleFrame {
   StepTrace trace;
   Observation observation;
-  Sight sight;  ///< of the house: stairs, the last pieces of furniture
+  Sight sight;                     ///< of the house: stairs, the last pieces of furniture
+  std::optional<GraphNote> graph;  ///< in some steps
 };
 
 struct SampleEpisode {

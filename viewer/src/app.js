@@ -4,6 +4,7 @@ import { OrbitCamera } from "./camera.js";
 import { CompareBar } from "./compare.js";
 import { fillFloors } from "./controls.js";
 import { bytesOfBase64, floorLevels, floorOf, inflate } from "./data.js";
+import { GraphPanel } from "./graph.js";
 import { INFLATED, WALKABLE } from "./legend.js";
 import { Overlay } from "./overlay.js";
 import {
@@ -24,7 +25,10 @@ export class ReplayApp {
     this.view = {
       spread: 0, cut: 1.5, floors: "auto", isFollowing: false,
       lowFloor: 0, highFloor: 7,
-      layers: { trajectory: true, path: true, flights: true, candidates: true, goals: true, other: true },
+      layers: {
+        trajectory: true, path: true, flights: true, rooms: true, objects: true, relations: false,
+        candidates: true, goals: true, other: true,
+      },
       isShown: runs[0].states.map((s) => s.is_surface),
     };
     this.camera = new OrbitCamera();
@@ -45,7 +49,8 @@ export class ReplayApp {
     this.candidates = new CandidatesPanel(replay, (i) => this.highlight(i));
     this.panels = [new CameraPanel(replay), new SightLayer(replay),
       new StatusPanel(replay, this.view), this.candidates,
-      new VerificationPanel(replay), new LogPanel(replay, seek), new GoalsHead(replay, seek)];
+      new VerificationPanel(replay), new GraphPanel(replay), new LogPanel(replay, seek),
+      new GoalsHead(replay, seek)];
     if (this.compare) this.panels.push(this.compare);
     this.timeline = new Timeline(byId("timeline"), replay, seek);
     fillHead(replay);
@@ -220,7 +225,8 @@ export class ReplayApp {
       }, shapes);
     }
     this.overlay.draw({
-      width: box.width, height: box.height, ratio, matrix, step, view: this.view, colours,
+      width: box.width, height: box.height, ratio, matrix, step, index: this.index,
+      view: this.view, colours,
       flatLines: this.renderer ? null : shapes.lines,
     });
     this.timeline.show(this.index, colours);

@@ -81,6 +81,13 @@ export function flightsAt(steps, index) {
   return [];
 }
 
+/// The scene graph after a step, or null: replays hold it only where it changed.
+export function graphAt(replay, index) {
+  const graphs = replay.graphs || [];
+  for (let i = graphs.length - 1; i >= 0; --i) if (graphs[i].index <= index) return graphs[i].graph;
+  return null;
+}
+
 /// Consecutive steps for which key(step) is equal: [{from, to, key}], both ends included.
 export function segments(steps, key) {
   const out = [];

@@ -2,13 +2,18 @@
 // The legend: visible voxels and layers.
 import { words } from "./data.js";
 import { byId, make } from "./panels.js";
-import { FLIGHT_COLOUR, KINDS, OTHER_RUN_COLOUR, PATH_COLOUR } from "./scene.js";
+import {
+  FLIGHT_COLOUR, KINDS, OBJECT_COLOUR, OTHER_RUN_COLOUR, PATH_COLOUR, RELATION_COLOUR, ROOM_COLOUR,
+} from "./scene.js";
 
 export const WALKABLE = "#b9dcc0", INFLATED = "#dccfb8";
 const LAYERS = [
   ["trajectory", "trajectory, by goal", "#1c7ed6"],
   ["path", "planned path", PATH_COLOUR],
   ["flights", "flights of stairs", FLIGHT_COLOUR],
+  ["rooms", "rooms of the map", ROOM_COLOUR],
+  ["objects", "objects with a record", OBJECT_COLOUR],
+  ["relations", "relations of objects", RELATION_COLOUR],
   ["candidates", "candidates and target", "#e64980"],
   ["goals", "true goals (agent unaware)", "#2f9e44"],
   ["other", "where the other run went", OTHER_RUN_COLOUR],
@@ -39,7 +44,7 @@ export function fillLegend(app) {
       });
   }), patchRow(WALKABLE, "floor that can be walked"), patchRow(INFLATED, "floor too near an obstacle"));
   byId("legend-layers").replaceChildren(...LAYERS.filter(([key]) => key !== "other" || app.compare).map(([key, name, colour]) =>
-    legendRow(colour, name, true, (isOn) => {
+    legendRow(colour, name, view.layers[key], (isOn) => {
       view.layers[key] = isOn;
       app.redraw();
     })), make("div", "marks", Object.values(KINDS).map((kind) => {

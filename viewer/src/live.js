@@ -9,18 +9,19 @@ export function replayOf(head) {
   const { info, depth_max_m, states, runs } = head;
   return {
     info, depth_max_m, states, is_complete: true, stages: [], steps: [], images: [], depths: [],
-    sights: [], maps: [], pieces: runs ? [bytesOfBase64(runs)] : [],
+    sights: [], maps: [], graphs: [], pieces: runs ? [bytesOfBase64(runs)] : [],
   };
 }
 
 /// Adds a step; returns its voxel runs, after the head's runs for the first step.
 export function addStep(replay, event) {
-  const { step, image, depth, sight, maps, runs } = event;
+  const { step, image, depth, sight, maps, runs, graph } = event;
   replay.steps.push(step);
   replay.images.push(image);
   replay.depths.push(depth);
   replay.sights.push(sight);
   replay.maps.push(maps);
+  if (graph) replay.graphs.push({ index: replay.steps.length - 1, graph });
   // A robot's goals are unknown in advance.
   while (replay.info.goals.length <= step.goal_index) replay.info.goals.push(step.goal);
   replay.info.goals[step.goal_index] = step.goal;

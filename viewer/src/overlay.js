@@ -2,8 +2,11 @@
 // Labels over the 3D view: candidates, target, goals, floors. Without WebGL it also draws the
 // lines, so that the page shows the robot's path.
 import { projectPoint } from "./camera.js";
+import { graphAt, words } from "./data.js";
 import { LINE_FLOATS } from "./renderer.js";
-import { GOAL_COLOUR, OTHER_GOAL_COLOUR, above, kindOf } from "./scene.js";
+import {
+  GOAL_COLOUR, OBJECT_COLOUR, OTHER_GOAL_COLOUR, ROOM_COLOUR, above, kindOf, middleOf,
+} from "./scene.js";
 
 export class Overlay {
   constructor(canvas, builder) {
@@ -14,7 +17,7 @@ export class Overlay {
   }
 
   draw(frame) {
-    const { width, height, ratio, matrix, step, view, colours } = frame;
+    const { width, height, ratio, matrix, step, index, view, colours } = frame;
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
     const c = this.canvas.getContext("2d");
@@ -27,6 +30,7 @@ export class Overlay {
     this.colours = colours;
     this.project = (p) => projectPoint(matrix, this.builder.lift(p), width, height);
     if (frame.flatLines) drawFlat(c, frame.flatLines, matrix, width, height);
+    this.drawGraph(graphAt(this.builder.replay, index), view.layers);
     if (view.layers.goals) this.drawGoals(step);
     if (view.layers.candidates) this.drawCandidates(step);
     if (!view.layers.candidates) this.drawTarget(step);
@@ -40,6 +44,20 @@ export class Overlay {
       const at = this.project([centre[0], centre[1], instance.box_max[2] + 0.15]);
       const colour = isCurrent ? GOAL_COLOUR : OTHER_GOAL_COLOUR;
       if (at) this.tag(at, instance.goal.replace(/_/g, " "), colour);
+    }
+  }
+
+  drawGraph(graph, layers) {
+    const name = (p, text, colour) => {
+      const at = this.builder.isShown(p) && this.project(p);
+      if (at) this.tag(at, text, colour);
+    };
+    for (const room of (graph && layers.rooms) ? graph.rooms : []) {
+      name(room.center, `room ${room.id}`, ROOM_COLOUR);
+    }
+    for (const object of (graph && layers.objects) ? graph.objects : []) {
+      const [x, y] = middleOf(object);
+      name([x, y, object.box_max[2] + 0.1], words(object.category), OBJECT_COLOUR);
     }
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The 3D view's content at a step: lines in world metres, and the robot's pose. Applies the spread
 // of floors by the same rule as the renderer's shader.
-import { flightsAt, floorOf } from "./data.js";
+import { flightsAt, floorOf, graphAt } from "./data.js";
 
 export const GOAL_COLOURS = ["#1c7ed6", "#e8590c", "#9c36b5", "#2b8a3e", "#c2255c", "#0b7285"];
 export const MODE_COLOURS = {
@@ -25,6 +25,9 @@ const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";
 export const OTHER_RUN_COLOUR = "#868e96";
 export const FLIGHT_COLOUR = "#5f3a12";
+export const ROOM_COLOUR = "#7048e8";
+export const OBJECT_COLOUR = "#0c8599";
+export const RELATION_COLOUR = "#f08c00";
 export const GOAL_COLOUR = "#2f9e44";
 export const OTHER_GOAL_COLOUR = "#5c6773";
 
@@ -63,6 +66,7 @@ export class SceneBuilder {
     if (layers.other && this.other) this.addOther(out, index);
     if (layers.trajectory) this.addTrajectory(out, index);
     if (layers.flights) this.addFlights(out, index);
+    this.addGraph(out, graphAt(this.replay, index));
     if (layers.path) this.addPath(out, step);
     this.addAgent(out, step);
     return out;
@@ -113,6 +117,28 @@ export class SceneBuilder {
     }
   }
 
+  /// Rooms as outlines on their floor, objects as boxes, relations as lines between these.
+  addGraph(out, graph) {
+    if (!graph) return;
+    const { rooms, objects, relations } = this.view.layers;
+    for (const room of rooms ? graph.rooms : []) {
+      const z = room.height_m + 0.04;
+      for (const [x0, y0, x1, y1] of room.outline) {
+        this.addLine(out, [x0, y0, z], [x1, y1, z], rgbOf(ROOM_COLOUR), 0.9, 2.2);
+      }
+    }
+    for (const object of objects ? graph.objects : []) {
+      for (const [p, q] of boxEdges(object.box_min, object.box_max)) {
+        this.addLine(out, p, q, rgbOf(OBJECT_COLOUR), 0.9, 1.6);
+      }
+    }
+    const byId = new Map(graph.objects.map((object) => [object.id, object]));
+    for (const { from, to } of relations ? graph.relations : []) {
+      const [a, b] = [byId.get(from), byId.get(to)];
+      if (a && b) this.addLine(out, middleOf(a), middleOf(b), rgbOf(RELATION_COLOUR), 0.9, 1.8);
+    }
+  }
+
   addGoals(out, step) {
     for (const instance of this.replay.info.goal_instances) {
       const isCurrent = instance.goal === step.goal;
@@ -139,6 +165,10 @@ export class SceneBuilder {
 
 export function above(p, height) {
   return [p[0], p[1], p[2] + height];
+}
+
+export function middleOf(object) {
+  return object.box_min.map((v, i) => (v + object.box_max[i]) / 2);
 }
 
 function boxEdges(lo, hi) {

@@ -5,7 +5,8 @@ import { test } from "node:test";
 
 import { partingOf, runNames } from "../src/compare.js";
 import {
-  checkFigure, flightsAt, floorLevels, floorOf, forEachRunVoxel, isChecked, logLines, openingOf, segments,
+  checkFigure, flightsAt, floorLevels, floorOf, forEachRunVoxel, graphAt, isChecked, logLines, openingOf,
+  segments,
 } from "../src/data.js";
 import { addStep, replayOf } from "../src/live.js";
 import { COVERED, VoxelHistory, blockFaces } from "../src/voxels.js";
@@ -16,6 +17,12 @@ const RUNS = [0x02, 0x01, 0x04, 0x02, 0x01, 0x00, 0x02, 0x03, 0x01, 0x0a];
 test("flights hold until a record has others", () => {
   const steps = [{}, { flights: [{ id: 0 }] }, {}, { flights: [{ id: 0 }, { id: 1 }] }, {}];
   assert.deepEqual([0, 1, 2, 3, 4].map((i) => flightsAt(steps, i).length), [0, 1, 1, 2, 2]);
+});
+
+test("the graph holds until it changes, and older replays have none", () => {
+  const replay = { graphs: [{ index: 2, graph: "a" }, { index: 5, graph: "b" }] };
+  assert.deepEqual([0, 2, 4, 5, 9].map((i) => graphAt(replay, i)), [null, "a", "a", "b", "b"]);
+  assert.equal(graphAt({}, 3), null);
 });
 
 const UNCHECKED = {
@@ -125,7 +132,9 @@ test("a run that is watched makes the replay that its file would hold", () => {
   const event = (step) => ({ step, image: "i", depth: "", sight: null, maps: "", runs: base64([1]) });
   const first = addStep(replay, event({ step: 0, goal_index: 0, goal: "bed" }));
   assert.deepEqual(first.map((bytes) => [...bytes]), [RUNS, [1]]);  // the map before, then the step's
-  assert.equal(addStep(replay, event({ step: 1, goal_index: 1, goal: "sofa" })).length, 1);
+  const second = { ...event({ step: 1, goal_index: 1, goal: "sofa" }), graph: { rooms: [] } };
+  assert.equal(addStep(replay, second).length, 1);
+  assert.deepEqual(replay.graphs, [{ index: 1, graph: { rooms: [] } }]);
   assert.deepEqual(replay.info.goals, ["bed", "sofa"]);
   assert.deepEqual([replay.steps.length, replay.images, replay.sights], [2, ["i", "i"], [null, null]]);
 });

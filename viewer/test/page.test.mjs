@@ -47,6 +47,17 @@ test("the page draws the map and asks nobody", { skip }, async () => {
   await page.close();
 });
 
+test("the graph is listed as it was at the step", { skip }, async () => {
+  const { page, trouble } = await show("sample.html", "#step=5");
+  assert.ok(await page.locator("#graph-section").isHidden());
+  await page.keyboard.press("End");
+  assert.match(await page.textContent("#graph-count"), /2 rooms, 2 objects, 1 relations/);
+  assert.match(await page.textContent("#graph"), /floor 1.*room 1.*plant 1 above bed 0/);
+  await keep(page, "graph");
+  assert.deepEqual(trouble, []);
+  await page.close();
+});
+
 /// Pixels of the layer over the camera image that are not clear.
 function inkOf(page) {
   return page.evaluate(() => {

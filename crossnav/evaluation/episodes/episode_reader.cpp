@@ -7,6 +7,7 @@
 #include "crossnav/core/rng.h"
 #include "crossnav/evaluation/episodes/episodes.h"
 #include "crossnav/evaluation/episodes/habitat_frame.h"
+#include "crossnav/evaluation/episodes/picture_json.h"
 #include "crossnav/evaluation/files/gzip_file.h"
 #include "crossnav/evaluation/files/not_a_number.h"
 #include "crossnav/evaluation/records/result_records.h"
@@ -325,6 +326,7 @@ Result<void> ReadText(const std::string& text, const std::string& where, Episode
     file.episodes.push_back(std::move(*episode));
   }
   file.content_hash = MixSeed(file.content_hash, HashString(text));
+  if (auto ok = ReadGoalPictures(root, where, file.episodes); !ok) return ok;
   return ReadGoalsByCategory(root, where, file);
 }
 

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "crossnav/core/base64.h"
 #include "crossnav/core/categories.h"
+#include "crossnav/core/png_image.h"
 #include "crossnav/core/rng.h"
 #include "crossnav/evaluation/episodes/episodes.h"
 #include "crossnav/evaluation/episodes/habitat_episodes.h"
@@ -89,6 +91,17 @@ Json GoalJson(const GoalObject& goal) {
   return json;
 }
 
+Json PictureJson(const StagePicture& picture) {
+  Json json = {{"png", Base64(EncodePng(picture.picture.rgb))},
+               {"object_id", picture.object_id},
+               {"position", PositionJson(picture.taken_from.p_world)},
+               {"rotation", RotationJson(picture.taken_from.yaw_rad)},
+               {"camera_height_m", RoundedForFile(picture.camera_height_m)},
+               {"hfov_deg", RoundedForFile(picture.hfov_deg)}};
+  if (const auto& box = picture.picture.box) json["box"] = {box->u0, box->v0, box->u1, box->v1};
+  return json;
+}
+
 Json FileJson(const EpisodeFile& file, Json (*episode_json)(const Episode&)) {
   Json goals_by_category = Json::object();
   for (const auto& [key, goals] : file.goals_by_category) {
@@ -104,6 +117,11 @@ Json FileJson(const EpisodeFile& file, Json (*episode_json)(const Episode&)) {
                {"episodes", std::move(episodes)},
                {"category_to_task_category_id", ids},
                {"category_to_scene_annotation_category_id", ids}};
+  Json pictures = Json::object();
+  for (const Episode& episode : file.episodes)
+    for (const auto& [name, picture] : episode.pictures)
+      if (!pictures.contains(name)) pictures[name] = PictureJson(*picture);
+  if (!pictures.empty()) json["goal_pictures"] = std::move(pictures);
   if (file.certificate_edition > 1) json["certificate_edition"] = file.certificate_edition;
   return json;
 }

@@ -11,6 +11,7 @@
 
 #include "crossnav/core/pose.h"
 #include "crossnav/core/result.h"
+#include "crossnav/evaluation/episodes/stage_picture.h"
 
 namespace crossnav::evaluation {
 
@@ -25,7 +26,8 @@ struct Episode {
   std::string scene_id;    ///< as in the file; sim::FindScene resolves it
   std::string track;       ///< origin of the building: generated, drawn, bim, scan, ...; or empty
   AgentPose start;
-  std::vector<std::string> goals;
+  std::vector<std::string> goals;  ///< categories, descriptions or names of `pictures`
+  StagePictures pictures;          ///< of the goals that are pictures, by name
 
   // Proven by the generator; in other files empty until Certify fills it in.
   bool has_certificate = false;

@@ -31,6 +31,8 @@ struct SuiteDefinition {
   int generator_version = world::kGeneratorVersion;  ///< 0 = not generated
   double cross_floor_share = 0;                      ///< of the episodes, without counts per stage
   int per_building = 0;  ///< bim: episodes of each building; determines houses and episodes
+  /// A third of the goals each are categories, descriptions and pictures (crossnav-goat-1).
+  bool mixes_goals = false;
 
   /// House of a seed: two floors, or three for every third seed.
   world::HouseParams HouseOf(std::uint64_t seed) const;
@@ -42,8 +44,8 @@ std::span<const char* const> DrawnHomes();
 /// Whether this program's generator has the edition that the suite requires.
 bool CanGenerate(const SuiteDefinition& suite);
 
-/// crossnav-mfmon-1 and its smaller relatives; the suffix "-pack" furnishes them from a pack. Then
-/// the tracks of crossnav-mfmon-2 and of its smaller relative.
+/// crossnav-mfmon-1, crossnav-goat-1 and their smaller relatives; the suffix "-pack" furnishes them
+/// from a pack. Then the tracks of crossnav-mfmon-2 and of its smaller relative.
 std::vector<SuiteDefinition> AllSuites();
 
 /// Error: no such suite; the message lists all names.

@@ -7,9 +7,11 @@
 
 #include "crossnav/core/category_table.h"
 #include "crossnav/core/rng.h"
+#include "crossnav/evaluation/generation/goal_pictures.h"
 #include "crossnav/evaluation/generation/word_drawing.h"
 #include "crossnav/language/resolve.h"
 #include "crossnav/language/vocabulary.h"
+#include "crossnav/perception/goal_picture.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -78,29 +80,39 @@ std::optional<std::pair<std::string, GoalObject>> Describe(const SceneContext& c
 
 }  // namespace
 
-Result<int> DescribeGoals(SceneContext& context, const std::string& scene_id, double share,
-                          std::uint64_t seed, EpisodeFile& file) {
+Result<MixedGoals> MixGoals(SceneContext& context, const std::string& scene_id, const GoalMix& mix,
+                            std::uint64_t seed, EpisodeFile& file) {
   const std::string prefix = std::filesystem::path(scene_id).filename().string() + "_";
   const SceneHome scene = HomeOf(context);
+  PictureTaker taker(context);
   Rng rng(MixSeed(seed, HashString(scene_id)));
-  int count = 0;
+  MixedGoals count;
   for (Episode& episode : file.episodes) {
     if (episode.scene_id != scene_id) continue;
     Episode changed = episode;
     std::map<std::string, std::vector<GoalObject>> objects;
     for (std::string& goal : changed.goals) {
-      if (!rng.Chance(share)) continue;
-      auto described = Describe(context, scene, goal, rng);
-      if (!described) continue;
-      goal = described->first;
-      objects[prefix + goal] = {std::move(described->second)};
+      const double kind = rng.Uniform();
+      if (kind < mix.descriptions) {
+        auto described = Describe(context, scene, goal, rng);
+        if (!described) continue;
+        goal = described->first;
+        objects[prefix + goal] = {std::move(described->second)};
+      } else if (kind < mix.descriptions + mix.pictures) {
+        auto taken = taker.Take(goal, rng);
+        if (!taken) continue;
+        goal = perception::NameOfPicture(taken->first.picture);
+        objects[prefix + goal] = {std::move(taken->second)};
+        changed.pictures[goal] = std::make_shared<const StagePicture>(std::move(taken->first));
+      }
     }
     if (objects.empty()) continue;
-    context.UseDescriptions(objects, scene_id);
+    context.UseInstanceGoals(objects, scene_id);
     if (!CheckPlayable(context, changed)) continue;
     Certify(context, changed);
     changed.episode_id = ContentId(changed);
-    count += static_cast<int>(objects.size());
+    count.pictures += static_cast<int>(changed.pictures.size());
+    count.descriptions += static_cast<int>(objects.size() - changed.pictures.size());
     file.goals_by_category.merge(objects);
     episode = std::move(changed);
   }

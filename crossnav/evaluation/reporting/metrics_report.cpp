@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "crossnav/evaluation/scoring/cause.h"
@@ -95,6 +96,35 @@ std::string FailuresText(std::span<const EpisodeRecord> episodes) {
   return "failed: " + reasons + "; they count as not successful\n";
 }
 
+/// Success by kind of goal, where goals are not all categories.
+std::string KindsText(std::span<const EpisodeRecord> episodes) {
+  const auto kinds = PerKind(episodes);
+  if (kinds.empty()) return {};
+  std::string text = fmt::format("\n  {:<12} {:>6} {:>6}  {:<16} {:>6}\n", "kind of goal", "n",
+                                 "SR", "95 % (Wilson)", "SPL");
+  for (const KindMetrics& kind : kinds) {
+    const Interval interval = WilsonInterval(kind.successes, kind.executed);
+    text += fmt::format("  {:<12} {:>6} {:6.2f}  [{:6.2f}, {:6.2f}] {:6.2f}\n", NameOf(kind.kind),
+                        kind.executed, 100.0 * kind.successes / std::max(1, kind.executed),
+                        100 * interval.low, 100 * interval.high, 100 * kind.spl);
+  }
+  return text;
+}
+
+Json KindsJson(std::span<const EpisodeRecord> episodes) {
+  Json kinds = Json::object();
+  for (const KindMetrics& kind : PerKind(episodes)) {
+    const Interval interval = WilsonInterval(kind.successes, kind.executed);
+    kinds[std::string(NameOf(kind.kind))] = {
+        {"executed", kind.executed},
+        {"sr", static_cast<double>(kind.successes) / std::max(1, kind.executed)},
+        {"low", interval.low},
+        {"high", interval.high},
+        {"spl", kind.spl}};
+  }
+  return kinds;
+}
+
 /// Text for records of one origin.
 std::string TrackText(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
   std::string text =
@@ -112,7 +142,7 @@ std::string TrackText(std::span<const EpisodeRecord> episodes, const BootstrapCo
     text += fmt::format("  {:<12} {:>6} {:6.2f} {:6.2f}\n", name, category.executed,
                         100 * category.sr, 100 * category.spl);
   }
-  return text + "\n" + OutcomeText(CountOutcomes(episodes));
+  return text + KindsText(episodes) + "\n" + OutcomeText(CountOutcomes(episodes));
 }
 
 Json TrackJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& bootstrap) {
@@ -134,11 +164,13 @@ Json TrackJson(std::span<const EpisodeRecord> episodes, const BootstrapConfig& b
     for (std::size_t i = 0; i < counts.size(); ++i) row[std::string(kOutcomeNames[i])] = counts[i];
     outcomes[goal] = std::move(row);
   }
-  return {{"episodes", metrics.episodes},      {"goals", metrics.goals},
-          {"failed", CountFailures(episodes)}, {"metrics", FiguresJson(episodes, bootstrap)},
-          {"reached", metrics.reached},        {"groups", std::move(groups)},
-          {"scenes", std::move(scenes)},       {"categories", std::move(categories)},
-          {"outcomes", std::move(outcomes)}};
+  Json json = {{"episodes", metrics.episodes},      {"goals", metrics.goals},
+               {"failed", CountFailures(episodes)}, {"metrics", FiguresJson(episodes, bootstrap)},
+               {"reached", metrics.reached},        {"groups", std::move(groups)},
+               {"scenes", std::move(scenes)},       {"categories", std::move(categories)},
+               {"outcomes", std::move(outcomes)}};
+  if (Json kinds = KindsJson(episodes); !kinds.empty()) json["kinds"] = std::move(kinds);
+  return json;
 }
 
 }  // namespace

@@ -65,6 +65,19 @@ void AddGroup(const ReportRun& run, const std::string& group,
   }
 }
 
+/// Success and SPL by kind of goal; the count is of executed stages.
+void AddKinds(const ReportRun& run, std::vector<ReportFigure>& figures) {
+  for (const KindMetrics& kind : PerKind(run.episodes)) {
+    if (kind.executed == 0) continue;
+    const std::string group = "kind:" + std::string(NameOf(kind.kind));
+    const double sr = static_cast<double>(kind.successes) / kind.executed;
+    figures.push_back({run.name, group, "SR_stage", kind.executed, sr,
+                       WilsonInterval(kind.successes, kind.executed), std::nullopt});
+    figures.push_back(
+        {run.name, group, "SPL_stage", kind.executed, kind.spl, std::nullopt, std::nullopt});
+  }
+}
+
 std::string CsvField(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -103,6 +116,7 @@ std::vector<ReportFigure> CollectFigures(const std::vector<ReportRun>& runs,
     for (const auto& [name, episodes] : GroupByScene(run.episodes)) {
       AddGroup(run, "scene:" + name, episodes, bootstrap, figures);
     }
+    AddKinds(run, figures);
   }
   return figures;
 }

@@ -200,6 +200,23 @@ std::string CategoryTableText(const ReportRun& run) {
   return text;
 }
 
+/// By kind of goal; empty where all goals are categories.
+std::string KindTableText(const ReportRun& run) {
+  const auto kinds = PerKind(run.episodes);
+  if (kinds.empty()) return {};
+  std::string text = "\n### Kinds of goals\n\nOf the executed stages; Wilson 95 % intervals.\n\n" +
+                     Head({"kind", "executed", "SR", "SPL"});
+  for (const KindMetrics& kind : kinds) {
+    const Interval interval = WilsonInterval(kind.successes, kind.executed);
+    text += Row(
+        {std::string(NameOf(kind.kind)), std::to_string(kind.executed),
+         fmt::format("{:.2f} [{:.1f}, {:.1f}]", 100.0 * kind.successes / std::max(1, kind.executed),
+                     100 * interval.low, 100 * interval.high),
+         fmt::format("{:.2f}", 100 * kind.spl)});
+  }
+  return text;
+}
+
 /// Episodes of a run without a result; empty if there are none.
 std::string FailedEpisodes(const ReportRun& run) {
   if (CountFailures(run.episodes).empty()) return {};
@@ -257,9 +274,9 @@ std::string RunSection(const ReportRun& run) {
                      run.config_hash, run.episodes_hash) +
          "\n### Floor requirement\n\n" + GroupTable(GroupByCrossFloor(run.episodes)) +
          "\n### Scenes\n\n" + GroupTable(GroupByScene(run.episodes)) + "\n### Categories\n\n" +
-         CategoryTableText(run) + "\n### Outcomes\n\n" + OutcomeTableText(run) +
-         FailedEpisodes(run) + "\n### Causes of failure\n\n" + CauseTableText(run) +
-         PixelCauseText(run);
+         CategoryTableText(run) + KindTableText(run) + "\n### Outcomes\n\n" +
+         OutcomeTableText(run) + FailedEpisodes(run) + "\n### Causes of failure\n\n" +
+         CauseTableText(run) + PixelCauseText(run);
 }
 
 }  // namespace

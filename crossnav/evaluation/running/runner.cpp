@@ -8,11 +8,12 @@
 #include <optional>
 
 #include "crossnav/core/rng.h"
+#include "crossnav/evaluation/episodes/picture_view.h"
+#include "crossnav/evaluation/records/goal_kind.h"
 #include "crossnav/evaluation/running/timing.h"
 #include "crossnav/evaluation/running/walk_log.h"
 #include "crossnav/evaluation/scoring/cause.h"
 #include "crossnav/evaluation/scoring/outcome.h"
-#include "crossnav/language/parse_description.h"
 #include "crossnav/localization/awakening.h"
 #include "crossnav/sim/sensing/ground_truth.h"
 #include "crossnav/sim/sensing/simulator.h"
@@ -46,6 +47,18 @@ class FloorWatch {
   int floor_;
   int transitions_ = 0;
 };
+
+/// Whether the goal is a description or a picture.
+bool MeansOneInstance(const std::string& goal) {
+  return KindOf(goal) != GoalKind::kCategory;
+}
+
+/// What ground truth knows of the episode's pictures.
+sim::KnownPictures KnownPicturesOf(const Episode& episode) {
+  sim::KnownPictures known;
+  for (const auto& [name, picture] : episode.pictures) known[name] = ViewOf(*picture);
+  return known;
+}
 
 /// State of one episode.
 class EpisodeRun {
@@ -106,13 +119,12 @@ class EpisodeRun {
 Result<EpisodeRecord> EpisodeRun::Run(std::span<RunObserver* const> observers) {
   observers_ = observers;
   // Ground-truth perception reads the instance image, never the colours; networks the reverse.
-  // Descriptions may name colours.
-  simulator_.ShowColour(
-      config_.eval.perception != "oracle" ||
-      std::any_of(episode_.goals.begin(), episode_.goals.end(),
-                  [](const auto& goal) { return language::IsDescription(goal); }) ||
-      std::any_of(observers.begin(), observers.end(),
-                  [](const RunObserver* o) { return o->NeedsColour(); }));
+  // Descriptions may name colours, pictures show them.
+  simulator_.ShowColour(config_.eval.perception != "oracle" ||
+                        std::any_of(episode_.goals.begin(), episode_.goals.end(),
+                                    [](const auto& goal) { return MeansOneInstance(goal); }) ||
+                        std::any_of(observers.begin(), observers.end(),
+                                    [](const RunObserver* o) { return o->NeedsColour(); }));
   const double start_ms = WallMs();
   if (auto ok = CheckPlayable(context_, episode_); !ok) return tl::unexpected(ok.error());
   if (auto ok = simulator_.Reset(episode_.start); !ok) {
@@ -201,7 +213,10 @@ Observation EpisodeRun::Observe() {
 }
 
 Result<StageRecord> EpisodeRun::RunStage(const std::string& goal) {
-  if (auto ok = agent_.SetGoal(goal); !ok) return tl::unexpected(ok.error());
+  const auto picture = episode_.pictures.find(goal);
+  const auto set = picture == episode_.pictures.end() ? agent_.SetGoal(goal)
+                                                      : agent_.SetGoal(picture->second->picture);
+  if (!set) return tl::unexpected(set.error());
   StageState stage(context_.navmesh().Floors());
   stage.actions_before = actions_;
   stage.record.goal = goal;
@@ -254,7 +269,7 @@ Result<bool> EpisodeRun::StepOnce(StageState& stage, StageEnd& end) {
     const std::optional<Vector3d> p_claimed =
         step->p_claimed_world ? std::optional<Vector3d>(T_world_claims_ * *step->p_claimed_world)
                               : std::nullopt;
-    if (language::IsDescription(stage.record.goal))
+    if (MeansOneInstance(stage.record.goal))
       end.is_reached = end.is_reached && p_claimed && IsClaimOf(stage.record.goal, *p_claimed);
     end.is_claim_near = p_claimed && IsClaimNear(stage.record.goal, *p_claimed);
   } else {
@@ -308,7 +323,7 @@ bool EpisodeRun::IsClaimNear(const std::string& goal, const Vector3d& p_claimed_
   return false;
 }
 
-/// An object beside the described object is a wrong object.
+/// An object beside the described or pictured object is a wrong object.
 bool EpisodeRun::IsClaimOf(const std::string& goal, const Vector3d& p_claimed_world) const {
   constexpr double kAtBox_m = 0.3;  // chosen: three voxels
   const auto& targets = context_.TargetsOf(goal);
@@ -358,7 +373,8 @@ Result<EpisodeRecord> RunEpisode(const SceneContext& context, const Episode& epi
                            config.agent.sensor, config.agent.action);
   simulator.UseNoise(config.noise, HashString(episode.episode_id));
   auto perception = make_perception ? make_perception(simulator)
-                                    : sim::GroundTruthPerception(simulator, config.ground_truth);
+                                    : sim::GroundTruthPerception(simulator, config.ground_truth,
+                                                                 KnownPicturesOf(episode));
   if (!perception) return tl::unexpected(perception.error());
   agent::Agent agent(config.agent, std::move(*perception));
   return EpisodeRun(context, episode, config, simulator, agent).Run(observers);

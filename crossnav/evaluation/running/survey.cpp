@@ -173,6 +173,15 @@ Known KnownOf(const std::string& variant) {
   return variant == "known-objects" ? Known::kObjects : Known::kNothing;
 }
 
+std::vector<AgentPose> SurveyPoses(const SceneContext& context) {
+  std::vector<AgentPose> poses;
+  for (const Vector3d& p_world : PlacesOf(context))
+    for (int yaw = 0; yaw < kSurveyYaws; ++yaw)
+      for (const double pitch_deg : kPitches_deg)
+        poses.push_back({p_world, DegToRad(360.0 * yaw / kSurveyYaws), DegToRad(pitch_deg)});
+  return poses;
+}
+
 Result<SceneSurvey> SurveyScene(const SceneContext& context, const RunConfig& config, Known known,
                                 const OnView& on_view) {
   const bool with_objects = known == Known::kObjects;

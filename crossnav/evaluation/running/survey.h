@@ -32,6 +32,9 @@ struct SceneSurvey {
   int places = 0, views = 0;
 };
 
+/// Poses of the survey's views, all over the walkable surface.
+std::vector<AgentPose> SurveyPoses(const SceneContext& context);
+
 /// Costs some 6 ms a view of 640 x 640, about eight views a square metre. Error: known objects with
 /// an encoder other than ground truth's (eval.perception = networks).
 /// `on_view` sees every view besides, in colour.

@@ -153,11 +153,21 @@ Metrics ComputeMetricsOf(std::span<const EpisodeRecord> episodes, std::span<cons
                      [&](int i) -> const EpisodeRecord& { return episodes[indices[i]]; });
 }
 
+namespace {
+
+/// Goals of one category share a row; so do all descriptions, and all pictures.
+std::string RowOf(const std::string& goal) {
+  const GoalKind kind = KindOf(goal);
+  return kind == GoalKind::kCategory ? goal : std::string(NameOf(kind));
+}
+
+}  // namespace
+
 OutcomeTable CountOutcomes(std::span<const EpisodeRecord> episodes) {
   OutcomeTable table;
   for (const EpisodeRecord& episode : episodes) {
     for (const StageRecord& stage : episode.stages) {
-      ++table[stage.goal][static_cast<std::size_t>(stage.outcome)];
+      ++table[RowOf(stage.goal)][static_cast<std::size_t>(stage.outcome)];
     }
   }
   return table;
@@ -183,7 +193,7 @@ std::map<std::string, CategoryMetrics> PerCategory(std::span<const EpisodeRecord
   std::map<std::string, CategoryMetrics> categories;
   for (const EpisodeRecord& episode : episodes) {
     for (const StageRecord& stage : episode.stages) {
-      CategoryMetrics& category = categories[stage.goal];
+      CategoryMetrics& category = categories[RowOf(stage.goal)];
       ++category.executed;
       category.sr += stage.success ? 1 : 0;
       category.spl += StageSpl(stage);
@@ -194,6 +204,29 @@ std::map<std::string, CategoryMetrics> PerCategory(std::span<const EpisodeRecord
     category.spl /= category.executed;
   }
   return categories;
+}
+
+std::vector<KindMetrics> PerKind(std::span<const EpisodeRecord> episodes) {
+  std::vector<KindMetrics> kinds;
+  bool is_mixed = false;
+  for (const GoalKind kind : kGoalKinds) {
+    KindMetrics metrics{kind};
+    bool is_asked_for = false;
+    for (const EpisodeRecord& episode : episodes) {
+      for (const std::string& goal : episode.goals) is_asked_for |= KindOf(goal) == kind;
+      for (const StageRecord& stage : episode.stages) {
+        if (KindOf(stage.goal) != kind) continue;
+        ++metrics.executed;
+        metrics.successes += stage.success ? 1 : 0;
+        metrics.spl += StageSpl(stage);
+      }
+    }
+    if (!is_asked_for) continue;
+    is_mixed |= kind != GoalKind::kCategory;
+    if (metrics.executed > 0) metrics.spl /= metrics.executed;
+    kinds.push_back(metrics);
+  }
+  return is_mixed ? kinds : std::vector<KindMetrics>();
 }
 
 std::map<std::string, std::vector<EpisodeRecord>> GroupByScene(

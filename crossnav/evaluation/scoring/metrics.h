@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "crossnav/evaluation/records/episode_record.h"
+#include "crossnav/evaluation/records/goal_kind.h"
 
 namespace crossnav::evaluation {
 
@@ -39,7 +40,7 @@ Metrics ComputeMetrics(std::span<const EpisodeRecord> episodes);
 /// Metrics of a selection, repeats allowed (bootstrap).
 Metrics ComputeMetricsOf(std::span<const EpisodeRecord> episodes, std::span<const int> indices);
 
-/// Row = goal category, column = outcome; a row per category that occurs, sorted by name.
+/// Row = goal category, or the kind of other goals; column = outcome. Sorted by name.
 using OutcomeTable = std::map<std::string, std::array<int, kOutcomeNames.size()>>;
 OutcomeTable CountOutcomes(std::span<const EpisodeRecord> episodes);
 
@@ -49,12 +50,22 @@ std::vector<EpisodeRecord> JudgedEpisodes(std::span<const EpisodeRecord> episode
 /// Episodes without a result, by reason (error, crash, time). They count as not successful.
 std::map<std::string, int> CountFailures(std::span<const EpisodeRecord> episodes);
 
-/// Stage-level figures of one goal category: share of success and mean SPL over executed stages.
+/// Stage-level figures of one goal category, or of the other goals of one kind: share of success
+/// and mean SPL over executed stages.
 struct CategoryMetrics {
   int executed = 0;
   double sr = 0, spl = 0;
 };
 std::map<std::string, CategoryMetrics> PerCategory(std::span<const EpisodeRecord> episodes);
+
+/// Stage-level figures of one kind of goal (goal_kind.h), over executed stages.
+struct KindMetrics {
+  GoalKind kind = GoalKind::kCategory;
+  int executed = 0, successes = 0;
+  double spl = 0;
+};
+/// Of each kind that was asked for; empty where all goals are categories.
+std::vector<KindMetrics> PerKind(std::span<const EpisodeRecord> episodes);
 
 /// Episodes grouped by scene id, and by "cfr" / "same_floor" / "cfr_first_<k>".
 std::map<std::string, std::vector<EpisodeRecord>> GroupByScene(

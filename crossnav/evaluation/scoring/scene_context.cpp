@@ -6,10 +6,10 @@
 #include <set>
 
 #include "crossnav/core/categories.h"
+#include "crossnav/evaluation/records/goal_kind.h"
 #include "crossnav/evaluation/scoring/confirmation.h"
 #include "crossnav/evaluation/scoring/outcome.h"
 #include "crossnav/evaluation/scoring/viewpoint_cache.h"
-#include "crossnav/language/parse_description.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -104,14 +104,14 @@ void SceneContext::UseGoals(const std::map<std::string, std::vector<GoalObject>>
   solved_.clear();
 }
 
-void SceneContext::UseDescriptions(
+void SceneContext::UseInstanceGoals(
     const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
     const std::string& scene_id) {
   const std::string prefix = std::filesystem::path(scene_id).filename().string() + "_";
   for (const auto& [key, goals] : goals_by_category) {
     if (key.rfind(prefix, 0) != 0) continue;
     const std::string goal = key.substr(prefix.size());
-    if (!language::IsDescription(goal)) continue;
+    if (KindOf(goal) == GoalKind::kCategory) continue;
     auto targets = TargetsIn(goals);
     for (Target& target : targets) {
       const sim::SceneInstance* instance = scene_->FindInstance(target.instance);

@@ -62,10 +62,10 @@ class SceneContext {
   void UseMarks(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
                 const std::string& scene_id);
 
-  /// Takes from an episode file which instances its described goals mean ("the red chair
-  /// upstairs"): keys "<scene file>_<description>". After UseGoals and UseMarks.
-  void UseDescriptions(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
-                       const std::string& scene_id);
+  /// Takes from an episode file which instances its goals mean that are descriptions ("the red
+  /// chair upstairs") or pictures: keys "<scene file>_<goal>". After UseGoals and UseMarks.
+  void UseInstanceGoals(const std::map<std::string, std::vector<GoalObject>>& goals_by_category,
+                        const std::string& scene_id);
 
   const sim::Scene& scene() const { return *scene_; }
   const sim::NavMesh& navmesh() const { return *navmesh_; }

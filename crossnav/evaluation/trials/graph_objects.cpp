@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <list>
 #include <set>
 #include <tuple>
 
 #include "crossnav/core/category_table.h"
 #include "crossnav/evaluation/trials/true_home.h"
 #include "crossnav/policy/claim.h"
+#include "crossnav/policy/live_poi.h"
 #include "crossnav/scenegraph/box_measures.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/sim/sensing/ground_truth.h"
@@ -176,13 +178,59 @@ ObjectScore& ObjectScore::operator+=(const ObjectScore& other) {
   return *this;
 }
 
-ObjectSurvey::ObjectSurvey(const SceneContext& context, const RunConfig& config)
-    : context_(context), config_(config), book_(config.agent.map.voxel_m) {
+ObjectSurvey::ObjectSurvey(const SceneContext& context, const RunConfig& config,
+                           perception::PerceptionSuite* suite)
+    : context_(context), config_(config), suite_(suite), book_(config.agent.map.voxel_m) {
   for (const sim::SceneInstance& instance : context_.scene().instances)
     if (const std::string name = NameOf(instance); Counts(name)) names_[instance.id] = name;
+  if (suite_ != nullptr)
+    for (const char* name : policy::RivalNames()) detectable_.insert(CanonicalName(name));
 }
 
-void ObjectSurvey::Look(const Observation& obs, const sim::Simulator& simulator) {
+void ObjectSurvey::Note(const std::vector<objects::SeenObject>& seen, const Observation& obs) {
+  const auto start = std::chrono::steady_clock::now();
+  const objects::Moment when{0, views_++};
+  book_.Note(seen, obs, when);
+  (void)book_.Doubt({}, obs, when);
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Records of the suite's detections. Names without a class are not asked for again.
+Result<void> ObjectSurvey::Detect(const Observation& obs) {
+  const policy::ObjectConfig& object = config_.agent.policy.object;
+  std::vector<objects::SeenObject> seen;
+  std::list<perception::Detection> kept;  // masks that `seen` points to
+  for (auto name = detectable_.begin(); name != detectable_.end();) {
+    auto found = suite_->detector->Detect(obs, *name);
+    if (!found && found.error().code == ErrorCode::kUnsupported) {
+      name = detectable_.erase(name);
+      continue;
+    }
+    if (!found) return tl::unexpected(found.error());
+    for (perception::Detection& detection : *found) {
+      if (detection.confidence < object.detector_confidence) continue;
+      if (auto ok = suite_->segmenter->Segment(obs, detection); !ok) return ok;
+      const auto lifted = policy::LiftDetections({detection}, obs, config_.agent.map, object,
+                                                 object.detector_confidence);
+      if (lifted.empty()) continue;
+      const perception::PixelBox box = detection.box;
+      kept.push_back(std::move(detection));
+      seen.push_back({*name,
+                      lifted.front().voxels,
+                      lifted.front().confidence,
+                      &kept.back().mask,
+                      {box.u0, box.v0, box.u1, box.v1}});
+    }
+    ++name;
+  }
+  std::erase_if(names_, [&](const auto& entry) { return !detectable_.contains(entry.second); });
+  Note(seen, obs);
+  return {};
+}
+
+Result<void> ObjectSurvey::Look(const Observation& obs, const sim::Simulator& simulator) {
+  if (suite_ != nullptr)
+    if (auto ok = Detect(obs); !ok) return ok;
   std::vector<objects::SeenObject> seen;
   for (auto& [id, shown] :
        ShownIn(obs, simulator.last_frame().instance, names_, config_.agent.map)) {
@@ -194,11 +242,8 @@ void ObjectSurvey::Look(const Observation& obs, const sim::Simulator& simulator)
     ++named.second;
     seen.push_back({named.first, std::move(shown.voxels), detection->confidence, nullptr, {}});
   }
-  const auto start = std::chrono::steady_clock::now();
-  const objects::Moment when{0, views_++};
-  book_.Note(seen, obs, when);
-  (void)book_.Doubt({}, obs, when);
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (suite_ == nullptr) Note(seen, obs);
+  return {};
 }
 
 ObjectScore ScoreObjects(const scenegraph::SceneGraph& graph, const ObjectSurvey& survey,

@@ -3,12 +3,14 @@
 // relations against the scene's instances. World frame, metres.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include "crossnav/evaluation/scoring/scene_context.h"
 #include "crossnav/evaluation/settings/run_config.h"
 #include "crossnav/objects/object_book.h"
+#include "crossnav/perception/perception.h"
 #include "crossnav/scenegraph/scene_graph.h"
 #include "crossnav/sim/sensing/simulator.h"
 #include "crossnav/world/plan/plan.h"
@@ -34,19 +36,27 @@ struct ObjectScore {
 /// Instances by name: of a benchmark's category, and furniture beside them.
 class ObjectSurvey {
  public:
-  ObjectSurvey(const SceneContext& context, const RunConfig& config);
+  /// Records come from ground truth; with `suite`, from its detector, and only names that it has a
+  /// class for count. All must outlive it.
+  ObjectSurvey(const SceneContext& context, const RunConfig& config,
+               perception::PerceptionSuite* suite = nullptr);
 
-  /// Notes the ground-truth detections in the simulator's last frame.
-  void Look(const Observation& obs, const sim::Simulator& simulator);
+  /// Notes the detections in the simulator's last frame. Error: a failing network.
+  Result<void> Look(const Observation& obs, const sim::Simulator& simulator);
   const objects::ObjectBook& book() const { return book_; }
   double seconds() const { return seconds_; }  ///< of the records' work alone
   int views() const { return views_; }
-  /// Names of instances that were detected at least twice, by instance.
+  /// Names and numbers of ground truth's detections, by instance: what there was to see.
   const std::map<int, std::pair<std::string, int>>& seen() const { return seen_; }
 
  private:
+  Result<void> Detect(const Observation& obs);
+  void Note(const std::vector<objects::SeenObject>& seen, const Observation& obs);
+
   const SceneContext& context_;
   const RunConfig& config_;
+  perception::PerceptionSuite* suite_;
+  std::set<std::string> detectable_;  // names to ask the suite for
   objects::ObjectBook book_;
   std::map<int, std::string> names_;                 // of the instances that count
   std::map<int, std::pair<std::string, int>> seen_;  // name and detections

@@ -139,19 +139,23 @@ Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunC
               world::SceneIdOf(params));
 }
 
-Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& config) {
+Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& config,
+                            perception::PerceptionSuite* suite) {
   world::HouseParams params;
   params.seed = seed;
   params.edition = edition;
-  params.has_textures = false;
+  params.has_textures = suite != nullptr;
   std::unique_ptr<SceneContext> context;
   const auto plan = PassedPlan(params, config, context);
   if (!plan) return tl::unexpected(plan.error());
-  ObjectSurvey objects(*context, config);
-  const auto survey = SurveyScene(
-      *context, config, Known::kMap,
-      [&](const Observation& obs, const sim::Simulator& sim) { objects.Look(obs, sim); });
+  ObjectSurvey objects(*context, config, suite);
+  Result<void> looked;
+  const auto survey =
+      SurveyScene(*context, config, Known::kMap, [&](const Observation& obs, const auto& sim) {
+        if (looked) looked = objects.Look(obs, sim);
+      });
   if (!survey) return tl::unexpected(survey.error());
+  if (!looked) return tl::unexpected(looked.error());
   GraphTrial trial;
   trial.house = plan->id;
   const auto start = std::chrono::steady_clock::now();

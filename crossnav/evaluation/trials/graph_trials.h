@@ -45,7 +45,9 @@ Result<world::HousePlan> PassedPlan(const world::HouseParams& params, const RunC
                                     std::unique_ptr<SceneContext>& context);
 
 /// House `seed` of edition 1 or 2 as the generator draws it, its survey
-/// (evaluation/running/survey.h), its graph.
-Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& config);
+/// (evaluation/running/survey.h), its graph. With `suite`, objects come from its detections in
+/// colour pictures of the house.
+Result<GraphTrial> TryGraph(std::uint64_t seed, int edition, const RunConfig& config,
+                            perception::PerceptionSuite* suite = nullptr);
 
 }  // namespace crossnav::evaluation

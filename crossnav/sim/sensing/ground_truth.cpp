@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "crossnav/core/categories.h"
 #include "crossnav/sim/sensing/ground_truth_encoder.h"
+#include "crossnav/sim/sensing/ground_truth_pictures.h"
 
 namespace crossnav::sim {
 namespace {
@@ -219,14 +221,18 @@ std::string EncoderName(const GroundTruthConfig& config) {
 }
 
 Result<perception::PerceptionSuite> GroundTruthPerception(const Simulator& simulator,
-                                                          const GroundTruthConfig& config) {
+                                                          const GroundTruthConfig& config,
+                                                          KnownPictures pictures) {
   auto encoder = MakeGroundTruthEncoder(simulator, config);
   if (!encoder) return tl::unexpected(encoder.error());
+  auto reader = MakeGroundTruthPictureReader(simulator, config, std::move(pictures));
+  if (!reader) return tl::unexpected(reader.error());
   perception::PerceptionSuite suite;
   suite.detector = std::make_unique<GroundTruthDetector>(simulator, config);
   suite.segmenter = std::make_unique<GroundTruthSegmenter>(simulator);
   suite.stairs = std::make_unique<GroundTruthStairs>(simulator);
   suite.encoder = std::move(*encoder);
+  suite.pictures = std::move(*reader);
   return suite;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -54,11 +55,23 @@ std::optional<perception::Detection> DetectionOf(const SeenInstance& seen,
                                                  const SensorConfig& sensor,
                                                  const GroundTruthConfig& config);
 
+/// Where a goal's picture was taken, and of which instance.
+struct PictureView {
+  int instance = 0;
+  Pose T_world_camera = Pose::Identity();
+  double hfov_deg = 0;
+};
+
+/// By perception::NameOfPicture.
+using KnownPictures = std::map<std::string, PictureView>;
+
 /// All four interfaces, answered from `simulator`, which must outlive the suite. Detections of the
 /// goal category are true instances; names that are not one of kCategories match raw names exactly.
-/// Errors: `clip_dir` without readable vectors.
+/// Goals that are pictures are read if they are in `pictures` (ground_truth_pictures.h). Errors:
+/// `clip_dir` without readable vectors.
 Result<perception::PerceptionSuite> GroundTruthPerception(const Simulator& simulator,
-                                                          const GroundTruthConfig& config);
+                                                          const GroundTruthConfig& config,
+                                                          KnownPictures pictures = {});
 
 /// Name of the encoder that `config` asks for: features of one mean nothing to the other.
 std::string EncoderName(const GroundTruthConfig& config);

@@ -219,7 +219,7 @@ void BlurCells(CellContents& contents, int rows, int cols) {
   contents.share = std::move(out);
 }
 
-class GroundTruthEncoder : public perception::DenseEncoder {
+class GroundTruthEncoder : public InstanceEncoder {
  public:
   GroundTruthEncoder(const Simulator* simulator, const GroundTruthConfig& config, TextSpace texts)
       : simulator_(simulator), config_(config), texts_(std::move(texts)) {
@@ -241,6 +241,10 @@ class GroundTruthEncoder : public perception::DenseEncoder {
     const InstanceImage& image = simulator_->last_frame().instance;
     if (image.empty() || image.width != obs.rgb.width || image.height != obs.rgb.height)
       return Fail(ErrorCode::kMismatch, "the observation is not the simulator's last frame");
+    return EncodeInstances(image, obs.T_world_camera);
+  }
+
+  FeatureGrid EncodeInstances(const InstanceImage& image, const Pose& T_world_camera) override {
     const int rows = config_.feature_rows, cols = config_.feature_cols;
     CellContents contents = CountCells(image, rows, cols);
     BlurCells(contents, rows, cols);
@@ -249,7 +253,7 @@ class GroundTruthEncoder : public perception::DenseEncoder {
 
     FeatureGrid grid{rows, cols, config_.feature_dim, {}};
     grid.data.resize(static_cast<std::size_t>(rows) * cols * grid.dim);
-    const std::uint64_t frame_seed = SeedOfPose(config_.seed, obs.T_world_camera);
+    const std::uint64_t frame_seed = SeedOfPose(config_.seed, T_world_camera);
     for (int cell = 0; cell < rows * cols; ++cell) {
       const std::span<float> out(&grid.data[static_cast<std::size_t>(cell) * grid.dim],
                                  static_cast<std::size_t>(grid.dim));
@@ -318,8 +322,8 @@ Result<TextSpace> MakeTextSpace(const GroundTruthConfig& config) {
 
 }  // namespace
 
-Result<std::unique_ptr<perception::DenseEncoder>> MakeGroundTruthEncoder(
-    const Simulator& simulator, const GroundTruthConfig& config) {
+Result<std::unique_ptr<InstanceEncoder>> MakeGroundTruthEncoder(const Simulator& simulator,
+                                                                const GroundTruthConfig& config) {
   auto texts = MakeTextSpace(config);
   if (!texts) return tl::unexpected(texts.error());
   return std::make_unique<GroundTruthEncoder>(&simulator, config, std::move(*texts));

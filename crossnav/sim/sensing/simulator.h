@@ -46,6 +46,7 @@ class Simulator {
   const Frame& last_frame() const { return frame_; }
   const Scene& scene() const { return scene_; }
   const NavMesh& navmesh() const { return navmesh_; }
+  const RayCaster& caster() const { return caster_; }
   const SensorConfig& sensor() const { return sensor_; }
 
  private:
