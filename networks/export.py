@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Writes the trained networks as ONNX with fixed shapes; weights are stored in half precision.
+"""Writes the trained networks as ONNX with fixed shapes.
 
-Each weight is a float16 constant behind a cast, which inference programs fold: they compute in float32.
+Convolutions are in 8-bit integers (quantize.py), unless --float is given. Other weights are float16
+constants behind a cast, which inference programs fold: they compute in float32.
 """
 
 import argparse
@@ -13,6 +14,7 @@ import masks
 import model
 import numpy as np
 import onnx
+import quantize
 import torch
 import warm
 from halve import halve
@@ -59,20 +61,22 @@ def inputs_of(size):
     return {"image": (1, 3, size, size), "depth": (1, 1, size, size), "height": (1, 1, size, size)}
 
 
-def export(network, out, size=common.INPUT_PX):
-    write(network, out, inputs_of(size), model.OUTPUTS)
+def export(network, out, size=common.INPUT_PX, feeds=None):
+    """`feeds`: inputs that tell the ranges of integers; without them all is computed in float32."""
+    write(network, out, inputs_of(size), model.OUTPUTS, feeds)
 
 
-def export_masks(trained_masks, out, size=common.INPUT_PX):
+def export_masks(trained_masks, out, size=common.INPUT_PX, feeds=None):
     more = {"share": (1, 1, size // STRIDE, size // STRIDE), "box": (1, 4)}
-    write(masks.MaskOfBox(trained_masks).eval(), out, inputs_of(size) | more, masks.OUTPUTS)
+    write(masks.MaskOfBox(trained_masks).eval(), out, inputs_of(size) | more, masks.OUTPUTS, feeds)
 
 
-def write(network, out, shapes, outputs):
+def write(network, out, shapes, outputs, feeds=None):
     inputs = tuple(torch.ones(shape) for shape in shapes.values())
     torch.onnx.export(network, inputs, out, input_names=list(shapes), output_names=outputs,
                       opset_version=OPSET, dynamo=False)
-    made = halve(onnx.load(out))
+    made = onnx.load(out)
+    made = halve(made if feeds is None else quantize.quantized(made, feeds))
     made.producer_name, made.producer_version = "crossnav", ""
     onnx.checker.check_model(made, full_check=True)
     out.write_bytes(made.SerializeToString())
@@ -91,13 +95,14 @@ def main():
     parser.add_argument("--checkpoint", type=pathlib.Path, default=None)
     parser.add_argument("--masks", type=pathlib.Path, default=None, help="checkpoint, or an exported file of another size")
     parser.add_argument("--out", type=pathlib.Path, default=FILE)
+    parser.add_argument("--float", action="store_true", help="compute in float32, as before integers: to compare")
     args = parser.parse_args()
     network, about = trained(args.checkpoint or args.data / "checkpoint.pt")
-    export(network, args.out)
+    export(network, args.out, feeds=None if args.float else quantize.feeds(args.data))
     tell(network, args.out, about)
     chosen = args.masks or args.data / "masks.pt"
     second, about = exported_masks(chosen) if chosen.suffix == ".onnx" else averaged(masks.Masks(), chosen)
-    export_masks(second, masks_file(args.out))
+    export_masks(second, masks_file(args.out), feeds=None if args.float else quantize.mask_feeds(args.data, args.out))
     tell(second, masks_file(args.out), about)
 
 

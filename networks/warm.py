@@ -11,13 +11,18 @@ import torch
 from onnx import numpy_helper
 
 HALF = "_half"  # of names of constants stored in half precision (halve.py)
+INTEGERS = "_quantized"  # and of those in integers, which have a "_scale"
 
 
 def weights_of(file, prefix=""):
     """Constants of the file by the names of the network's parameters, which begin with `prefix` there."""
-    rows = {row.name.removesuffix(HALF): row for row in onnx.load(file).graph.initializer}
-    return {name.removeprefix(prefix): torch.from_numpy(numpy_helper.to_array(row).copy()).float()
-            for name, row in rows.items() if name.startswith(prefix)}
+    rows = {row.name.removesuffix(HALF): torch.from_numpy(numpy_helper.to_array(row).copy()).float()
+            for row in onnx.load(file).graph.initializer}
+    for name in [name for name in rows if name.endswith(INTEGERS)]:  # quantize.py; zero is zero
+        plain = name.removesuffix(INTEGERS)
+        steps = rows.get(f"{plain}_scale", rows.get(f"{name}_scale"))
+        rows[plain] = rows[name] * steps.reshape(-1, *[1] * (rows[name].dim() - 1))
+    return {name.removeprefix(prefix): value for name, value in rows.items() if name.startswith(prefix)}
 
 
 def pairs(network):
@@ -40,9 +45,9 @@ def load(network, file, prefix=""):
             norm.weight.fill_(1)
             norm.running_mean.zero_()
             norm.running_var.fill_(1 - norm.eps)
-        parameters = dict(network.named_parameters())
-        for name, value in stored.items():
-            parameters[name].copy_(value)
+        for name, parameter in network.named_parameters():
+            if name in stored:
+                parameter.copy_(stored[name])
 
 
 class Moments:

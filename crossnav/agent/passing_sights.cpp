@@ -40,6 +40,9 @@ Result<std::vector<PassingSight>> LookInPassing(perception::PerceptionSuite& per
       continue;
     }
     if (!found) return tl::unexpected(found.error());
+    std::erase_if(*found, [&](const perception::Detection& detection) {
+      return detection.confidence < config.policy.explore.hint_confidence;
+    });
     for (perception::Detection& detection : *found)
       if (auto ok = perception.segmenter->Segment(obs, detection); !ok)
         return tl::unexpected(ok.error());

@@ -206,6 +206,34 @@ def test_a_run_from_an_exported_file_starts_with_its_answers(tmp_path):
         assert (trained[name] - value).abs().max() < 0.02 * scale, name  # the norms are those of the batch
 
 
+def test_integers_answer_nearly_as_float_does_and_can_be_trained_on(tmp_path):
+    pytest.importorskip("onnx")
+    ort = pytest.importorskip("onnxruntime")
+    import export
+    import warm
+
+    torch.manual_seed(1)
+    text = torch.nn.functional.normalize(torch.randn(len(common.CLASS_NAMES), 512), dim=1)
+    network = export.fold_norms(model.Network(widths=(8, 16, 16, 24, 32), text=text).eval())
+    for name, parameter in network.named_parameters():
+        if name.endswith("bias"):  # equal ones would be stored once
+            torch.nn.init.normal_(parameter, std=0.01)
+    inputs = [value[:1] for value in batch()[0]]
+    feed = {name: value.numpy() for name, value in zip(("image", "depth", "height"), inputs, strict=True)}
+    plain, file = tmp_path / "plain.onnx", tmp_path / "integers.onnx"
+    export.export(network, plain, SIZE)
+    export.export(network, file, SIZE, feeds=[feed] * 2)
+    session = ort.InferenceSession(str(file), providers=["CPUExecutionProvider"])
+    with torch.no_grad():
+        for name, mine, theirs in zip(model.OUTPUTS, session.run(model.OUTPUTS, feed), network(*inputs), strict=True):
+            assert np.abs(mine - theirs.numpy()).max() < 0.1 * max(1, np.abs(mine).max()), name
+    exact, rounded = warm.weights_of(plain), warm.weights_of(file)
+    for name, parameter in network.named_parameters():
+        largest = float(parameter.detach().abs().max())
+        assert (rounded[name] - exact[name]).abs().max() <= largest / 63 / 2 + 1e-3, name
+    assert file.read_bytes() == (export.export(network, plain, SIZE, feeds=[feed] * 2), plain.read_bytes())[1]
+
+
 def batch():
     made = sample()
     target = {key: torch.from_numpy(np.stack([value] * 2)) for key, value in targets.all_of(made, SIZE).items()}
