@@ -3,9 +3,9 @@
 // (crossnav/policy/view_evidence.h): houses are looked at from covering points, each sighting is
 // held against the objects that are there. Usage:
 //   detector_calibration NETWORKS_DIR HOUSE_FOLDER...
-// Prints a reliability diagram of the score, the fitted line of log-odds (verify.score_offset,
-// verify.score_slope) with the diagram of its probabilities, then of things seen from several views
-// for each discount. The first half of the houses fits, the second half is judged.
+// Prints a reliability diagram of the score, the section [evidence] of a card (EvidenceConfig), and
+// diagrams of things after one and after several views. The first half of the houses fits, the
+// second half is judged; the last line is the fit of all.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,26 +32,43 @@ constexpr double kSpacing_m = 1.6;  // between the places from which a house is 
 constexpr int kYaws = 6, kSide_px = 320;
 constexpr double kMargin_m = 0.2;  // of an object's box: voxels, and the detector's mask
 constexpr double kInside = 0.5;    // share of a sighting's voxels that makes it the object's
-constexpr double kLeastScore = 0.4;
+constexpr double kLeastScore = 0.2;
+constexpr double kHint = 0.5;   // least score of a thing
+constexpr double kClaim = 0.7;  // and of the view that claims it
+constexpr std::size_t kMostViews = 4;
+constexpr int kMostPoints = 90;
 
 struct Scored {
   double score = 0;
   bool is_true = false;
 };
 
-/// Claimed object, with the score of each view.
+/// Claimed object, with the scores of each view; 0 where it was missed in plain sight.
 struct Thing {
   policy::LivePoi poi;
   policy::ClaimTracker book;
-  std::vector<double> scores;
-  std::vector<Vector3d> p_cameras_world;
+  bool is_true = false;
+};
+
+/// What the agent knows after some views of a thing.
+struct Case {
+  double best = 0;  ///< log-odds of the best view's score
+  policy::OtherViews others;
   bool is_true = false;
 };
 
 struct House {
   std::vector<Scored> sightings;
-  std::vector<Thing> things;
+  std::vector<Case> cases;
 };
+
+/// A view of the policy: another angle is not asked for, because things are looked at from points
+/// of a grid.
+policy::VerifyConfig Separate() {
+  policy::VerifyConfig config;
+  config.view_angle_deg = 0;
+  return config;
+}
 
 bool IsThere(const policy::Sighting& sighting, std::string_view goal, const sim::Scene& scene,
              double voxel_m) {
@@ -67,8 +84,8 @@ bool IsThere(const policy::Sighting& sighting, std::string_view goal, const sim:
   });
 }
 
-void NoteThing(const policy::Sighting& sighting, const Vector3d& p_camera, bool is_true,
-               std::vector<Thing>& things) {
+/// Its thing, new if there is none yet.
+void NoteThing(const policy::Sighting& sighting, bool is_true, std::vector<Thing>& things) {
   auto it = std::find_if(things.begin(), things.end(), [&](const Thing& thing) {
     return policy::IsSameObject(thing.poi.voxels, thing.poi.p_center_world, sighting.voxels,
                                 sighting.p_center_world, policy::ObjectConfig{}.merge_distance_m);
@@ -79,8 +96,41 @@ void NoteThing(const policy::Sighting& sighting, const Vector3d& p_camera, bool 
     it->poi.p_center_world = sighting.p_center_world;
   }
   it->is_true = it->is_true || is_true;
-  it->scores.push_back(sighting.confidence);
-  it->p_cameras_world.push_back(p_camera);
+}
+
+/// After one view that claims the thing, and after one to three more: `first` and its successors.
+std::vector<Case> CasesOf(const Thing& thing, double discount) {
+  std::vector<Case> cases;
+  const policy::ClaimViews* seen = thing.book.ViewsOf(thing.poi.id);
+  if (!seen) return cases;
+  const auto& views = seen->scores;
+  for (std::size_t first = 0; first < views.size(); ++first) {
+    if (views[first].Mean() < kClaim) continue;
+    for (std::size_t n = 1; n <= std::min(kMostViews, views.size()); ++n) {
+      std::vector<policy::ViewScore> some;
+      for (std::size_t i = 0; i < n; ++i) some.push_back(views[(first + i) % views.size()]);
+      double best = 0;
+      for (const auto& view : some) best = std::max(best, view.Mean());
+      cases.push_back(
+          {policy::LogOddsOf(best), policy::OthersThanBest(some, discount), thing.is_true});
+    }
+  }
+  return cases;
+}
+
+using Sights = std::array<std::vector<policy::Sighting>, kCategories.size()>;
+
+Result<Sights> SightsOf(const Observation& obs, perception::PerceptionSuite& suite) {
+  Sights sights;
+  for (std::size_t g = 0; g < kCategories.size(); ++g) {
+    auto found = suite.detector->Detect(obs, kCategories[g]);
+    if (!found) return tl::unexpected(found.error());
+    for (auto& detection : *found)
+      if (auto ok = suite.segmenter->Segment(obs, detection); !ok)
+        return tl::unexpected(ok.error());
+    sights[g] = policy::LiftDetections(*found, obs, {}, {}, kLeastScore);
+  }
+  return sights;
 }
 
 Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
@@ -92,50 +142,80 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
   SensorConfig sensor;
   sensor.width_px = sensor.height_px = kSide_px;
   sim::Simulator simulator(*scene, *navmesh, caster, sensor, {});
-  const geometry::MapConfig map;
+  const double voxel_m = geometry::MapConfig{}.voxel_m;
+  std::vector<AgentPose> poses;
+  for (const Vector3d& p : CoveringPoints(*navmesh, kSpacing_m, kMostPoints))
+    for (int yaw = 0; yaw < kYaws; ++yaw)
+      poses.push_back({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)});
+  std::erase_if(poses, [&](const AgentPose& pose) { return !simulator.Reset(pose).has_value(); });
   House house;
   std::array<std::vector<Thing>, kCategories.size()> things;
-  for (const Vector3d& p : CoveringPoints(*navmesh, kSpacing_m, 150))
-    for (int yaw = 0; yaw < kYaws; ++yaw) {
-      if (!simulator.Reset({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)})) continue;
-      const Observation obs = simulator.Observe();
-      for (std::size_t g = 0; g < kCategories.size(); ++g) {
-        auto found = suite.detector->Detect(obs, kCategories[g]);
-        if (!found) return tl::unexpected(found.error());
-        for (auto& detection : *found)
-          if (auto ok = suite.segmenter->Segment(obs, detection); !ok)
-            return tl::unexpected(ok.error());
-        for (const auto& sighting : policy::LiftDetections(*found, obs, map, {}, kLeastScore)) {
-          const bool is_true = IsThere(sighting, kCategories[g], *scene, map.voxel_m);
-          house.sightings.push_back({sighting.confidence, is_true});
-          NoteThing(sighting, obs.T_world_camera.translation(), is_true, things[g]);
-        }
+  std::vector<Sights> seen;
+  for (const AgentPose& pose : poses) {
+    if (!simulator.Reset(pose)) continue;
+    auto sights = SightsOf(simulator.Observe(), suite);
+    if (!sights) return tl::unexpected(sights.error());
+    for (std::size_t g = 0; g < kCategories.size(); ++g)
+      for (const policy::Sighting& sighting : (*sights)[g]) {
+        const bool is_true = IsThere(sighting, kCategories[g], *scene, voxel_m);
+        house.sightings.push_back({sighting.confidence, is_true});
+        if (sighting.confidence >= kHint) NoteThing(sighting, is_true, things[g]);
       }
+    seen.push_back(std::move(*sights));
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!simulator.Reset(poses[i])) continue;
+    const Observation obs = simulator.Observe();
+    for (std::size_t g = 0; g < kCategories.size(); ++g)
+      for (Thing& thing : things[g])
+        policy::NoteScores({thing.poi}, seen[i][g], obs, voxel_m, {}, Separate(), &thing.book);
+  }
+  for (const auto& some : things)
+    for (const Thing& thing : some) {
+      const auto cases = CasesOf(thing, policy::EvidenceConfig{}.discount);
+      house.cases.insert(house.cases.end(), cases.begin(), cases.end());
     }
-  for (auto& some : things)
-    house.things.insert(house.things.end(), std::make_move_iterator(some.begin()),
-                        std::make_move_iterator(some.end()));
   return house;
 }
 
-/// Offset and slope of the log-odds, by Newton's method on the likelihood.
-policy::EvidenceConfig Fit(const std::vector<Scored>& all) {
-  policy::EvidenceConfig fit;
-  const policy::EvidenceConfig plain;
+/// Numbers of `verify.*` by Newton's method on the likelihood of the log-odds.
+policy::EvidenceConfig Fit(const std::vector<Case>& all) {
+  Eigen::Vector4d fit = Eigen::Vector4d::Zero();
+  const auto row = [](const Case& c) {
+    return Eigen::Vector4d(1, c.best, c.others.worth * (1 - c.others.mean),
+                           c.others.worth * c.others.mean);
+  };
   for (int i = 0; i < 50; ++i) {
-    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d curve = 1e-6 * Eigen::Matrix2d::Identity();
-    for (const Scored& s : all) {
-      const Eigen::Vector2d x(1, policy::LogOddsOf(s.score, plain));
-      const double p = 1 / (1 + std::exp(-(fit.offset + fit.slope * x[1])));
-      slope += ((s.is_true ? 1 : 0) - p) * x;
+    Eigen::Vector4d slope = Eigen::Vector4d::Zero();
+    Eigen::Matrix4d curve = 1e-6 * Eigen::Matrix4d::Identity();
+    for (const Case& c : all) {
+      const Eigen::Vector4d x = row(c);
+      const double p = 1 / (1 + std::exp(-fit.dot(x)));
+      slope += ((c.is_true ? 1 : 0) - p) * x;
       curve += p * (1 - p) * x * x.transpose();
     }
-    const Eigen::Vector2d step = curve.inverse() * slope;
-    fit.offset += step[0];
-    fit.slope += step[1];
+    fit += curve.ldlt().solve(slope);
   }
-  return fit;
+  policy::EvidenceConfig config;
+  config.offset = fit[0];
+  config.slope = fit[1];
+  config.missed = fit[2];
+  config.found = fit[3];
+  return config;
+}
+
+/// Cases with `views` views (0 = any) as probabilities.
+std::vector<Scored> Said(const std::vector<Case>& all, const policy::EvidenceConfig& fit,
+                         bool is_single) {
+  std::vector<Scored> said;
+  for (const Case& c : all) {
+    if ((c.others.worth == 0) != is_single) continue;
+    const double log_odds =
+        fit.offset + fit.slope * c.best +
+        c.others.worth * (fit.missed + (fit.found - fit.missed) * c.others.mean);
+    said.push_back({1 / (1 + std::exp(-log_odds)), c.is_true});
+  }
+  return said;
 }
 
 /// Reliability diagram, error of the expected share, Brier score and log loss of `all`.
@@ -160,26 +240,6 @@ void PrintDiagram(const char* title, const std::vector<Scored>& all) {
               loss / n);
 }
 
-std::vector<Scored> Fused(const std::vector<Thing>& things, const policy::EvidenceConfig& fit) {
-  std::vector<Scored> all;
-  policy::VerifyConfig config;
-  config.views = fit;
-  for (Thing thing : things) {
-    for (std::size_t i = 0; i < thing.scores.size(); ++i) {
-      policy::Sighting sighting;
-      sighting.voxels = thing.poi.voxels;
-      sighting.p_center_world = thing.poi.p_center_world;
-      sighting.confidence = thing.scores[i];
-      policy::NoteScores({thing.poi}, {sighting}, thing.p_cameras_world[i], {}, config,
-                         &thing.book);
-    }
-    const auto* views = thing.book.ViewsOf(thing.poi.id);
-    if (views == nullptr || views->scores.size() < 2) continue;
-    all.push_back({policy::ProbabilityOf(views->scores, fit), thing.is_true});
-  }
-  return all;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -195,19 +255,18 @@ int main(int argc, char** argv) {
     House& half = halves[i - 2 < (argc - 2) / 2 ? 0 : 1];
     std::fprintf(stderr, "%s: %zu sightings\n", argv[i], house->sightings.size());
     half.sightings.insert(half.sightings.end(), house->sightings.begin(), house->sightings.end());
-    half.things.insert(half.things.end(), house->things.begin(), house->things.end());
+    half.cases.insert(half.cases.end(), house->cases.begin(), house->cases.end());
   }
   PrintDiagram("scores as they are", halves[1].sightings);
-  policy::EvidenceConfig fit = Fit(halves[0].sightings);
-  std::printf("verify.score_offset=%.2f verify.score_slope=%.2f\n", fit.offset, fit.slope);
-  std::vector<Scored> calibrated = halves[1].sightings;
-  for (Scored& s : calibrated) s.score = 1 / (1 + std::exp(-policy::LogOddsOf(s.score, fit)));
-  PrintDiagram("scores on the fitted line", calibrated);
-  for (const double discount : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    fit.discount = discount;
-    std::printf("verify.view_discount=%.2f, fitted half: ", discount);
-    PrintDiagram("things seen from several views", Fused(halves[0].things, fit));
-    PrintDiagram("  the other half", Fused(halves[1].things, fit));
-  }
+  const policy::EvidenceConfig fit = Fit(halves[0].cases);
+  std::printf("[evidence]\noffset = %.2f\nslope = %.2f\nmissed = %.2f\nfound = %.2f\n", fit.offset,
+              fit.slope, fit.missed, fit.found);
+  PrintDiagram("things after one view, judged half", Said(halves[1].cases, fit, true));
+  PrintDiagram("things after two to four views, judged half", Said(halves[1].cases, fit, false));
+  std::vector<Case> both = halves[0].cases;
+  both.insert(both.end(), halves[1].cases.begin(), halves[1].cases.end());
+  const policy::EvidenceConfig all = Fit(both);
+  std::printf("all houses: offset = %.2f, slope = %.2f, missed = %.2f, found = %.2f\n", all.offset,
+              all.slope, all.missed, all.found);
   return 0;
 }

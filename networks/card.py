@@ -143,6 +143,8 @@ stairs = {thresholds.get("stairs", 0.5)}
 """
     text += "\n[retrieval]  # numbers but `margin` by `crossnav networks calibrate`\n" + rows(
         {"margin": MARGIN, **old.get("retrieval", {})})
+    if "evidence" in old:
+        text += "\n[evidence]  # by benchmarks/detector_calibration\n" + rows(old["evidence"])
     text += data_text(data, states[0]) + masks_text(states[1])
     if figures:
         text += "\n# Of networks/evaluate.py --set test: held-out houses with held-out furniture." + table(

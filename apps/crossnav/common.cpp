@@ -8,7 +8,7 @@ namespace crossnav::app {
 Result<evaluation::RunConfig> LoadConfig(const CommonOptions& options, const std::string& variant,
                                          std::vector<std::string>* warnings) {
   auto config = evaluation::ReadConfig({options.config_file, variant, options.overrides}, warnings);
-  if (config) UseRetrieval(*config);
+  if (config) UseCards(*config);
   return config;
 }
 

@@ -13,12 +13,14 @@ Result<evaluation::RunConfig> LoadWithNetworks(
     const std::vector<std::filesystem::path>& file_dirs) {
   CommonOptions all = common;
   const inference::Preset* asked = inference::FindPreset(preset);
-  if (asked != nullptr)
+  const auto use = [&](const inference::Preset& networks) {
     all.overrides.insert(all.overrides.begin(),
-                         {fmt::format("networks.detector=\"{}\"", asked->detector),
-                          fmt::format("networks.segmenter=\"{}\"", asked->segmenter),
-                          fmt::format("networks.stairs=\"{}\"", asked->stairs),
-                          fmt::format("networks.encoder=\"{}\"", asked->encoder)});
+                         {fmt::format("networks.detector=\"{}\"", networks.detector),
+                          fmt::format("networks.segmenter=\"{}\"", networks.segmenter),
+                          fmt::format("networks.stairs=\"{}\"", networks.stairs),
+                          fmt::format("networks.encoder=\"{}\"", networks.encoder)});
+  };
+  if (asked != nullptr) use(*asked);
   auto config = LoadConfig(all);
   if (!config) return config;
   const auto dir = NetworksDir(*config);
@@ -32,10 +34,10 @@ Result<evaluation::RunConfig> LoadWithNetworks(
   }
   const inference::Preset& real = *inference::FindPreset("real");
   const bool is_default = inference::IsSame(*inference::FindPreset("own"), config->networks);
-  if (asked == nullptr && is_default && !inference::MissingFile(real, dir, file_dirs))
-    inference::Apply(real, config->networks);
-  UseRetrieval(*config);
-  return config;
+  if (asked != nullptr || !is_default || inference::MissingFile(real, dir, file_dirs))
+    return config;
+  use(real);
+  return LoadConfig(all);  // with the numbers of its cards
 }
 
 std::string NetworksText(const inference::NetworksConfig& config) {

@@ -22,27 +22,48 @@ fs::path NetworksDir(const evaluation::RunConfig& config) {
   return places.back();
 }
 
+namespace {
+
+/// The card of a network that perception uses; nullopt without one, or if it cannot be read.
+std::optional<inference::ModelCard> CardOf(const evaluation::RunConfig& config,
+                                           const std::string& network) {
+  if (config.eval.perception != "networks" || network.empty()) return std::nullopt;
+  auto card = inference::ReadModelCard(inference::CardPath(NetworksDir(config), network));
+  return card ? std::optional(std::move(*card)) : std::nullopt;
+}
+
+/// `value` unless the user set another than the standard.
+void Use(const std::optional<double>& value, double standard, double* setting) {
+  if (value && *setting == standard) *setting = *value;
+}
+
+}  // namespace
+
 inference::ModelCard::Retrieval RetrievalOf(const evaluation::RunConfig& config) {
-  if (config.eval.perception != "networks" || config.networks.encoder.empty()) return {};
-  const auto path = inference::CardPath(NetworksDir(config), config.networks.encoder);
-  const auto card = inference::ReadModelCard(path);
+  const auto card = CardOf(config, config.networks.encoder);
   return card ? card->retrieval : inference::ModelCard::Retrieval{};
 }
 
-void UseRetrieval(evaluation::RunConfig& config) {
-  const auto measured = RetrievalOf(config);
+void UseCards(evaluation::RunConfig& config) {
+  const auto retrieval = RetrievalOf(config);
   const memory::QueryConfig base;
   memory::QueryConfig& query = config.agent.query;
-  const auto use = [](const std::optional<double>& value, double& setting, double standard) {
-    if (value && setting == standard) setting = *value;
-  };
-  use(measured.min_similarity, query.min_similarity, base.min_similarity);
-  use(measured.min_z_score, query.min_z_score, base.min_z_score);
-  use(measured.min_peak_share, query.min_peak_share, base.min_peak_share);
+  Use(retrieval.min_similarity, base.min_similarity, &query.min_similarity);
+  Use(retrieval.min_z_score, base.min_z_score, &query.min_z_score);
+  Use(retrieval.min_peak_share, base.min_peak_share, &query.min_peak_share);
   policy::VerifyConfig& verify = config.agent.verify;
   const policy::VerifyConfig standard;
-  use(measured.margin, verify.refute_margin, standard.refute_margin);
-  use(measured.margin, verify.strong_margin, standard.strong_margin);
+  Use(retrieval.margin, standard.refute_margin, &verify.refute_margin);
+  Use(retrieval.margin, standard.strong_margin, &verify.strong_margin);
+
+  const auto detector = CardOf(config, config.networks.detector);
+  if (!detector) return;
+  const inference::ModelCard::Evidence& evidence = detector->evidence;
+  if (verify.evidence == "auto" && evidence.IsMeasured()) verify.evidence = "views";
+  Use(evidence.offset, standard.views.offset, &verify.views.offset);
+  Use(evidence.slope, standard.views.slope, &verify.views.slope);
+  Use(evidence.missed, standard.views.missed, &verify.views.missed);
+  Use(evidence.found, standard.views.found, &verify.views.found);
 }
 
 Result<PerceptionSource> PerceptionSource::Read(const evaluation::RunConfig& config,

@@ -23,8 +23,9 @@ std::filesystem::path NetworksDir(const evaluation::RunConfig& config);
 /// where the card cannot be read (PerceptionSource::Read says why).
 inference::ModelCard::Retrieval RetrievalOf(const evaluation::RunConfig& config);
 
-/// Puts them in place of each query.* and verify.* setting that has its default.
-void UseRetrieval(evaluation::RunConfig& config);
+/// Puts measured numbers of the encoder's and the detector's card in place of each query.* and
+/// verify.* setting that has its default.
+void UseCards(evaluation::RunConfig& config);
 
 class PerceptionSource {
  public:

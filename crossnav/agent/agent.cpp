@@ -247,7 +247,7 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sig
     const policy::VerifyConfig& verify = config.verify;
     NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);
     if (verify.evidence == "views")
-      NoteScores(goal.live.all(), all, p_camera_world, object, verify, &goal.full.claims);
+      NoteScores(goal.live.all(), all, obs, config.map.voxel_m, object, verify, &goal.full.claims);
   }
   return sightings;
 }

@@ -44,6 +44,16 @@ std::string Describe(const std::string& goal, const policy::Verification& verifi
   return text + ", views " + std::to_string(views);
 }
 
+/// Without a second view the memory decides, and a failed view counts against the claim unless the
+/// memory is sure.
+bool IsLikelyByMemory(const GoalState& goal, const policy::LivePoi& poi,
+                      const std::optional<policy::MemoryOpinion>& opinion,
+                      const policy::VerifyConfig& config) {
+  const double margin = opinion ? opinion->Margin() : 0;
+  const bool has_failed = goal.active_live == poi.id && goal.failed_views > 0;
+  return margin >= (has_failed ? config.strong_margin : 0);
+}
+
 }  // namespace
 
 bool DoubtsClaims(const Config& config) {
@@ -91,20 +101,26 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   if (verdict == ClaimVerdict::kWeak) {
     goal.full.claims.second_view_of = poi.id;
     if (goal.full.claims.no_second_view_of == poi.id || !HasSecondView(now, poi)) {
-      // Without a second view the memory decides, and a failed view counts against the claim unless
-      // the memory is sure.
-      const double margin = opinion ? opinion->Margin() : 0;
-      const bool has_failed = goal.active_live == poi.id && goal.failed_views > 0;
-      const bool is_likely = margin >= (has_failed ? config.strong_margin : 0);
+      const bool is_likely = config.evidence == "views"
+                                 ? ProbabilityOf(scores, config.views) >= config.views.refused
+                                 : IsLikelyByMemory(goal, poi, opinion, config);
       verdict = is_likely ? ClaimVerdict::kAgreed : ClaimVerdict::kRefuted;
     }
   }
-  const std::string facts = Describe(goal.goal, verification, opinion, views);
+  std::string facts = Describe(goal.goal, verification, opinion, views);
+  if (config.evidence == "views")
+    facts += ", P " + TwoDigits(ProbabilityOf(scores, config.views)) + " of " +
+             std::to_string(scores.size());
   if (verdict == ClaimVerdict::kAgreed) goal.events.push_back("claim holds: " + facts);
   if (verdict == ClaimVerdict::kRefuted) goal.events.push_back("claim refuted: " + facts);
   if (verdict == ClaimVerdict::kWeak && !was_asked)
     goal.events.push_back("claim is weak, another view: " + facts);
   return verdict;
+}
+
+bool IsDisproved(const StepState& now, const policy::LivePoi& poi) {
+  const policy::ClaimViews* seen = now.goal.full.claims.ViewsOf(poi.id);
+  return DoubtsClaims(now.config) && seen && IsDisproved(seen->scores, now.config.verify);
 }
 
 void Reject(StepState& now, const policy::LivePoi& poi) {
@@ -131,7 +147,10 @@ std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& 
   const policy::ClaimTracker& claims = now.goal.full.claims;
   if (claims.second_view_of != poi.id || claims.no_second_view_of == poi.id) return {};
   const policy::ClaimViews* seen = claims.ViewsOf(poi.id);
-  return seen ? seen->p_cameras_world : std::vector<Vector3d>{};
+  if (!seen) return {};
+  std::vector<Vector3d> p_views = seen->p_cameras_world;
+  for (const policy::ViewScore& view : seen->scores) p_views.push_back(view.p_camera_world);
+  return p_views;
 }
 
 }  // namespace crossnav::agent

@@ -26,6 +26,9 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
 policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
                                 const policy::Verification& verification);
 
+/// Whether the views of a POI refute it (verify.evidence = views), from wherever they were.
+bool IsDisproved(const StepState& now, const policy::LivePoi& poi);
+
 /// Gives up a POI: it, hints of it and remembered places on it are not tried again for this goal
 /// until there is new evidence.
 void Reject(StepState& now, const policy::LivePoi& poi);

@@ -30,8 +30,9 @@ constexpr int kChoices = 8;      // chosen: in one step, of which all but the la
 /// Verdict of the memory on the claim of this frame, and of the user's hook on both.
 ClaimVerdict JudgeClaim(StepState& now, const policy::LivePoi& poi,
                         const policy::Verification& verification) {
-  const auto verdict =
-      verification.passed ? CheckClaim(now, poi, verification) : ClaimVerdict::kWeak;
+  const auto verdict = verification.passed     ? CheckClaim(now, poi, verification)
+                       : IsDisproved(now, poi) ? ClaimVerdict::kRefuted
+                                               : ClaimVerdict::kWeak;
   return now.hooks ? now.hooks->JudgeClaim(now, {poi, verification, verdict}) : verdict;
 }
 
@@ -43,7 +44,7 @@ bool TryConfirmGoal(StepState& now, Decision& decision) {
     if (verification.passed && verdict == ClaimVerdict::kWeak)
       verification.failed_check = "second view";
     if (verdict == ClaimVerdict::kRefuted) {
-      verification.failed_check = "memory";
+      verification.failed_check = verification.passed ? "memory" : "views";
       Reject(now, *poi);
     }
     verification.passed = verdict == ClaimVerdict::kAgreed;

@@ -263,6 +263,14 @@ Result<void> ReadRetrieval(Section section, ModelCard::Retrieval& retrieval) {
   return section.Finish();
 }
 
+Result<void> ReadEvidence(Section section, ModelCard::Evidence& evidence) {
+  section.Number("offset", evidence.offset, -20, 20);
+  section.Number("slope", evidence.slope, 0, 20);
+  section.Number("missed", evidence.missed, -20, 0);
+  section.Number("found", evidence.found, 0, 20);
+  return section.Finish();
+}
+
 Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path& path) {
   ModelCard card;
   card.path = path;
@@ -292,7 +300,8 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
       ReadOutput(top.Inner("output"), card.output, card.ports),
       ReadThresholds(top.Inner("thresholds"), card.labels.size(), card.thresholds),
       ReadText(top.Inner("text"), folder, card.text),
-      ReadRetrieval(top.Inner("retrieval"), card.retrieval)};
+      ReadRetrieval(top.Inner("retrieval"), card.retrieval),
+      ReadEvidence(top.Inner("evidence"), card.evidence)};
   if (auto ok = top.Finish(); !ok) return tl::unexpected(ok.error());
   for (const auto& part : parts)
     if (!part) return tl::unexpected(part.error());

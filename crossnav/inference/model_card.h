@@ -81,6 +81,13 @@ struct ModelCard {
     std::optional<double> margin;        ///< as VerifyConfig's refute_margin and strong_margin
   } retrieval;
 
+  /// Of a detector, as benchmarks/detector_calibration measured it (EvidenceConfig); nullopt =
+  /// never.
+  struct Evidence {
+    std::optional<double> offset, slope, missed, found;
+    bool IsMeasured() const { return offset && slope && missed && found; }
+  } evidence;
+
   /// The second file of a network that has two.
   struct Second {
     std::filesystem::path file;

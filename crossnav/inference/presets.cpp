@@ -28,13 +28,6 @@ const Preset* FindPreset(std::string_view name) {
   return found == kPresets.end() ? nullptr : &*found;
 }
 
-void Apply(const Preset& preset, NetworksConfig& config) {
-  config.detector = preset.detector;
-  config.segmenter = preset.segmenter;
-  config.stairs = preset.stairs;
-  config.encoder = preset.encoder;
-}
-
 bool IsSame(const Preset& preset, const NetworksConfig& config) {
   return config.detector == preset.detector && config.segmenter == preset.segmenter &&
          config.stairs == preset.stairs && config.encoder == preset.encoder;

@@ -25,7 +25,6 @@ std::span<const Preset> Presets();
 /// nullptr for an unknown name.
 const Preset* FindPreset(std::string_view name);
 
-void Apply(const Preset& preset, NetworksConfig& config);
 bool IsSame(const Preset& preset, const NetworksConfig& config);
 
 /// The first missing file of `preset`; nullopt if none is missing. `dir` and `file_dirs` as in

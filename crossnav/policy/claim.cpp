@@ -186,14 +186,15 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
 }
 
 void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
-                const Vector3d& p_camera_world, const ObjectConfig& object,
+                const Observation& obs, double voxel_m, const ObjectConfig& object,
                 const VerifyConfig& config, ClaimTracker* tracker) {
+  const Vector3d p_camera_world = obs.T_world_camera.translation();
   for (const LivePoi& poi : pois) {
     double best = 0;
     for (const Sighting& sighting : sightings)
       if (IsOf(sighting, poi.voxels, poi.p_center_world, object))
         best = std::max(best, sighting.confidence);
-    if (best <= 0) continue;
+    if (best <= 0 && !IsPlain(SightOf(poi.voxels, obs, voxel_m))) continue;
     auto it = std::find_if(tracker->views.begin(), tracker->views.end(),
                            [&](const ClaimViews& v) { return v.poi_id == poi.id; });
     if (it == tracker->views.end()) it = tracker->views.insert(it, ClaimViews{poi.id, {}, {}});
@@ -201,7 +202,7 @@ void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& s
       return !IsOtherView(poi.p_center_world, p_camera_world, score.p_camera_world, config);
     });
     if (view == it->scores.end()) view = it->scores.insert(view, ViewScore{p_camera_world, 0, 0});
-    view->sum += LogOddsOf(best, config.views);
+    view->sum += best;
     ++view->frames;
   }
 }
@@ -225,14 +226,19 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const std::vecto
                    const VerifyConfig& config) {
   const double margin = opinion ? opinion->Margin() : 0;
   if (margin < -config.refute_margin) return ClaimVerdict::kRefuted;
+  constexpr std::size_t kMost = 4;  // chosen: views; each further one is worth an eighth or less
   const double probability = ProbabilityOf(views, config.views);
   const bool is_weak_memory = margin < config.strong_margin;
   if (probability >= config.views.decided)
     return is_weak_memory && views.size() < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
-  if (views.size() < 2) return ClaimVerdict::kWeak;
-  if (probability < config.views.refused) return ClaimVerdict::kRefuted;
-  if (views.size() < 3) return ClaimVerdict::kWeak;
+  if (IsDisproved(views, config)) return ClaimVerdict::kRefuted;
+  if (views.size() < kMost) return ClaimVerdict::kWeak;
   return is_weak_memory ? ClaimVerdict::kRefuted : ClaimVerdict::kAgreed;
+}
+
+bool IsDisproved(const std::vector<ViewScore>& views, const VerifyConfig& config) {
+  return config.evidence == "views" && views.size() >= 2 &&
+         ProbabilityOf(views, config.views) < config.views.refused;
 }
 
 }  // namespace crossnav::policy

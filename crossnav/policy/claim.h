@@ -20,7 +20,8 @@ namespace crossnav::policy {
 /// Settings `verify.*`; policy.profile = full.
 struct VerifyConfig {
   std::string memory = "on";        ///< on | off: off believes the frame before the agent
-  std::string evidence = "frame";   ///< frame | views: what a claim's confidence is
+  std::string evidence = "auto";    ///< auto | frame | views: judged by this frame or by all views;
+                                    ///< auto: views where the detector's card has their numbers
   EvidenceConfig views;             ///< of evidence = views
   double refute_margin = 0.02;      // chosen: cosine by which another name must answer better
   double strong_margin = 0.02;      // chosen: cosine by which the goal must, or the claim is weak
@@ -33,12 +34,14 @@ struct VerifyConfig {
 template <class V>
 void Visit(V& visit, VerifyConfig& c) {
   visit("memory", c.memory, {"on", "off"});
-  visit("evidence", c.evidence, {"frame", "views"});
+  visit("evidence", c.evidence, {"auto", "frame", "views"});
   visit("score_offset", c.views.offset, -20.0, 20.0);
   visit("score_slope", c.views.slope, 0.0, 20.0);
+  visit("view_missed", c.views.missed, -20.0, 0.0);
+  visit("view_found", c.views.found, 0.0, 20.0);
   visit("view_discount", c.views.discount, 0.0, 1.0);
   visit("decided", c.views.decided, 0.5, 1.0);
-  visit("refused", c.views.refused, 0.0, 0.5);
+  visit("refused", c.views.refused, 0.0, 1.0);
   visit("refute_margin", c.refute_margin, 0.0, 2.0);
   visit("strong_margin", c.strong_margin, -2.0, 2.0);
   visit("strong_confidence", c.strong_confidence, 0.0, 1.0);
@@ -84,7 +87,7 @@ bool IsOfSurroundings(const memory::SemanticMemory& memory, const std::vector<Vo
 struct ClaimViews {
   int poi_id = 0;
   std::vector<Vector3d> p_cameras_world;
-  std::vector<ViewScore> scores;  ///< of all sightings, weak ones too; pairwise other views
+  std::vector<ViewScore> scores;  ///< weak sightings and misses, too; pairwise other views
 };
 
 /// Whether `p_a` and `p_b` look at `p_object` from two sides: around the upright axis.
@@ -126,9 +129,10 @@ void NoteViews(const std::vector<LivePoi>& pois, const std::vector<Sighting>& si
                const Vector3d& p_camera_world, const ObjectConfig& object,
                const VerifyConfig& config, ClaimTracker* tracker);
 
-/// Notes the score of each POI in this frame, weak ones too, at the view it belongs to.
+/// Notes the score of each POI in this frame at the view it belongs to: weak ones too, and 0 where
+/// it is in plain sight without a detection. `obs`: the frame of `sightings`.
 void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& sightings,
-                const Vector3d& p_camera_world, const ObjectConfig& object,
+                const Observation& obs, double voxel_m, const ObjectConfig& object,
                 const VerifyConfig& config, ClaimTracker* tracker);
 
 enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
@@ -139,9 +143,12 @@ enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
                    const VerifyConfig& config);
 
-/// The same of all sightings (verify.evidence = views). Where the memory is undecided, two views
-/// are wanted; where the sightings stay so from three, the claim is refuted.
+/// The same by all views (verify.evidence = views). A memory without a preference takes a second
+/// view; views that leave the claim undecided are at most four.
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const std::vector<ViewScore>& views,
                    const VerifyConfig& config);
+
+/// Whether the views alone refute an object (verify.evidence = views).
+bool IsDisproved(const std::vector<ViewScore>& views, const VerifyConfig& config);
 
 }  // namespace crossnav::policy

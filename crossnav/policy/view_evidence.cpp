@@ -5,26 +5,75 @@
 #include <cmath>
 
 namespace crossnav::policy {
+namespace {
 
-double LogOddsOf(double score, const EvidenceConfig& config) {
+double BestOf(const std::vector<ViewScore>& views) {
+  double best = 0;
+  for (const ViewScore& view : views)
+    if (view.frames > 0) best = std::max(best, view.Mean());
+  return best;
+}
+
+}  // namespace
+
+double LogOddsOf(double score) {
   constexpr double kLeast = 0.01;  // chosen: no score is certain
   const double p = std::clamp(score, kLeast, 1 - kLeast);
-  return config.offset + config.slope * std::log(p / (1 - p));
+  return std::log(p / (1 - p));
+}
+
+OtherViews OthersThanBest(const std::vector<ViewScore>& views, double discount) {
+  OtherViews others;
+  double sum = -BestOf(views), next = 1;
+  int count = -1;
+  for (const ViewScore& view : views) {
+    if (view.frames == 0) continue;
+    sum += view.Mean();
+    if (++count == 0) continue;
+    others.worth += next;
+    next *= discount;
+  }
+  if (count > 0) others.mean = sum / count;
+  return others;
 }
 
 double ProbabilityOf(const std::vector<ViewScore>& views, const EvidenceConfig& config) {
-  std::vector<double> means;
-  for (const ViewScore& view : views)
-    if (view.frames > 0) means.push_back(view.Mean());
-  std::sort(means.begin(), means.end(), [](double a, double b) {
-    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a > b;
-  });
-  double sum = 0, worth = 1;
-  for (const double mean : means) {
-    sum += worth * mean;
-    worth *= config.discount;
+  if (views.empty()) return 0.5;
+  const OtherViews others = OthersThanBest(views, config.discount);
+  const double log_odds =
+      config.offset + config.slope * LogOddsOf(BestOf(views)) +
+      others.worth * (config.missed + (config.found - config.missed) * others.mean);
+  return 1 / (1 + std::exp(-log_odds));
+}
+
+Sight SightOf(const std::vector<geometry::VoxelKey>& voxels, const Observation& obs,
+              double voxel_m) {
+  constexpr double kAsFar_m = 0.25;  // chosen: a voxel and the error of the depth
+  Sight sight;
+  if (voxels.empty()) return sight;
+  const Pose T_camera_world = obs.T_world_camera.inverse();
+  const double share = 1.0 / static_cast<double>(voxels.size());
+  Vector3d p_mean = Vector3d::Zero();
+  for (const geometry::VoxelKey& key : voxels) {
+    const Vector3d p = T_camera_world * geometry::CenterOf(key, voxel_m);
+    p_mean += share * p;
+    if (p.z() <= 0) continue;
+    const double u = std::round(obs.camera.fx * p.x() / p.z() + obs.camera.cx);
+    const double v = std::round(obs.camera.fy * p.y() / p.z() + obs.camera.cy);
+    if (!(u >= 0 && v >= 0 && u < obs.depth_m.width && v < obs.depth_m.height)) continue;
+    sight.framed += share;
+    const double depth_m = obs.depth_m.At(static_cast<int>(u), static_cast<int>(v));
+    if (std::abs(depth_m - p.z()) <= kAsFar_m) sight.shown += share;
   }
-  return 1 / (1 + std::exp(-sum));
+  sight.range_m = p_mean.norm();
+  return sight;
+}
+
+bool IsPlain(const Sight& sight) {
+  constexpr double kMost_m = 4;         // chosen: detectors miss small things beyond
+  constexpr double kLeastFramed = 0.6;  // chosen: less of it may not be recognised
+  constexpr double kLeastShown = 0.25;  // chosen: of the sides that were seen, some are behind it
+  return sight.range_m <= kMost_m && sight.framed >= kLeastFramed && sight.shown >= kLeastShown;
 }
 
 }  // namespace crossnav::policy

@@ -1,38 +1,60 @@
 // SPDX-License-Identifier: MIT
-// One probability that an object is the goal, from all its sightings: calibrated scores as
-// log-odds, near-identical views counted once, other views at a discount since they see the same
-// thing. World frame, metres.
+// One probability that an object is the goal, from all views of it: the score of its best view, and
+// the scores of the others, 0 where the detector missed it in plain sight. World frame, metres.
 #pragma once
 
 #include <vector>
 
+#include "crossnav/core/observation.h"
 #include "crossnav/core/pose.h"
+#include "crossnav/geometry/voxel_key.h"
 
 namespace crossnav::policy {
 
 /// Settings `verify.*` of the fusion; measured by benchmarks/detector_calibration.cpp
 /// (docs/networks.md, "Scores as probabilities").
 struct EvidenceConfig {
-  double offset = 0;  ///< log-odds that a sighting is true = offset + slope x log-odds of its score
+  double offset = 0;  ///< log-odds of an object with one view = offset + slope x those of its score
   double slope = 1;   ///< likewise
+  double missed = -1;     // chosen: added log-odds of another view without a detection
+  double found = 1;       // chosen: and of another view with a score of 1; linear in between
   double discount = 0.5;  // chosen: what each further view is worth of the one before
   double decided = 0.9;   // chosen: probability from which an object is the goal
-  double refused = 0.3;   // chosen: and below which, seen from two sides, it is not
+  double refused = 0.5;   // chosen: and below which, seen from two sides, it is not
 };
 
 /// Frames from about one place.
 struct ViewScore {
   Vector3d p_camera_world = Vector3d::Zero();
-  double sum = 0;  ///< of calibrated log-odds
+  double sum = 0;  ///< of scores
   int frames = 0;
   double Mean() const { return sum / frames; }
 };
 
-/// Calibrated log-odds of one score in [0, 1].
-double LogOddsOf(double score, const EvidenceConfig& config);
+/// Log-odds of one score in [0, 1].
+double LogOddsOf(double score);
 
-/// Probability that the object is the goal: views by the size of their mean log-odds, each worth
-/// `discount` of the one before. 0.5 without views.
+/// Probability that the object is the goal. 0.5 without views.
 double ProbabilityOf(const std::vector<ViewScore>& views, const EvidenceConfig& config);
+
+/// The part that the views but the best have in the log-odds: the sum of their discounts, and the
+/// mean of their scores.
+struct OtherViews {
+  double worth = 0;
+  double mean = 0;
+};
+OtherViews OthersThanBest(const std::vector<ViewScore>& views, double discount);
+
+/// How a frame shows an object, by its voxels.
+struct Sight {
+  double range_m = 0;  ///< from the camera to the mean of its voxels
+  double framed = 0;   ///< share of its voxels inside the image
+  double shown = 0;    ///< share of its voxels whose distance the depth image has
+};
+Sight SightOf(const std::vector<geometry::VoxelKey>& voxels, const Observation& obs,
+              double voxel_m);
+
+/// Near, framed and not hidden: a detector without a detection there has missed the object.
+bool IsPlain(const Sight& sight);
 
 }  // namespace crossnav::policy

@@ -120,6 +120,20 @@ TEST_F(Cards, RetrievalThresholdsAreReadAndWrittenInPlaceOfOldOnes) {
   EXPECT_NE(WithRetrieval(card, section).find("[text]  # kept"), std::string::npos);
 }
 
+TEST_F(Cards, EvidenceIsMeasuredWhereAllItsNumbersAre) {
+  const std::string part =
+      std::string(kCard) + "\n[evidence]\noffset = -4\nslope = 3\nmissed = -1.5\n";
+  WriteText(path(), part);
+  ASSERT_TRUE(ReadModelCard(path()));
+  EXPECT_FALSE(ReadModelCard(path())->evidence.IsMeasured());
+  WriteText(path(), part + "found = 2\n");
+  const auto read = ReadModelCard(path());
+  ASSERT_TRUE(read) << read.error().Message();
+  EXPECT_TRUE(read->evidence.IsMeasured());
+  EXPECT_EQ(read->evidence.missed, -1.5);
+  EXPECT_EQ(ErrorOf(part + "found = -2\n").rfind("key \"evidence.found\"", 0), 0U);
+}
+
 TEST_F(Cards, ATruncatedCardIsAnErrorOrACard) {
   const std::string good = kCard;
   for (std::size_t size = 0; size < good.size(); ++size) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/policy/claim.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
+
+#include "crossnav/core/camera.h"
 
 namespace crossnav::policy {
 namespace {
@@ -91,50 +95,93 @@ TEST(Judge, ASecondViewAloneDoesNotSaveWhatFrameAndMemoryDoubt) {
   EXPECT_EQ(Judge(against, 0.72, 2, kConfig), ClaimVerdict::kRefuted);
 }
 
+ViewScore View(double score, int frames = 1) {
+  return {Vector3d::Zero(), frames * score, frames};
+}
+
 TEST(ViewEvidence, NearIdenticalViewsCountOnceAndOthersAtADiscount) {
   EvidenceConfig config;
-  config.discount = 0.5;
-  const auto view = [&](double score, int frames) {
-    return ViewScore{Vector3d::Zero(), frames * LogOddsOf(score, config), frames};
+  config.missed = -2;
+  config.found = 3;
+  const auto odds = [&](const std::vector<ViewScore>& views) {
+    const double p = ProbabilityOf(views, config);
+    return std::log(p / (1 - p));
   };
   EXPECT_DOUBLE_EQ(ProbabilityOf({}, config), 0.5);
-  EXPECT_NEAR(ProbabilityOf({view(0.8, 1)}, config), 0.8, 1e-9);
-  EXPECT_NEAR(ProbabilityOf({view(0.8, 9)}, config), 0.8, 1e-9);
-  const double both = ProbabilityOf({view(0.8, 1), view(0.8, 1)}, config);
-  EXPECT_NEAR(both, 8.0 / 9, 1e-9);  // odds 4 and half as much log-odds again
-  EXPECT_NEAR(ProbabilityOf({view(0.4, 1), view(0.8, 1)}, config),
-              ProbabilityOf({view(0.8, 1), view(0.4, 1)}, config), 1e-12);
-  EXPECT_LT(ProbabilityOf({view(0.8, 1), view(0.4, 1)}, config), 0.8);
+  EXPECT_NEAR(ProbabilityOf({View(0.8)}, config), 0.8, 1e-9);
+  EXPECT_NEAR(ProbabilityOf({View(0.8, 9)}, config), 0.8, 1e-9);
+  const double one = odds({View(0.8)});
+  EXPECT_NEAR(odds({View(0.8), View(0)}) - one, -2, 1e-9);
+  EXPECT_NEAR(odds({View(0), View(0.8)}) - one, -2, 1e-9);
+  EXPECT_NEAR(odds({View(0.8), View(0.4)}) - one, 0, 1e-9);  // on the line from -2 to 3
+  EXPECT_NEAR(odds({View(0.8), View(0), View(0)}) - one, -3, 1e-9);
+  EXPECT_NEAR(odds({View(0.8), View(0.8), View(0)}) - one, 0, 1e-9);
 }
 
-TEST(ViewEvidence, DecidesOnceTheSightingsAgree) {
-  const VerifyConfig& config = kConfig;
+TEST(ViewEvidence, DecidesOnceTheViewsAgree) {
+  VerifyConfig config;
+  config.evidence = "views";
   const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.71, 0.7, "sofa", 9},
       denies{0.5, 0.9, "sofa", 9};
-  const auto view = [&](double score) {
-    return ViewScore{Vector3d::Zero(), LogOddsOf(score, config.views), 1};
-  };
   using Views = std::vector<ViewScore>;
-  EXPECT_EQ(Judge(agrees, Views{view(0.95)}, config), ClaimVerdict::kAgreed);
-  EXPECT_EQ(Judge(unsure, Views{view(0.95)}, config), ClaimVerdict::kWeak);
-  EXPECT_EQ(Judge(unsure, Views{view(0.95), view(0.9)}, config), ClaimVerdict::kAgreed);
-  EXPECT_EQ(Judge(agrees, Views{view(0.7)}, config), ClaimVerdict::kWeak);
-  EXPECT_EQ(Judge(agrees, Views{view(0.2), view(0.3)}, config), ClaimVerdict::kRefuted);
-  EXPECT_EQ(Judge(unsure, Views{view(0.5), view(0.6), view(0.6)}, config), ClaimVerdict::kRefuted);
-  EXPECT_EQ(Judge(denies, Views{view(0.99), view(0.99)}, config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(agrees, Views{View(0.95)}, config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(unsure, Views{View(0.95)}, config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(unsure, Views{View(0.95), View(0.9)}, config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Views{View(0.7)}, config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, Views{View(0.7), View(0)}, config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(agrees, Views{View(0.8), View(0.5)}, config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(denies, Views{View(0.99), View(0.99)}, config), ClaimVerdict::kRefuted);
+  EXPECT_TRUE(IsDisproved(Views{View(0.7), View(0)}, config));
+  EXPECT_FALSE(IsDisproved(Views{View(0.3)}, config)) << "one view";
+  config.evidence = "frame";
+  EXPECT_FALSE(IsDisproved(Views{View(0.7), View(0)}, config));
 }
 
-TEST(ViewEvidence, IsNotedByView) {
+/// Frame of a camera at `p_camera` that looks along -x, at the height of the object of ColumnAt(0).
+Observation FrameFrom(const Vector3d& p_camera, float depth_m) {
+  Observation obs;
+  obs.camera = IntrinsicsFromHfov(64, 64, DegToRad(90));
+  obs.depth_m = DepthImage(64, 64, depth_m);
+  Eigen::Matrix3d R_world_camera;  // optical: x right, y down, z forward
+  R_world_camera.col(0) = Vector3d::UnitY();
+  R_world_camera.col(1) = -Vector3d::UnitZ();
+  R_world_camera.col(2) = -Vector3d::UnitX();
+  obs.T_world_camera.linear() = R_world_camera;
+  obs.T_world_camera.translation() = p_camera;
+  return obs;
+}
+
+TEST(ViewEvidence, PlainSightIsNearFramedAndNotHidden) {
+  const auto voxels = ColumnAt(0);
+  const double voxel_m = 0.1;
+  const auto plain = [&](const Vector3d& p_camera, float depth_m) {
+    return IsPlain(SightOf(voxels, FrameFrom(p_camera, depth_m), voxel_m));
+  };
+  EXPECT_TRUE(plain({2, 0, 0.3}, 2));
+  EXPECT_FALSE(plain({5, 0, 0.3}, 5)) << "far";
+  EXPECT_FALSE(plain({2, 4, 0.3}, 2)) << "outside the image";
+  EXPECT_FALSE(plain({-2, 0, 0.3}, 2)) << "behind the camera";
+  EXPECT_FALSE(plain({2, 0, 0.3}, 1)) << "something stands before it";
+}
+
+TEST(ViewEvidence, MissesInPlainSightAreNotedByViewToo) {
   LivePoi poi;
   poi.id = 7;
   poi.voxels = ColumnAt(0);
   poi.p_center_world = Vector3d(0, 0, 0.25);
   ClaimTracker book;
-  for (const Vector3d& p_camera : {Vector3d(2, 0, 0.9), Vector3d(3, 0, 0.9), Vector3d(0, 3, 0.9)})
-    NoteScores({poi}, {SightingOf(0, 0.5)}, p_camera, kObject, kConfig, &book);
+  const auto note = [&](const Vector3d& p_camera, float depth_m, std::vector<Sighting> seen) {
+    NoteScores({poi}, seen, FrameFrom(p_camera, depth_m), 0.1, kObject, kConfig, &book);
+  };
+  note({2, 0, 0.9}, 2, {SightingOf(0, 0.5)});
+  note({3, 0, 0.9}, 3, {SightingOf(0, 0.5)});
+  note({1, 1.5, 0.9}, 0.2F, {});
   ASSERT_NE(book.ViewsOf(7), nullptr);
-  ASSERT_EQ(book.ViewsOf(7)->scores.size(), 2U);
+  ASSERT_EQ(book.ViewsOf(7)->scores.size(), 1U) << "a hidden object was not missed";
   EXPECT_EQ(book.ViewsOf(7)->scores[0].frames, 2);
+  note({1, 0.9, 0.3}, 1, {});
+  ASSERT_EQ(book.ViewsOf(7)->scores.size(), 2U);
+  EXPECT_DOUBLE_EQ(book.ViewsOf(7)->scores[1].Mean(), 0);
   EXPECT_TRUE(book.ViewsOf(7)->p_cameras_world.empty()) << "too weak a score for a claim";
 }
 
