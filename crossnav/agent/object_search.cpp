@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "crossnav/agent/exploration_candidates.h"
 #include "crossnav/agent/explore.h"
 #include "crossnav/agent/passing_sights.h"
+#include "crossnav/agent/search_shares.h"
+#include "crossnav/agent/search_tours.h"
 #include "crossnav/agent/search_views.h"
 #include "crossnav/agent/whereabouts.h"
 #include "crossnav/objects/alias.h"
@@ -27,92 +30,15 @@ using policy::SearchPatch;
 
 namespace {
 
-constexpr double kOtherKind = 0.15;  // chosen: of tops for a thing of the ground, and vice versa
 constexpr double kWide_m = 0.4;      // chosen: reaches into the next patch
-constexpr double kTop_m = 0.25;      // chosen: lowest top of furniture
-constexpr double kBeside = 0.25;     // chosen: of things that left their place, near it
-constexpr double kBeside_m = 1.2;    // chosen: the next place on a table, or beside it
 constexpr double kHintGain = 0.5;    // chosen: half of the hints are the goal
 constexpr double kCommit = 0.8;      // chosen: price of the target in progress, as a share
 constexpr double kAround_m = 6;      // chosen: patches about the agent, a view and a step
 constexpr int kRefresh_steps = 6;    // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;  // chosen: of a search without a view left
 constexpr double kClose = 0.6;       // chosen: of the range, near enough for small things
+constexpr double kWorth_m = 300;     // chosen: the path of 1,200 actions; more is hopeless
 constexpr double kOffLevel_m = 0.3;  // chosen: a frontier this far off a floor is on furniture
-
-/// Mean height of the category's records above their floor [m]; nullopt without a record.
-std::optional<double> UsualHeight(const World& world, const std::string& category) {
-  double sum_m = 0;
-  int count = 0;
-  for (const objects::ObjectRecord& record : world.objects.records()) {
-    if (record.category != category || record.views == 0 || !world.revision) continue;
-    const auto& floors = world.revision->graph.floors;
-    const auto floor = FloorAt(world.revision->graph, record.centre_world_m);
-    if (!floor) continue;
-    sum_m += record.box_world_m.min().z() - floors[static_cast<std::size_t>(*floor)].height_m;
-    ++count;
-  }
-  return count > 0 ? std::optional(sum_m / count) : std::nullopt;
-}
-
-void ScaleTo(double sum, std::map<VoxelKey, double>* shares) {
-  double now = 0;
-  for (const auto& [cell, share] : *shares) now += share;
-  if (now <= 0) return;
-  for (auto& [cell, share] : *shares) share *= sum / now;
-}
-
-/// Of `shares`, the patches beside the last place of the goal, in sum kBeside: things are moved on
-/// their furniture, too.
-std::map<VoxelKey, double> SharesBeside(const World& world, const GoalState& goal,
-                                        const std::map<VoxelKey, double>& shares) {
-  std::map<VoxelKey, double> beside;
-  const auto lost =
-      objects::LastLost(world.objects.records(), KnownAs(world.objects.records(), goal.goal));
-  for (const auto& [cell, share] : shares) {
-    const Vector3d& p_world = world.full.field.patches().at(cell).p_world;
-    if (std::any_of(lost.begin(), lost.end(), [&](const objects::ObjectRecord* record) {
-          return record->box_world_m.exteriorDistance(p_world) <= kBeside_m;
-        }))
-      beside.emplace(cell, share);
-  }
-  ScaleTo(kBeside, &beside);
-  return beside;
-}
-
-/// Probability of each patch, in sum 1.
-std::map<VoxelKey, double> SharesOf(const World& world, const GoalState& goal,
-                                    const std::map<int, double>& odds) {
-  const auto height_m = UsualHeight(world, KnownAs(world.objects.records(), goal.goal));
-  std::map<VoxelKey, double> shares;
-  std::map<VoxelKey, int> rooms;
-  std::map<int, double> in_room;
-  for (const auto& [cell, patch] : world.full.field.patches()) {
-    if (goal.full.search->hidden.contains(cell)) continue;
-    double share = patch.columns;
-    if (height_m && (*height_m > kTop_m) != (patch.height_m > kTop_m)) share *= kOtherKind;
-    if (world.revision) {
-      const auto& graph = world.revision->graph;
-      const auto floor = FloorAt(graph, patch.p_world);
-      const auto room = floor ? RoomAt(graph, *floor, patch.p_world) : std::nullopt;
-      if (!room) continue;
-      rooms[cell] = *room;
-      in_room[*room] += share;
-    } else {
-      in_room[0] += share;
-    }
-    shares[cell] = share;
-  }
-  const std::map<VoxelKey, double> beside = SharesBeside(world, goal, shares);
-  for (auto& [cell, share] : shares) {
-    const int room = world.revision ? rooms[cell] : 0;
-    const auto it = odds.find(room);
-    share *= (odds.empty() ? 1 : it == odds.end() ? 0 : it->second) / in_room[room];
-  }
-  ScaleTo(beside.empty() ? 1 : 1 - kBeside, &shares);
-  for (const auto& [cell, share] : beside) shares[cell] += share;
-  return shares;
-}
 
 void UpdateAllFloors(World* world) {
   const auto& graph = world->revision->graph;
@@ -152,7 +78,7 @@ double KnownArea(const Situation& now) {
   const double voxel_m = now.config.map.voxel_m;
   double area_m2 = 0;
   for (const auto& [cell, patch] : now.world.full.field.patches())
-    if (patch.height_m < kTop_m) area_m2 += patch.columns * voxel_m * voxel_m;
+    if (patch.height_m < kFurnitureTop_m) area_m2 += patch.columns * voxel_m * voxel_m;
   return std::max(area_m2, 1.0);
 }
 
@@ -193,15 +119,29 @@ class SearchPrices {
         known_m2_(KnownArea(now)),
         is_absent_(IsSurelyAbsent(now)),
         views_(now),
+        tours_(now),
         candidates_(now) {
     const Pursuit& pursuit = PursuitOf(now.goal.full.activity);
     if (IsExploring(pursuit)) current_ = &PursuedIn(pursuit)->target;
+    if (current_ && current_->kind == CandidateKind::kSearchView)
+      current_room_ = tours_.RoomOf(current_->standing.front());
   }
 
   /// The least price that a candidate at the end of `path_m` can have.
   double Least(double path_m, double gain) const { return kCommit * (path_m + start_m_) / gain; }
+  /// The least price that anything farther than `path_m` can have.
+  double Least(double path_m) const {
+    return Least(path_m, std::max(kHintGain, tours_.most_gain()));
+  }
   double best() const { return best_; }
-  std::vector<PricedCandidate> Take() { return std::move(all_); }
+  std::vector<PricedCandidate> Take() {
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      GroundTarget& target = all_[i].target;
+      target.score_m = tours_.Score(rooms_[i], target.score_m, current_room_, kCommit);
+      target.candidate.score = -target.score_m;
+    }
+    return std::move(all_);
+  }
 
   /// Frontiers, flights and hints at `place`.
   void AddExplored(const planner::GroundSearch& search, const VoxelKey& place, double path_m) {
@@ -210,7 +150,7 @@ class SearchPrices {
       const bool is_pocket =
           found.type == ExplorationClass::kFrontier && gain * known_m2_ < kRoom_m2;
       if (gain <= 0 || (is_absent_ && is_pocket)) continue;
-      Add(std::move(found.candidate), search.PathTo(place), path_m, gain);
+      Add(std::move(found.candidate), search.PathTo(place), path_m, gain, {});
     }
   }
 
@@ -218,7 +158,9 @@ class SearchPrices {
   void AddView(const planner::GroundSearch& search, const VoxelKey& place, double path_m) {
     if (is_absent_ || !asked_.insert(ViewCellOf(place)).second) return;
     const double bound = views_.Bound(place);
-    if (bound < kLeastGain || Least(path_m, bound) >= best_) return;
+    if (bound < kLeastGain) return;
+    const auto room = tours_.RoomOf(place);
+    if (!tours_.CanBeChosen(room, path_m, Least(path_m, bound), best_, kCommit)) return;
     std::vector<VoxelKey> path = search.PathTo(place);
     auto view = views_.From(place, path_m, ArrivalHeading(now_, path));
     if (!view) return;
@@ -232,7 +174,7 @@ class SearchPrices {
     if (IsSpent(now_.goal.full.attempts, candidate.kind, candidate.p_focus_world,
                 explore.same_place_m, explore.max_choices))
       return;
-    Add(std::move(candidate), std::move(path), view->cost_m, view->gain);
+    Add(std::move(candidate), std::move(path), view->cost_m, view->gain, room);
   }
 
  private:
@@ -242,27 +184,31 @@ class SearchPrices {
                2 * now_.config.policy.explore.same_place_m;
   }
 
-  void Add(Candidate candidate, std::vector<VoxelKey> path, double cost_m, double gain) {
+  void Add(Candidate candidate, std::vector<VoxelKey> path, double cost_m, double gain,
+           std::optional<int> room) {
     PricedCandidate priced;
     GroundTarget& target = priced.target;
     target.cost_m = cost_m;
     target.score_m = (cost_m + start_m_) / gain * (IsCurrent(candidate) ? kCommit : 1);
     target.path = std::move(path);
     target.candidate = std::move(candidate);
-    target.candidate.score = -target.score_m;
-    best_ = std::min(best_, target.score_m);
+    best_ = std::min(best_, tours_.Add(room, cost_m, target.score_m));
     all_.push_back(std::move(priced));
+    rooms_.push_back(room);
   }
 
   const Situation& now_;
   double start_m_, known_m2_;
   bool is_absent_;
   SearchViews views_;
+  SearchTours tours_;
   ExplorationCandidates candidates_;
   const Candidate* current_ = nullptr;  // the target in progress
   std::set<VoxelKey> asked_;
   double best_ = std::numeric_limits<double>::infinity();
   std::vector<PricedCandidate> all_;
+  std::vector<std::optional<int>> rooms_;  // of `all_`
+  std::optional<int> current_room_;
 };
 
 bool HasPlaceLeft(const Situation& now) {
@@ -344,10 +290,13 @@ std::vector<PricedCandidate> PriceSearch(const Situation& now, const VoxelKey& s
   while (const auto place = search.Next()) {
     const double path_m = search.cost() * now.config.map.voxel_m;
     // A hook may prefer candidates that are far away.
-    if (!now.hooks && prices.Least(path_m, kHintGain) >= prices.best()) break;
+    if (!now.hooks && prices.Least(path_m) >= prices.best()) break;
     prices.AddExplored(search, *place, path_m);
     prices.AddView(search, *place, path_m);
   }
+  if (IsSearchOver(now) &&
+      objects::CostOfFinding(prices.best(), now.goal.full.search->unseen) > kWorth_m)
+    return {};
   return prices.Take();
 }
 

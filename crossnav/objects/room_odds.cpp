@@ -3,24 +3,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
 namespace crossnav::objects {
 namespace {
 
-constexpr double kSameRoom = 6.0;       // chosen: people move things a little more often than far
-constexpr double kSameFloor = 1.5;      // chosen: against a room of another floor
 constexpr double kMostCompany = 3.0;    // chosen: few rooms teach little
 constexpr double kRemoved = 0.2;        // chosen: of what is not at its place, before any search
 constexpr double kTypicalArea_m2 = 15;  // chosen: of a room; larger ones hold more
 
 using RoomSets = std::map<std::string, std::set<int>>;
 
-RoomSets RoomsByCategory(std::span<const ObjectRecord> records) {
+/// Of all records but `left`.
+RoomSets RoomsByCategory(std::span<const ObjectRecord> records,
+                         const std::vector<const ObjectRecord*>& left = {}) {
   RoomSets rooms;
   for (const ObjectRecord& record : records)
-    if (record.room >= 0) rooms[record.category].insert(record.room);
+    if (record.room >= 0 && std::find(left.begin(), left.end(), &record) == left.end())
+      rooms[record.category].insert(record.room);
   return rooms;
 }
 
@@ -36,15 +38,16 @@ double CompanyOf(const RoomSets& sets, std::size_t rooms, const std::string& cat
   return std::clamp(given / base, 1 / kMostCompany, kMostCompany);
 }
 
-double NearnessOf(const RoomPlace& room, const std::vector<const ObjectRecord*>& lost) {
-  double nearness = 1;
+/// Where the object went, seen from where it was.
+enum class Way { kInRoom, kOnFloor, kElsewhere };
+
+Way WayTo(const RoomPlace& room, const std::vector<const ObjectRecord*>& lost) {
+  Way way = Way::kElsewhere;
   for (const ObjectRecord* record : lost) {
-    if (record->room == room.room)
-      nearness = std::max(nearness, kSameRoom);
-    else if (record->floor == room.floor)
-      nearness = std::max(nearness, kSameFloor);
+    if (record->room == room.room) return Way::kInRoom;
+    if (record->floor == room.floor) way = Way::kOnFloor;
   }
-  return nearness;
+  return way;
 }
 
 }  // namespace
@@ -72,10 +75,10 @@ double Company(std::span<const ObjectRecord> records, std::span<const RoomPlace>
 
 std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
                                std::span<const RoomPlace> rooms, const std::string& category) {
-  const RoomSets sets = RoomsByCategory(records);
   const auto lost = LastLost(records, category);
-  std::map<int, double> odds;
-  double sum = 0;
+  // That the object was in the room that it left is counted by the way, not as company.
+  const RoomSets sets = RoomsByCategory(records, lost);
+  std::map<Way, std::map<int, double>> ways;
   for (const RoomPlace& room : rooms) {
     // Furniture of one room is no independent evidence: the mean of what each piece says.
     double log_company = 0;
@@ -87,17 +90,27 @@ std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
     }
     const double company = kinds > 0 ? std::exp(log_company / kinds) : 1;
     const double size = std::sqrt(std::max(1.0, room.area_m2) / kTypicalArea_m2);
-    const double weight = size * company * NearnessOf(room, lost);
-    odds[room.room] += weight;
-    sum += weight;
+    ways[WayTo(room, lost)][room.room] += size * company;
   }
-  for (auto& [room, share] : odds) share /= sum;
+  // How far things are carried is unknown: each way counts alike, however many rooms it leads to.
+  std::map<int, double> odds;
+  for (const auto& [way, weights] : ways) {
+    double sum = 0;
+    for (const auto& [room, weight] : weights) sum += weight;
+    for (const auto& [room, weight] : weights)
+      odds[room] = weight / (sum * static_cast<double>(ways.size()));
+  }
   return odds;
 }
 
 double OddsOfAbsence(double unseen) {
   const double here = (1 - kRemoved) * std::clamp(unseen, 0.0, 1.0);
   return kRemoved / (kRemoved + here);
+}
+
+double CostOfFinding(double price_m, double unseen) {
+  const double here = 1 - OddsOfAbsence(unseen);
+  return here > 0 ? price_m * unseen / here : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace crossnav::objects

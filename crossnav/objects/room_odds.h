@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where an object may be that is not where it was: a distribution over the rooms of a map, learned
 // from the records themselves. A room is likelier the more its furniture is the company in which
-// the memory knows the category, and the nearer it is to where the object was: the same room, then
-// others of the floor, then other floors.
+// the memory knows the category. The room where the object was, the others of its floor, and other
+// floors count alike together.
 #pragma once
 
 #include <map>
@@ -39,5 +39,9 @@ double Company(std::span<const ObjectRecord> records, std::span<const RoomPlace>
 /// P(the object is in none of the rooms | not found in what was looked at), where `unseen` is the
 /// probability mass of what was not looked at yet.
 double OddsOfAbsence(double unseen);
+
+/// Metres that finding the object costs on average where a search has metres at `price_m` for the
+/// probability of what was not looked at yet: the object may be in none of the rooms.
+double CostOfFinding(double price_m, double unseen);
 
 }  // namespace crossnav::objects

@@ -191,7 +191,9 @@ TEST(Revise, WithoutALoadedMemoryEveryStepIsTheSame) {
 TEST(Revise, WhatIsSeenThroughIsClearedInAMapThatNeverForgot) {
   const Night night = FirstDay();
   BoxWalker walker = Rearranged(nullptr);
-  Agent agent(ConfigOf("revise"), FakeSuite(testing::CouchSight(kMovedCouch)));
+  walker.pose.p_world = Vector3d(5.0, 1.0, 0);
+  walker.pose.yaw_rad = DegToRad(50);  // towards the couch
+  Agent agent(ConfigOf("revise"), FakeSuite(testing::CouchSight(BoxOf(90, 90, 0, 91, 91, 1))));
   Wake(night, 1, &agent);
   const auto count = [&] {
     int occupied = 0;

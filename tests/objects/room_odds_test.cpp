@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace crossnav::objects {
 namespace {
 
@@ -19,14 +21,26 @@ ObjectRecord RecordOf(const std::string& category, int room, int floor, double c
 
 const std::vector<RoomPlace> kRooms = {{0, 0, 15}, {1, 0, 15}, {2, 0, 15}, {3, 1, 15}};
 
-TEST(RoomOdds, TheRoomItWasInComesBeforeItsFloorAndThatBeforeOtherFloors) {
+TEST(RoomOdds, TheRoomTheFloorAndOtherFloorsCountAlike) {
   const std::vector<ObjectRecord> records = {RecordOf("plant", 0, 0, 0.01)};
   const auto odds = RoomOdds(records, kRooms, "plant");
-  EXPECT_GT(odds.at(0), 2 * odds.at(1));
-  EXPECT_GT(odds.at(1), odds.at(3));
+  EXPECT_NEAR(odds.at(0), 1.0 / 3, 1e-9);
+  EXPECT_NEAR(odds.at(1), 1.0 / 6, 1e-9);
+  EXPECT_NEAR(odds.at(3), 1.0 / 3, 1e-9);
   double sum = 0;
   for (const auto& [room, share] : odds) sum += share;
   EXPECT_NEAR(sum, 1, 1e-9);
+}
+
+// A vase left a room of many things: they are no evidence for its return.
+TEST(RoomOdds, TheFurnitureOfTheRoomThatItLeftIsNoEvidenceForThatRoom) {
+  std::vector<ObjectRecord> records = {RecordOf("vase", 0, 0, 0.01)};
+  for (const char* other : {"chair", "table", "oven", "sink"})
+    records.push_back(RecordOf(other, 0, 0));
+  for (const char* other : {"sofa", "lamp", "plant"}) records.push_back(RecordOf(other, 1, 0));
+  const auto odds = RoomOdds(records, kRooms, "vase");
+  EXPECT_LT(odds.at(0), 0.4);
+  EXPECT_NEAR(odds.at(1), odds.at(2), 1e-9);
 }
 
 TEST(RoomOdds, RoomsWithTheFurnitureThatUsuallyStandsBesideItAreLikelier) {
@@ -66,6 +80,13 @@ TEST(RoomOdds, WhatIsNotFoundAnywhereIsGone) {
   EXPECT_LT(OddsOfAbsence(1.0), 0.3);
   EXPECT_GT(OddsOfAbsence(0.02), 0.9);
   EXPECT_EQ(OddsOfAbsence(0), 1);
+}
+
+TEST(RoomOdds, WhatMayBeGoneCostsMoreToFindTheMoreWasLookedAt) {
+  // A quarter of the probability for 10 m: the object is somewhere in four of five cases.
+  EXPECT_NEAR(CostOfFinding(40, 1), 50, 1e-9);
+  EXPECT_GT(CostOfFinding(40 / 0.1, 0.1), 2 * CostOfFinding(40, 1));
+  EXPECT_TRUE(std::isinf(CostOfFinding(40, 0)));
 }
 
 }  // namespace
