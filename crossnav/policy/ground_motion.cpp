@@ -187,7 +187,7 @@ class LatticeSearch {
       if (node.action == (by > 0 ? Action::kTurnRight : Action::kTurnLeft)) continue;
       Node next = node;
       next.turn = Wrapped(node.turn + by);
-      next.cost += 1;
+      next.cost += config_.turn_steps;
       next.parent = index;
       next.action = turn;
       Add(next);

@@ -64,6 +64,7 @@ struct MotionConfig {
   double wanted_clearance_m = 0.15;  // chosen: the body's radius and half a voxel
   double min_clearance_m = 0.02;     // chosen: occupied voxels are up to a voxel wider
   double clearance_weight = 4;       // chosen: [steps] extra cost of a step that touches
+  double turn_steps = 1;             // chosen: [steps] price of a turn: an action, as a step is
   double arrival_m = 0.12;           // chosen: half a forward step
   double min_gain_steps = 0.3;       // chosen: less is not worth a turn
   int horizon_steps = 6;             // chosen: a metre and a half
@@ -171,6 +172,7 @@ void Visit(V& visit, MotionConfig& c) {
   visit(CROSSNAV_SETTING(c, min_clearance_m), 0.0, 1.0);
   visit(CROSSNAV_SETTING(c, clearance_weight), 0.0, 1000.0);
   visit(CROSSNAV_SETTING(c, arrival_m), 0.01, 10.0);
+  visit(CROSSNAV_SETTING(c, turn_steps), 0.01, 100.0);
   visit(CROSSNAV_SETTING(c, min_gain_steps), 0.0, 10.0);
   visit(CROSSNAV_SETTING(c, horizon_steps), 1, 40);
   visit(CROSSNAV_SETTING(c, travel_pitch_deg), -90.0, 90.0);

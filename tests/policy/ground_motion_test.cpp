@@ -141,5 +141,47 @@ TEST(GroundMotion, ArrivesInRandomClutterWithoutTouchingIt) {
   EXPECT_GE(arrived, 18);
 }
 
+/// Walks around the end of a wall until the goal is a step away. Length of the path [m], negative
+/// if it does not arrive.
+double WalkAroundAWall(std::uint64_t seed, const MotionConfig& config) {
+  Rng rng(seed);
+  VoxelMap map;
+  AddGround(map, 0, 0, 80, 60, 0);
+  const int end = rng.Int(20, 40);
+  for (int y = 0; y < end; ++y)
+    for (int z = 1; z <= 13; ++z)
+      for (const int x : {39, 40}) SetState(map, {x, y, z}, VoxelState::kOccupied);
+  const auto ground = GroundOf(map);
+  const VoxelKey goal{rng.Int(50, 75), rng.Int(5, 20), 1};
+  AgentPose agent;
+  agent.p_world = {0.1 * rng.Int(5, 30), 0.1 * rng.Int(5, 20), 0.1};
+  agent.yaw_rad = rng.Uniform(-M_PI, M_PI);
+  double walked_m = 0;
+  for (int plan = 0; plan < 200; ++plan) {
+    const auto path = PathOver(ground, *ground.StandingAt(agent.p_world), goal);
+    for (const Action action : MotionAlong(ground, path, agent, config, {}, {})) {
+      if ((CenterOf(goal, 0.1) - agent.p_world).head<2>().norm() < 0.25) return walked_m;
+      Do(action, agent);
+      walked_m += action == Action::kMoveForward ? 0.25 : 0;
+    }
+    if ((CenterOf(goal, 0.1) - agent.p_world).head<2>().norm() < 0.25) return walked_m;
+  }
+  return -1;
+}
+
+TEST(GroundMotion, WalksLessWhereTurnsAreCheap) {
+  MotionConfig cheap;
+  cheap.turn_steps = 0.2;
+  double walked_m = 0, cheaply_m = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const double a_m = WalkAroundAWall(seed, {}), b_m = WalkAroundAWall(seed, cheap);
+    ASSERT_GT(a_m, 0) << seed;
+    ASSERT_GT(b_m, 0) << seed;
+    walked_m += a_m;
+    cheaply_m += b_m;
+  }
+  EXPECT_LT(cheaply_m, walked_m);
+}
+
 }  // namespace
 }  // namespace crossnav::policy
