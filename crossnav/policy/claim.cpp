@@ -202,6 +202,7 @@ void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& s
       return !IsOtherView(poi.p_center_world, p_camera_world, score.p_camera_world, config);
     });
     if (view == it->scores.end()) view = it->scores.insert(view, ViewScore{p_camera_world, 0, 0});
+    if (best <= 0) continue;
     view->sum += best;
     ++view->frames;
   }

@@ -9,8 +9,7 @@ namespace {
 
 double BestOf(const std::vector<ViewScore>& views) {
   double best = 0;
-  for (const ViewScore& view : views)
-    if (view.frames > 0) best = std::max(best, view.Mean());
+  for (const ViewScore& view : views) best = std::max(best, view.Mean());
   return best;
 }
 
@@ -27,7 +26,6 @@ OtherViews OthersThanBest(const std::vector<ViewScore>& views, double discount) 
   double sum = -BestOf(views), next = 1;
   int count = -1;
   for (const ViewScore& view : views) {
-    if (view.frames == 0) continue;
     sum += view.Mean();
     if (++count == 0) continue;
     others.worth += next;

@@ -23,12 +23,13 @@ struct EvidenceConfig {
   double refused = 0.5;   // chosen: and below which, seen from two sides, it is not
 };
 
-/// Frames from about one place.
+/// Frames from about one place. A frame without a detection says little beside others with one: the
+/// object may be cut by the image's edge.
 struct ViewScore {
   Vector3d p_camera_world = Vector3d::Zero();
   double sum = 0;  ///< of scores
-  int frames = 0;
-  double Mean() const { return sum / frames; }
+  int frames = 0;  ///< with a detection; 0 = it was missed from here
+  double Mean() const { return frames > 0 ? sum / frames : 0; }
 };
 
 /// Log-odds of one score in [0, 1].

@@ -182,6 +182,10 @@ TEST(ViewEvidence, MissesInPlainSightAreNotedByViewToo) {
   note({1, 0.9, 0.3}, 1, {});
   ASSERT_EQ(book.ViewsOf(7)->scores.size(), 2U);
   EXPECT_DOUBLE_EQ(book.ViewsOf(7)->scores[1].Mean(), 0);
+  note({1, 0.9, 0.3}, 1, {SightingOf(0, 0.6)});
+  note({1, 0.9, 0.3}, 1, {});
+  ASSERT_EQ(book.ViewsOf(7)->scores.size(), 2U);
+  EXPECT_DOUBLE_EQ(book.ViewsOf(7)->scores[1].Mean(), 0.6) << "of the frames with a detection";
   EXPECT_TRUE(book.ViewsOf(7)->p_cameras_world.empty()) << "too weak a score for a claim";
 }
 
