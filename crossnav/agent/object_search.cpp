@@ -37,7 +37,6 @@ constexpr double kAround_m = 6;      // chosen: patches about the agent, a view 
 constexpr int kRefresh_steps = 6;    // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;  // chosen: of a search without a view left
 constexpr double kClose = 0.6;       // chosen: of the range, near enough for small things
-constexpr double kWorth_m = 300;     // chosen: the path of 1,200 actions; more is hopeless
 constexpr double kOffLevel_m = 0.3;  // chosen: a frontier this far off a floor is on furniture
 
 void UpdateAllFloors(World* world) {
@@ -294,9 +293,6 @@ std::vector<PricedCandidate> PriceSearch(const Situation& now, const VoxelKey& s
     prices.AddExplored(search, *place, path_m);
     prices.AddView(search, *place, path_m);
   }
-  if (IsSearchOver(now) &&
-      objects::CostOfFinding(prices.best(), now.goal.full.search->unseen) > kWorth_m)
-    return {};
   return prices.Take();
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -106,11 +105,6 @@ std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
 double OddsOfAbsence(double unseen) {
   const double here = (1 - kRemoved) * std::clamp(unseen, 0.0, 1.0);
   return kRemoved / (kRemoved + here);
-}
-
-double CostOfFinding(double price_m, double unseen) {
-  const double here = 1 - OddsOfAbsence(unseen);
-  return here > 0 ? price_m * unseen / here : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace crossnav::objects

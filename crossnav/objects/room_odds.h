@@ -40,8 +40,4 @@ double Company(std::span<const ObjectRecord> records, std::span<const RoomPlace>
 /// probability mass of what was not looked at yet.
 double OddsOfAbsence(double unseen);
 
-/// Metres that finding the object costs on average where a search has metres at `price_m` for the
-/// probability of what was not looked at yet: the object may be in none of the rooms.
-double CostOfFinding(double price_m, double unseen);
-
 }  // namespace crossnav::objects

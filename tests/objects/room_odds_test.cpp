@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 
 namespace crossnav::objects {
 namespace {
@@ -80,13 +79,6 @@ TEST(RoomOdds, WhatIsNotFoundAnywhereIsGone) {
   EXPECT_LT(OddsOfAbsence(1.0), 0.3);
   EXPECT_GT(OddsOfAbsence(0.02), 0.9);
   EXPECT_EQ(OddsOfAbsence(0), 1);
-}
-
-TEST(RoomOdds, WhatMayBeGoneCostsMoreToFindTheMoreWasLookedAt) {
-  // A quarter of the probability for 10 m: the object is somewhere in four of five cases.
-  EXPECT_NEAR(CostOfFinding(40, 1), 50, 1e-9);
-  EXPECT_GT(CostOfFinding(40 / 0.1, 0.1), 2 * CostOfFinding(40, 1));
-  EXPECT_TRUE(std::isinf(CostOfFinding(40, 0)));
 }
 
 }  // namespace

@@ -80,7 +80,9 @@ TEST(SearchField, APatchBehindASurfaceWasNotLookedAt) {
   field.Look(CameraLookingAlongX(0.3, 1.0), 5);  // a wall a metre ahead
   int near = 0;
   for (const auto& [cell, patch] : field.patches()) {
-    if (patch.p_world.x() > 1.8) EXPECT_TRUE(std::isinf(patch.low.for_goal_m));
+    if (patch.p_world.x() > 1.8) {
+      EXPECT_TRUE(std::isinf(patch.low.for_goal_m));
+    }
     near += patch.low.for_goal_m < 5;
   }
   EXPECT_GT(near, 0);
