@@ -50,10 +50,9 @@ struct Thing {
   bool is_true = false;
 };
 
-/// What the agent knows after some views of a thing.
+/// Evidence for a thing after some views of it.
 struct Case {
-  double best = 0;  ///< log-odds of the best view's score
-  policy::OtherViews others;
+  policy::ViewSummary views;
   bool is_true = false;
 };
 
@@ -109,10 +108,7 @@ std::vector<Case> CasesOf(const Thing& thing, double discount) {
     for (std::size_t n = 1; n <= std::min(kMostViews, views.size()); ++n) {
       std::vector<policy::ViewScore> some;
       for (std::size_t i = 0; i < n; ++i) some.push_back(views[(first + i) % views.size()]);
-      double best = 0;
-      for (const auto& view : some) best = std::max(best, view.Mean());
-      cases.push_back(
-          {policy::LogOddsOf(best), policy::OthersThanBest(some, discount), thing.is_true});
+      cases.push_back({policy::SummaryOf(some, discount), thing.is_true});
     }
   }
   return cases;
@@ -182,8 +178,8 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
 policy::EvidenceConfig Fit(const std::vector<Case>& all) {
   Eigen::Vector4d fit = Eigen::Vector4d::Zero();
   const auto row = [](const Case& c) {
-    return Eigen::Vector4d(1, c.best, c.others.worth * (1 - c.others.mean),
-                           c.others.worth * c.others.mean);
+    return Eigen::Vector4d(1, c.views.best_log_odds, c.views.others * (1 - c.views.mean),
+                           c.views.others * c.views.mean);
   };
   for (int i = 0; i < 50; ++i) {
     Eigen::Vector4d slope = Eigen::Vector4d::Zero();
@@ -204,17 +200,13 @@ policy::EvidenceConfig Fit(const std::vector<Case>& all) {
   return config;
 }
 
-/// Cases with `views` views (0 = any) as probabilities.
+/// Probabilities of the cases after one view, or of the others.
 std::vector<Scored> Said(const std::vector<Case>& all, const policy::EvidenceConfig& fit,
                          bool is_single) {
   std::vector<Scored> said;
-  for (const Case& c : all) {
-    if ((c.others.worth == 0) != is_single) continue;
-    const double log_odds =
-        fit.offset + fit.slope * c.best +
-        c.others.worth * (fit.missed + (fit.found - fit.missed) * c.others.mean);
-    said.push_back({1 / (1 + std::exp(-log_odds)), c.is_true});
-  }
+  for (const Case& c : all)
+    if ((c.views.others == 0) == is_single)
+      said.push_back({policy::ProbabilityOf(c.views, fit), c.is_true});
   return said;
 }
 

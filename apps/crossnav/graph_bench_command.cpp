@@ -11,6 +11,7 @@
 #include "crossnav/evaluation/trials/graph_trials.h"
 #include "graph_picture.h"
 #include "perception_source.h"
+#include "session.h"
 
 namespace crossnav::app {
 namespace {
@@ -53,9 +54,10 @@ std::string Row(const std::string& name, const evaluation::GraphScore& score,
 
 Result<void> BenchGraph(const GraphBenchOptions& options, const CommonOptions& common,
                         Console& console) {
-  auto config = LoadConfig(common);
+  Protocol protocol;
+  protocol.perception = options.perception;
+  const auto config = LoadRunConfig(common, protocol);
   if (!config) return tl::unexpected(config.error());
-  if (!options.perception.empty()) config->eval.perception = options.perception;
   const auto source = PerceptionSource::Read(*config);
   if (!source) return tl::unexpected(source.error());
   std::optional<perception::PerceptionSuite> suite;  // empty = ground truth

@@ -55,9 +55,10 @@ Json PictureTrialJson(const std::string& house, const PictureTrial& trial) {
 
 Result<void> BenchPictures(const PictureBenchOptions& options, const CommonOptions& common,
                            Console& console) {
-  auto config = LoadConfig(common);
+  Protocol protocol;
+  protocol.perception = options.perception;
+  const auto config = LoadRunConfig(common, protocol);
   if (!config) return tl::unexpected(config.error());
-  if (!options.perception.empty()) config->eval.perception = options.perception;
   const auto source = PerceptionSource::Read(*config);
   if (!source) return tl::unexpected(source.error());
   PictureCounts counts;

@@ -222,7 +222,10 @@ Result<void> BenchSensors(const SensorTrialOptions& options, const CommonOptions
   const std::vector<fs::path> file_dirs = {fs::path(options.data) / "models"};
   auto config = LoadWithNetworks(common, options.networks, file_dirs);
   if (!config) return tl::unexpected(config.error());
-  if (LooksForPlants(options, *config)) config->eval.perception = "networks";
+  if (LooksForPlants(options, *config)) {
+    config->eval.perception = "networks";
+    UseCards(*config);
+  }
   std::optional<perception::PerceptionSuite> suite;
   const auto source = PerceptionSource::Read(*config, file_dirs);
   if (!source) return tl::unexpected(source.error());

@@ -62,7 +62,7 @@ void NoteObjects(const GoalSight& own, const std::vector<PassingSight>& passing,
     goal->events.push_back("no longer there: " + record.category);
     if (record.category != objects::KnownAs(world->objects.records(), own.name)) continue;
     SettlePlaceOf(record, goal);
-    goal->full.search.reset();  // where it may be has changed
+    goal->full.search.reset();  // its likely places have changed
   }
 }
 

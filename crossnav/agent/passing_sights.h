@@ -16,7 +16,7 @@ namespace crossnav::agent {
 /// policy.profile = full: the other profiles are the paper's and the baseline's to the letter.
 bool NoticesThings(const Config& config);
 
-/// One name's detections in one frame, and the same in 3D.
+/// Detections of a name in a frame, and their sightings in 3D.
 struct PassingSight {
   std::string name;
   std::vector<perception::Detection> detections;

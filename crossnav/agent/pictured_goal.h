@@ -37,7 +37,7 @@ struct PicturedGoal {
   std::map<int, Judged> judged;  ///< by id of the live POI
 };
 
-/// What speaks for or against an object; nothing where it is not known.
+/// Measures of how alike an object and the goal's picture are; nullopt where not known.
 struct Likeness {
   std::optional<double> colours;  ///< overlap of the histograms [0, 1]
   std::optional<double> object;   ///< cosine of what is its own in its features [-1, 1]

@@ -11,7 +11,7 @@
 
 namespace crossnav::agent {
 
-/// What is left to see in one room.
+/// The part of a room that is still to be seen.
 struct RoomTour {
   int floor = 0;
   double gain = 0;    ///< probability that the goal is in it, unnoticed so far

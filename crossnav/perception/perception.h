@@ -76,7 +76,7 @@ struct GoalPicture {
   std::optional<PixelBox> box;  ///< about the object; empty = it is in the middle
 };
 
-/// What a goal's picture says of its object.
+/// Category, mask and features of the object in a goal's picture.
 struct PictureReading {
   std::string category;  ///< as the detector knows it
   MaskImage mask;        ///< pixels of the object; not empty

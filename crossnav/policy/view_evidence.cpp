@@ -5,43 +5,36 @@
 #include <cmath>
 
 namespace crossnav::policy {
-namespace {
-
-double BestOf(const std::vector<ViewScore>& views) {
-  double best = 0;
-  for (const ViewScore& view : views) best = std::max(best, view.Mean());
-  return best;
-}
-
-}  // namespace
-
 double LogOddsOf(double score) {
   constexpr double kLeast = 0.01;  // chosen: no score is certain
   const double p = std::clamp(score, kLeast, 1 - kLeast);
   return std::log(p / (1 - p));
 }
 
-OtherViews OthersThanBest(const std::vector<ViewScore>& views, double discount) {
-  OtherViews others;
-  double sum = -BestOf(views), next = 1;
-  int count = -1;
+ViewSummary SummaryOf(const std::vector<ViewScore>& views, double discount) {
+  double best = 0, sum = 0;
   for (const ViewScore& view : views) {
+    best = std::max(best, view.Mean());
     sum += view.Mean();
-    if (++count == 0) continue;
-    others.worth += next;
-    next *= discount;
   }
-  if (count > 0) others.mean = sum / count;
-  return others;
+  ViewSummary summary;
+  summary.best_log_odds = LogOddsOf(best);
+  if (views.size() < 2) return summary;
+  summary.mean = (sum - best) / static_cast<double>(views.size() - 1);
+  double next = 1;
+  for (std::size_t i = 1; i < views.size(); ++i, next *= discount) summary.others += next;
+  return summary;
+}
+
+double ProbabilityOf(const ViewSummary& views, const EvidenceConfig& config) {
+  const double of_another = config.missed + (config.found - config.missed) * views.mean;
+  const double log_odds =
+      config.offset + config.slope * views.best_log_odds + views.others * of_another;
+  return 1 / (1 + std::exp(-log_odds));
 }
 
 double ProbabilityOf(const std::vector<ViewScore>& views, const EvidenceConfig& config) {
-  if (views.empty()) return 0.5;
-  const OtherViews others = OthersThanBest(views, config.discount);
-  const double log_odds =
-      config.offset + config.slope * LogOddsOf(BestOf(views)) +
-      others.worth * (config.missed + (config.found - config.missed) * others.mean);
-  return 1 / (1 + std::exp(-log_odds));
+  return views.empty() ? 0.5 : ProbabilityOf(SummaryOf(views, config.discount), config);
 }
 
 Sight SightOf(const std::vector<geometry::VoxelKey>& voxels, const Observation& obs,

@@ -35,16 +35,19 @@ struct ViewScore {
 /// Log-odds of one score in [0, 1].
 double LogOddsOf(double score);
 
-/// Probability that the object is the goal. 0.5 without views.
-double ProbabilityOf(const std::vector<ViewScore>& views, const EvidenceConfig& config);
-
-/// The part that the views but the best have in the log-odds: the sum of their discounts, and the
-/// mean of their scores.
-struct OtherViews {
-  double worth = 0;
+/// The best view, and the others: the sum of their discounts, and the mean of their scores.
+struct ViewSummary {
+  double best_log_odds = 0;
+  double others = 0;
   double mean = 0;
 };
-OtherViews OthersThanBest(const std::vector<ViewScore>& views, double discount);
+/// `views` not empty.
+ViewSummary SummaryOf(const std::vector<ViewScore>& views, double discount);
+
+/// Probability that the object is the goal.
+double ProbabilityOf(const ViewSummary& views, const EvidenceConfig& config);
+/// 0.5 without views.
+double ProbabilityOf(const std::vector<ViewScore>& views, const EvidenceConfig& config);
 
 /// How a frame shows an object, by its voxels.
 struct Sight {

@@ -9,6 +9,7 @@ namespace crossnav::agent {
 namespace {
 
 using testing::InColour;
+using testing::IsClaimAt;
 using testing::kGrey;
 using testing::kRed;
 using testing::LongRoom;
@@ -42,21 +43,10 @@ Agent AgentWithReader() {
 }
 
 std::optional<Vector3d> ClaimOfColour(const Rgb8& colour) {
-  test::BoxWalker walker = LongRoom();
   Agent agent = AgentWithReader();
   const auto set = agent.SetGoal(PictureOf(colour));
   EXPECT_TRUE(set) << (set ? "" : set.error().Message());
-  for (int i = 0; set && i < 600; ++i) {
-    const auto result = agent.Step(InColour(walker));
-    if (!result || result->all_explored) return std::nullopt;
-    if (result->action == Action::kStop) return result->p_claimed_world;
-    walker.Do(result->action);
-  }
-  return std::nullopt;
-}
-
-bool IsClaimAt(const std::optional<Vector3d>& claim, const Box3& box) {
-  return claim && box.HorizontalDistance(*claim) < 0.3;
+  return set ? testing::ClaimIn600Steps(agent) : std::nullopt;
 }
 
 TEST(PicturedGoal, TheInstanceOfThePictureIsClaimedAndNotTheOneBeforeIt) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -70,6 +71,22 @@ inline Observation InColour(const BoxWalker& walker) {
                                         : Rgb8{230, 230, 225};
   });
   return obs;
+}
+
+/// Claim of the agent in the long room; nullopt where it does not claim.
+inline std::optional<Vector3d> ClaimIn600Steps(Agent& agent) {
+  BoxWalker walker = LongRoom();
+  for (int i = 0; i < 600; ++i) {
+    const auto result = agent.Step(InColour(walker));
+    if (!result || result->all_explored) return std::nullopt;
+    if (result->action == Action::kStop) return result->p_claimed_world;
+    walker.Do(result->action);
+  }
+  return std::nullopt;
+}
+
+inline bool IsClaimAt(const std::optional<Vector3d>& claim, const Box3& box) {
+  return claim && box.HorizontalDistance(*claim) < 0.3;
 }
 
 }  // namespace crossnav::agent::testing

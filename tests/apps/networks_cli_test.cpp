@@ -74,6 +74,26 @@ TEST_F(NetworksCli, AnEpisodeFromPixelsSaysSoAndNamesTheFiles) {
   ExpectFailure("map query m.map bed", {"m.map", "small-"});
 }
 
+TEST_F(NetworksCli, ClaimsAreJudgedByViewsWhereTheDetectorsCardHasTheirNumbers) {
+  const auto verify = [&](const std::string& out, const std::string& more) {
+    const Outcome run = Run("run --quiet --scenes scenes --episodes e.json --episode " + FirstId() +
+                            " --perception networks --set eval.action_budget=1 --out " + out +
+                            kSmall + use_ + more);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const std::string file = ReadText(At(out + "/results.jsonl"));
+    return Json::parse(file.substr(0, file.find('\n')))["config"]["verify"];
+  };
+  EXPECT_EQ(verify("before", "")["evidence"], "auto");
+  const std::string section = "\n[evidence]\noffset = -4\nslope = 3\nmissed = -1.5\nfound = 2\n";
+  WriteText(At("nets/small.toml"), ReadText(At("nets/small.toml")) + section);
+  const Json measured = verify("after", "");
+  EXPECT_EQ(measured["evidence"], "views");
+  EXPECT_EQ(measured["view_missed"], -1.5);
+  const Json chosen = verify("chosen", " --set verify.evidence=frame --set verify.view_missed=-3");
+  EXPECT_EQ(chosen["evidence"], "frame");
+  EXPECT_EQ(chosen["view_missed"], -3);
+}
+
 TEST_F(NetworksCli, AFolderWithoutOpenVinoIsNamed) {
   const auto all = inference::test::BuiltBackends();
   if (std::find(all.begin(), all.end(), "openvino") == all.end()) GTEST_SKIP() << "no OpenVINO";

@@ -107,7 +107,7 @@ TEST(ViewEvidence, NearIdenticalViewsCountOnceAndOthersAtADiscount) {
     const double p = ProbabilityOf(views, config);
     return std::log(p / (1 - p));
   };
-  EXPECT_DOUBLE_EQ(ProbabilityOf({}, config), 0.5);
+  EXPECT_DOUBLE_EQ(ProbabilityOf(std::vector<ViewScore>{}, config), 0.5);
   EXPECT_NEAR(ProbabilityOf({View(0.8)}, config), 0.8, 1e-9);
   EXPECT_NEAR(ProbabilityOf({View(0.8, 9)}, config), 0.8, 1e-9);
   const double one = odds({View(0.8)});

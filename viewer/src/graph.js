@@ -24,7 +24,7 @@ export class GraphPanel {
     byId("graph-count").textContent =
       `${graph.rooms.length} rooms, ${graph.objects.length} objects, ${graph.relations.length} relations`;
     byId("graph").replaceChildren(...graph.floors_m.flatMap((height, floor) => [
-      make("h3", "", `floor ${floor}, ${figure(height, 1)} m`),
+      make("h3", "", `floor ${floor + 1}, ${figure(height, 1)} m`),
       ...graph.rooms.filter((room) => room.height_m === height).map((room) => this.room(room, graph)),
     ]), ...this.rest(graph));
   }

@@ -57,6 +57,7 @@ test("every topic has the schema that its viewers look for", { skip }, async () 
     "/map/voxel_changes": "crossnav.VoxelChanges protobuf protobuf",
     "/map/voxels": "foxglove.PointCloud protobuf protobuf",
     "/map/flights": "foxglove.SceneUpdate protobuf protobuf",
+    "/map/graph": "crossnav.Graph jsonschema json",
     "/perception/boxes": "crossnav.Sight jsonschema json",
     "/perception/maps": "foxglove.CompressedImage protobuf protobuf",
     "/agent/plan": "foxglove.SceneUpdate protobuf protobuf",

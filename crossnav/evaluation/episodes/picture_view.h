@@ -6,7 +6,7 @@
 
 namespace crossnav::evaluation {
 
-/// What ground-truth perception needs of a picture.
+/// Object and camera of a picture, for ground-truth perception.
 inline sim::PictureView ViewOf(const StagePicture& picture) {
   return {picture.object_id, CameraPose(picture.taken_from, picture.camera_height_m),
           picture.hfov_deg};

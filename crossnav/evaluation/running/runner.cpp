@@ -53,7 +53,7 @@ bool MeansOneInstance(const std::string& goal) {
   return KindOf(goal) != GoalKind::kCategory;
 }
 
-/// What ground truth knows of the episode's pictures.
+/// The episode's pictures by name, for ground-truth perception.
 sim::KnownPictures KnownPicturesOf(const Episode& episode) {
   sim::KnownPictures known;
   for (const auto& [name, picture] : episode.pictures) known[name] = ViewOf(*picture);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kAboutObject_m = 0.3;  // chosen: three voxels about the true box
 
-/// What an agent would know of the house after a look at everything.
+/// The memory and the records of an agent that has looked at the whole house.
 class Onlooker {
  public:
   Onlooker(const RunConfig& config, perception::PerceptionSuite& suite)

@@ -127,7 +127,7 @@ std::string ColourText(const std::optional<Rgb8>& rgb) {
          std::to_string(rgb->g) + " " + std::to_string(rgb->b);
 }
 
-/// Which words the map's own record of the thing does not fit.
+/// Words of the description that the map's own record of the thing does not fit.
 std::string Misfits(const language::Description& d, const language::Thing& truth,
                     const KnownHome& known) {
   const auto found = std::find_if(known.things.begin(), known.things.end(),
@@ -149,7 +149,7 @@ std::string Misfits(const language::Description& d, const language::Thing& truth
   return text.empty() ? "others fit, too" : "misfits:" + text;
 }
 
-/// What the rooms of the chosen things hold, by which rooms are told apart.
+/// Contents of the rooms of the chosen things, by which rooms are told apart.
 std::string RoomsText(const std::vector<int>& chosen, const KnownHome& known) {
   std::string text;
   for (const int i : chosen) {
