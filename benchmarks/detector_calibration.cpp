@@ -11,13 +11,16 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "covering_points.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/inference/suite.h"
 #include "crossnav/policy/claim.h"
+#include "crossnav/policy/goal_length.h"
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/sim/scene/scene.h"
@@ -47,6 +50,7 @@ struct Scored {
 struct Thing {
   policy::LivePoi poi;
   policy::ClaimTracker book;
+  std::vector<geometry::VoxelKey> voxels;  ///< of all its sightings, sorted
   bool is_true = false;
 };
 
@@ -94,11 +98,15 @@ void NoteThing(const policy::Sighting& sighting, bool is_true, std::vector<Thing
     it->poi.voxels = sighting.voxels;
     it->poi.p_center_world = sighting.p_center_world;
   }
+  std::vector<geometry::VoxelKey> all;
+  std::set_union(it->voxels.begin(), it->voxels.end(), sighting.voxels.begin(),
+                 sighting.voxels.end(), std::back_inserter(all));
+  it->voxels = std::move(all);
   it->is_true = it->is_true || is_true;
 }
 
 /// After one view that claims the thing, and after one to three more: `first` and its successors.
-std::vector<Case> CasesOf(const Thing& thing, double discount) {
+std::vector<Case> CasesOf(const Thing& thing, double shortness) {
   std::vector<Case> cases;
   const policy::ClaimViews* seen = thing.book.ViewsOf(thing.poi.id);
   if (!seen) return cases;
@@ -108,7 +116,8 @@ std::vector<Case> CasesOf(const Thing& thing, double discount) {
     for (std::size_t n = 1; n <= std::min(kMostViews, views.size()); ++n) {
       std::vector<policy::ViewScore> some;
       for (std::size_t i = 0; i < n; ++i) some.push_back(views[(first + i) % views.size()]);
-      cases.push_back({policy::SummaryOf(some, discount), thing.is_true});
+      cases.push_back(
+          {policy::SummaryOf(some, shortness, policy::EvidenceConfig{}.discount), thing.is_true});
     }
   }
   return cases;
@@ -166,9 +175,9 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
       for (Thing& thing : things[g])
         policy::NoteScores({thing.poi}, seen[i][g], obs, voxel_m, {}, Separate(), &thing.book);
   }
-  for (const auto& some : things)
-    for (const Thing& thing : some) {
-      const auto cases = CasesOf(thing, policy::EvidenceConfig{}.discount);
+  for (std::size_t g = 0; g < kCategories.size(); ++g)
+    for (const Thing& thing : things[g]) {
+      const auto cases = CasesOf(thing, policy::ShortnessOf(kCategories[g], thing.voxels, voxel_m));
       house.cases.insert(house.cases.end(), cases.begin(), cases.end());
     }
   return house;
@@ -176,16 +185,21 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
 
 /// Numbers of `verify.*` by Newton's method on the likelihood of the log-odds.
 policy::EvidenceConfig Fit(const std::vector<Case>& all) {
-  Eigen::Vector4d fit = Eigen::Vector4d::Zero();
+  using Row = Eigen::Matrix<double, 5, 1>;
+  // chosen: cases of one thing repeat each other, and few things are too short
+  const Row prior = (Row() << 0.01, 0.01, 0.01, 0.01, 2).finished();
+  Row fit = Row::Zero();
   const auto row = [](const Case& c) {
-    return Eigen::Vector4d(1, c.views.best_log_odds, c.views.others * (1 - c.views.mean),
-                           c.views.others * c.views.mean);
+    Row x;
+    x << 1, c.views.best_log_odds, c.views.others * (1 - c.views.mean),
+        c.views.others * c.views.mean, c.views.shortness;
+    return x;
   };
   for (int i = 0; i < 50; ++i) {
-    Eigen::Vector4d slope = Eigen::Vector4d::Zero();
-    Eigen::Matrix4d curve = 1e-6 * Eigen::Matrix4d::Identity();
+    Row slope = -prior.cwiseProduct(fit);
+    Eigen::Matrix<double, 5, 5> curve = prior.asDiagonal();
     for (const Case& c : all) {
-      const Eigen::Vector4d x = row(c);
+      const Row x = row(c);
       const double p = 1 / (1 + std::exp(-fit.dot(x)));
       slope += ((c.is_true ? 1 : 0) - p) * x;
       curve += p * (1 - p) * x * x.transpose();
@@ -197,6 +211,7 @@ policy::EvidenceConfig Fit(const std::vector<Case>& all) {
   config.slope = fit[1];
   config.missed = fit[2];
   config.found = fit[3];
+  config.too_short = fit[4];
   return config;
 }
 
@@ -251,14 +266,16 @@ int main(int argc, char** argv) {
   }
   PrintDiagram("scores as they are", halves[1].sightings);
   const policy::EvidenceConfig fit = Fit(halves[0].cases);
-  std::printf("[evidence]\noffset = %.2f\nslope = %.2f\nmissed = %.2f\nfound = %.2f\n", fit.offset,
-              fit.slope, fit.missed, fit.found);
+  std::printf(
+      "[evidence]\noffset = %.2f\nslope = %.2f\nmissed = %.2f\nfound = %.2f\ntoo_short = %.2f\n",
+      fit.offset, fit.slope, fit.missed, fit.found, fit.too_short);
   PrintDiagram("things after one view, judged half", Said(halves[1].cases, fit, true));
   PrintDiagram("things after two to four views, judged half", Said(halves[1].cases, fit, false));
   std::vector<Case> both = halves[0].cases;
   both.insert(both.end(), halves[1].cases.begin(), halves[1].cases.end());
   const policy::EvidenceConfig all = Fit(both);
-  std::printf("all houses: offset = %.2f, slope = %.2f, missed = %.2f, found = %.2f\n", all.offset,
-              all.slope, all.missed, all.found);
+  std::printf(
+      "all houses: offset = %.2f, slope = %.2f, missed = %.2f, found = %.2f, too_short = %.2f\n",
+      all.offset, all.slope, all.missed, all.found, all.too_short);
   return 0;
 }

@@ -64,6 +64,7 @@ void UseCards(evaluation::RunConfig& config) {
   Use(evidence.slope, standard.views.slope, &verify.views.slope);
   Use(evidence.missed, standard.views.missed, &verify.views.missed);
   Use(evidence.found, standard.views.found, &verify.views.found);
+  Use(evidence.too_short, standard.views.too_short, &verify.views.too_short);
 }
 
 Result<PerceptionSource> PerceptionSource::Read(const evaluation::RunConfig& config,

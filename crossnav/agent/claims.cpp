@@ -8,6 +8,7 @@
 
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/core/category_table.h"
+#include "crossnav/policy/goal_length.h"
 
 namespace crossnav::agent {
 
@@ -54,6 +55,14 @@ bool IsLikelyByMemory(const GoalState& goal, const policy::LivePoi& poi,
   return margin >= (has_failed ? config.strong_margin : 0);
 }
 
+policy::ViewSummary SummaryOf(const StepState& now, const policy::LivePoi& poi) {
+  const policy::ClaimViews* seen = now.goal.full.claims.ViewsOf(poi.id);
+  const double shortness =
+      policy::ShortnessOf(CanonicalName(now.goal.goal), poi.voxels, now.config.map.voxel_m);
+  return policy::SummaryOf(seen ? seen->scores : std::vector<policy::ViewScore>{}, shortness,
+                           now.config.verify.views.discount);
+}
+
 }  // namespace
 
 bool DoubtsClaims(const Config& config) {
@@ -93,24 +102,24 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   if (opinion &&
       IsOfSurroundings(now.world.memory, poi.voxels, now.config.map.voxel_m, *opinion, others))
     opinion.reset();
-  const auto scores = seen ? seen->scores : std::vector<policy::ViewScore>{};
+  const policy::ViewSummary summary = SummaryOf(now, poi);
   ClaimVerdict verdict = config.evidence == "views"
-                             ? Judge(opinion, scores, config)
+                             ? Judge(opinion, summary, config)
                              : Judge(opinion, verification.confidence, views, config);
   const bool was_asked = goal.full.claims.second_view_of == poi.id;
   if (verdict == ClaimVerdict::kWeak) {
     goal.full.claims.second_view_of = poi.id;
     if (goal.full.claims.no_second_view_of == poi.id || !HasSecondView(now, poi)) {
       const bool is_likely = config.evidence == "views"
-                                 ? ProbabilityOf(scores, config.views) >= config.views.refused
+                                 ? ProbabilityOf(summary, config.views) >= config.views.refused
                                  : IsLikelyByMemory(goal, poi, opinion, config);
       verdict = is_likely ? ClaimVerdict::kAgreed : ClaimVerdict::kRefuted;
     }
   }
   std::string facts = Describe(goal.goal, verification, opinion, views);
   if (config.evidence == "views")
-    facts += ", P " + TwoDigits(ProbabilityOf(scores, config.views)) + " of " +
-             std::to_string(scores.size());
+    facts += ", P " + TwoDigits(ProbabilityOf(summary, config.views)) + " of " +
+             std::to_string(summary.views) + (summary.shortness > 0 ? ", short" : "");
   if (verdict == ClaimVerdict::kAgreed) goal.events.push_back("claim holds: " + facts);
   if (verdict == ClaimVerdict::kRefuted) goal.events.push_back("claim refuted: " + facts);
   if (verdict == ClaimVerdict::kWeak && !was_asked)
@@ -119,8 +128,7 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
 }
 
 bool IsDisproved(const StepState& now, const policy::LivePoi& poi) {
-  const policy::ClaimViews* seen = now.goal.full.claims.ViewsOf(poi.id);
-  return DoubtsClaims(now.config) && seen && IsDisproved(seen->scores, now.config.verify);
+  return DoubtsClaims(now.config) && IsDisproved(SummaryOf(now, poi), now.config.verify);
 }
 
 void Reject(StepState& now, const policy::LivePoi& poi) {

@@ -268,6 +268,7 @@ Result<void> ReadEvidence(Section section, ModelCard::Evidence& evidence) {
   section.Number("slope", evidence.slope, 0, 20);
   section.Number("missed", evidence.missed, -20, 0);
   section.Number("found", evidence.found, 0, 20);
+  section.Number("too_short", evidence.too_short, -20, 0);
   return section.Finish();
 }
 

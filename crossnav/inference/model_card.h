@@ -84,8 +84,8 @@ struct ModelCard {
   /// Of a detector, as benchmarks/detector_calibration measured it (EvidenceConfig); nullopt =
   /// never.
   struct Evidence {
-    std::optional<double> offset, slope, missed, found;
-    bool IsMeasured() const { return offset && slope && missed && found; }
+    std::optional<double> offset, slope, missed, found, too_short;
+    bool IsMeasured() const { return offset && slope && missed && found && too_short; }
   } evidence;
 
   /// The second file of a network that has two.

@@ -223,22 +223,22 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidenc
                                                         : ClaimVerdict::kAgreed;
 }
 
-ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const std::vector<ViewScore>& views,
+ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummary& views,
                    const VerifyConfig& config) {
   const double margin = opinion ? opinion->Margin() : 0;
   if (margin < -config.refute_margin) return ClaimVerdict::kRefuted;
-  constexpr std::size_t kMost = 4;  // chosen: views; each further one is worth an eighth or less
+  constexpr int kMost = 4;  // chosen: views; each further one is worth an eighth or less
   const double probability = ProbabilityOf(views, config.views);
   const bool is_weak_memory = margin < config.strong_margin;
   if (probability >= config.views.decided)
-    return is_weak_memory && views.size() < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
+    return is_weak_memory && views.views < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
   if (IsDisproved(views, config)) return ClaimVerdict::kRefuted;
-  if (views.size() < kMost) return ClaimVerdict::kWeak;
+  if (views.views < kMost) return ClaimVerdict::kWeak;
   return is_weak_memory ? ClaimVerdict::kRefuted : ClaimVerdict::kAgreed;
 }
 
-bool IsDisproved(const std::vector<ViewScore>& views, const VerifyConfig& config) {
-  return config.evidence == "views" && views.size() >= 2 &&
+bool IsDisproved(const ViewSummary& views, const VerifyConfig& config) {
+  return config.evidence == "views" && views.views >= 2 &&
          ProbabilityOf(views, config.views) < config.views.refused;
 }
 

@@ -39,6 +39,7 @@ void Visit(V& visit, VerifyConfig& c) {
   visit("score_slope", c.views.slope, 0.0, 20.0);
   visit("view_missed", c.views.missed, -20.0, 0.0);
   visit("view_found", c.views.found, 0.0, 20.0);
+  visit("too_short", c.views.too_short, -20.0, 0.0);
   visit("view_discount", c.views.discount, 0.0, 1.0);
   visit("decided", c.views.decided, 0.5, 1.0);
   visit("refused", c.views.refused, 0.0, 1.0);
@@ -145,10 +146,10 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidenc
 
 /// The same by all views (verify.evidence = views). A memory without a preference takes a second
 /// view; views that leave the claim undecided are at most four.
-ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const std::vector<ViewScore>& views,
+ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummary& views,
                    const VerifyConfig& config);
 
 /// Whether the views alone refute an object (verify.evidence = views).
-bool IsDisproved(const std::vector<ViewScore>& views, const VerifyConfig& config);
+bool IsDisproved(const ViewSummary& views, const VerifyConfig& config);
 
 }  // namespace crossnav::policy

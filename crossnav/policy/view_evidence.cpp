@@ -5,19 +5,22 @@
 #include <cmath>
 
 namespace crossnav::policy {
+
 double LogOddsOf(double score) {
   constexpr double kLeast = 0.01;  // chosen: no score is certain
   const double p = std::clamp(score, kLeast, 1 - kLeast);
   return std::log(p / (1 - p));
 }
 
-ViewSummary SummaryOf(const std::vector<ViewScore>& views, double discount) {
+ViewSummary SummaryOf(const std::vector<ViewScore>& views, double shortness, double discount) {
   double best = 0, sum = 0;
   for (const ViewScore& view : views) {
     best = std::max(best, view.Mean());
     sum += view.Mean();
   }
   ViewSummary summary;
+  summary.views = static_cast<int>(views.size());
+  summary.shortness = shortness;
   summary.best_log_odds = LogOddsOf(best);
   if (views.size() < 2) return summary;
   summary.mean = (sum - best) / static_cast<double>(views.size() - 1);
@@ -27,14 +30,11 @@ ViewSummary SummaryOf(const std::vector<ViewScore>& views, double discount) {
 }
 
 double ProbabilityOf(const ViewSummary& views, const EvidenceConfig& config) {
+  if (views.views == 0) return 0.5;
   const double of_another = config.missed + (config.found - config.missed) * views.mean;
-  const double log_odds =
-      config.offset + config.slope * views.best_log_odds + views.others * of_another;
+  const double log_odds = config.offset + config.slope * views.best_log_odds +
+                          views.others * of_another + views.shortness * config.too_short;
   return 1 / (1 + std::exp(-log_odds));
-}
-
-double ProbabilityOf(const std::vector<ViewScore>& views, const EvidenceConfig& config) {
-  return views.empty() ? 0.5 : ProbabilityOf(SummaryOf(views, config.discount), config);
 }
 
 Sight SightOf(const std::vector<geometry::VoxelKey>& voxels, const Observation& obs,

@@ -18,6 +18,7 @@ struct EvidenceConfig {
   double slope = 1;   ///< likewise
   double missed = -1;     // chosen: added log-odds of another view without a detection
   double found = 1;       // chosen: and of another view with a score of 1; linear in between
+  double too_short = 0;   ///< added log-odds of an object that is too short for the goal
   double discount = 0.5;  // chosen: what each further view is worth of the one before
   double decided = 0.9;   // chosen: probability from which an object is the goal
   double refused = 0.5;   // chosen: and below which, seen from two sides, it is not
@@ -37,17 +38,16 @@ double LogOddsOf(double score);
 
 /// The best view, and the others: the sum of their discounts, and the mean of their scores.
 struct ViewSummary {
+  int views = 0;
   double best_log_odds = 0;
   double others = 0;
   double mean = 0;
+  double shortness = 0;  ///< of the object, for the goal (goal_length.h)
 };
-/// `views` not empty.
-ViewSummary SummaryOf(const std::vector<ViewScore>& views, double discount);
+ViewSummary SummaryOf(const std::vector<ViewScore>& views, double shortness, double discount);
 
-/// Probability that the object is the goal.
+/// Probability that the object is the goal. 0.5 without views.
 double ProbabilityOf(const ViewSummary& views, const EvidenceConfig& config);
-/// 0.5 without views.
-double ProbabilityOf(const std::vector<ViewScore>& views, const EvidenceConfig& config);
 
 /// How a frame shows an object, by its voxels.
 struct Sight {

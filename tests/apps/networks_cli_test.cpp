@@ -84,7 +84,8 @@ TEST_F(NetworksCli, ClaimsAreJudgedByViewsWhereTheDetectorsCardHasTheirNumbers) 
     return Json::parse(file.substr(0, file.find('\n')))["config"]["verify"];
   };
   EXPECT_EQ(verify("before", "")["evidence"], "auto");
-  const std::string section = "\n[evidence]\noffset = -4\nslope = 3\nmissed = -1.5\nfound = 2\n";
+  const std::string section =
+      "\n[evidence]\noffset = -4\nslope = 3\nmissed = -1.5\nfound = 2\ntoo_short = -1\n";
   WriteText(At("nets/small.toml"), ReadText(At("nets/small.toml")) + section);
   const Json measured = verify("after", "");
   EXPECT_EQ(measured["evidence"], "views");

@@ -122,7 +122,7 @@ TEST_F(Cards, RetrievalThresholdsAreReadAndWrittenInPlaceOfOldOnes) {
 
 TEST_F(Cards, EvidenceIsMeasuredWhereAllItsNumbersAre) {
   const std::string part =
-      std::string(kCard) + "\n[evidence]\noffset = -4\nslope = 3\nmissed = -1.5\n";
+      std::string(kCard) + "\n[evidence]\noffset = -4\nslope = 3\nmissed = -1.5\ntoo_short = -1\n";
   WriteText(path(), part);
   ASSERT_TRUE(ReadModelCard(path()));
   EXPECT_FALSE(ReadModelCard(path())->evidence.IsMeasured());

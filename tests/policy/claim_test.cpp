@@ -99,17 +99,21 @@ ViewScore View(double score, int frames = 1) {
   return {Vector3d::Zero(), frames * score, frames};
 }
 
+ViewSummary Summary(const std::vector<ViewScore>& views, double shortness = 0) {
+  return SummaryOf(views, shortness, EvidenceConfig{}.discount);
+}
+
 TEST(ViewEvidence, NearIdenticalViewsCountOnceAndOthersAtADiscount) {
   EvidenceConfig config;
   config.missed = -2;
   config.found = 3;
   const auto odds = [&](const std::vector<ViewScore>& views) {
-    const double p = ProbabilityOf(views, config);
+    const double p = ProbabilityOf(Summary(views), config);
     return std::log(p / (1 - p));
   };
-  EXPECT_DOUBLE_EQ(ProbabilityOf(std::vector<ViewScore>{}, config), 0.5);
-  EXPECT_NEAR(ProbabilityOf({View(0.8)}, config), 0.8, 1e-9);
-  EXPECT_NEAR(ProbabilityOf({View(0.8, 9)}, config), 0.8, 1e-9);
+  EXPECT_DOUBLE_EQ(ProbabilityOf(Summary({}), config), 0.5);
+  EXPECT_NEAR(ProbabilityOf(Summary({View(0.8)}), config), 0.8, 1e-9);
+  EXPECT_NEAR(ProbabilityOf(Summary({View(0.8, 9)}), config), 0.8, 1e-9);
   const double one = odds({View(0.8)});
   EXPECT_NEAR(odds({View(0.8), View(0)}) - one, -2, 1e-9);
   EXPECT_NEAR(odds({View(0), View(0.8)}) - one, -2, 1e-9);
@@ -123,18 +127,28 @@ TEST(ViewEvidence, DecidesOnceTheViewsAgree) {
   config.evidence = "views";
   const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.71, 0.7, "sofa", 9},
       denies{0.5, 0.9, "sofa", 9};
-  using Views = std::vector<ViewScore>;
-  EXPECT_EQ(Judge(agrees, Views{View(0.95)}, config), ClaimVerdict::kAgreed);
-  EXPECT_EQ(Judge(unsure, Views{View(0.95)}, config), ClaimVerdict::kWeak);
-  EXPECT_EQ(Judge(unsure, Views{View(0.95), View(0.9)}, config), ClaimVerdict::kAgreed);
-  EXPECT_EQ(Judge(agrees, Views{View(0.7)}, config), ClaimVerdict::kWeak);
-  EXPECT_EQ(Judge(agrees, Views{View(0.7), View(0)}, config), ClaimVerdict::kRefuted);
-  EXPECT_EQ(Judge(agrees, Views{View(0.8), View(0.5)}, config), ClaimVerdict::kWeak);
-  EXPECT_EQ(Judge(denies, Views{View(0.99), View(0.99)}, config), ClaimVerdict::kRefuted);
-  EXPECT_TRUE(IsDisproved(Views{View(0.7), View(0)}, config));
-  EXPECT_FALSE(IsDisproved(Views{View(0.3)}, config)) << "one view";
+  EXPECT_EQ(Judge(agrees, Summary({View(0.95)}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(unsure, Summary({View(0.95)}), config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(unsure, Summary({View(0.95), View(0.9)}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.7)}), config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.7), View(0)}), config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.8), View(0.5)}), config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(denies, Summary({View(0.99), View(0.99)}), config), ClaimVerdict::kRefuted);
+  EXPECT_TRUE(IsDisproved(Summary({View(0.7), View(0)}), config));
+  EXPECT_FALSE(IsDisproved(Summary({View(0.3)}), config)) << "one view";
   config.evidence = "frame";
-  EXPECT_FALSE(IsDisproved(Views{View(0.7), View(0)}, config));
+  EXPECT_FALSE(IsDisproved(Summary({View(0.7), View(0)}), config));
+}
+
+TEST(ViewEvidence, ALengthThatNoSofaHasCountsAgainstIt) {
+  VerifyConfig config;
+  config.evidence = "views";
+  config.views.too_short = -2;
+  const MemoryOpinion agrees{0.9, 0.5, "chair", 9};
+  EXPECT_EQ(Judge(agrees, Summary({View(0.92)}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.92)}, 1), config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.8), View(0.5)}, 1), config), ClaimVerdict::kRefuted);
+  EXPECT_DOUBLE_EQ(ProbabilityOf(Summary({}, 1), config.views), 0.5);
 }
 
 /// Frame of a camera at `p_camera` that looks along -x, at the height of the object of ColumnAt(0).
