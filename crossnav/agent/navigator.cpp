@@ -11,6 +11,7 @@
 #include "crossnav/agent/hooks.h"
 #include "crossnav/agent/last_resort.h"
 #include "crossnav/agent/object_search.h"
+#include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/shared_parts.h"
@@ -40,6 +41,11 @@ ClaimVerdict JudgeClaim(StepState& now, const policy::LivePoi& poi,
 bool TryConfirmGoal(StepState& now, Decision& decision) {
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
     auto verification = VerifyNow(now, *poi);
+    if (verification.passed &&
+        !ObjectStorey(now, poi->voxels, poi->p_center_world).Has(now.agent.p_world)) {
+      verification.passed = false;
+      verification.failed_check = "storey";
+    }
     const auto verdict = JudgeClaim(now, *poi, verification);
     if (verification.passed && verdict == ClaimVerdict::kWeak)
       verification.failed_check = "second view";

@@ -20,6 +20,8 @@ namespace {
 
 constexpr double kSlack_m = 0.1;      // chosen: the agent stops that near to where it was sent
 constexpr double kUnderFoot_m = 0.5;  // chosen: lower voxels belong to another storey
+constexpr double kFloorShare = 0.25;  // chosen: of the most places at one height; treads have less
+constexpr double kStandBeside_m = 0.6;  // chosen: a robot and a step from the object
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
@@ -47,6 +49,37 @@ bool IsOnStorey(double above_foot_m, const policy::ExploreConfig& config) {
   return above_foot_m >= -kUnderFoot_m && above_foot_m <= config.storey_m;
 }
 
+ObjectStorey::ObjectStorey(const Situation& now, const std::vector<VoxelKey>& object,
+                           const Vector3d& p_center_world)
+    : center_m_(p_center_world.z()), config_(now.config.policy.explore) {
+  if (object.empty()) return;
+  const double voxel_m = now.config.map.voxel_m;
+  const int beside_vox = static_cast<int>(std::lround(kStandBeside_m / voxel_m));
+  VoxelKey lo = object.front(), hi = object.front();
+  for (const VoxelKey& key : object) {
+    lo = {std::min(lo.x, key.x), std::min(lo.y, key.y), 0};
+    hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), 0};
+  }
+  const int top = geometry::KeyOf(p_center_world, voxel_m).z;
+  const int bottom = top - static_cast<int>(std::lround(config_.storey_m / voxel_m));
+  std::vector<int> places;  // by height, downwards
+  for (int z = top; z >= bottom; --z) {
+    places.push_back(0);
+    for (int x = lo.x - beside_vox; x <= hi.x + beside_vox; ++x)
+      for (int y = lo.y - beside_vox; y <= hi.y + beside_vox; ++y)
+        places.back() += now.world.ground.IsStanding({x, y, z}) ? 1 : 0;
+  }
+  const double least = kFloorShare * *std::max_element(places.begin(), places.end());
+  const auto floor =
+      std::find_if(places.begin(), places.end(), [&](int n) { return n > 0 && n >= least; });
+  if (floor != places.end()) ground_m_ = (top - (floor - places.begin())) * voxel_m;
+}
+
+bool ObjectStorey::Has(const Vector3d& p_foot_world) const {
+  if (!IsOnStorey(center_m_ - p_foot_world.z(), config_)) return false;
+  return !ground_m_ || p_foot_world.z() - *ground_m_ <= kUnderFoot_m;
+}
+
 planner::GroundRules RulesOf(const Situation& now) {
   planner::GroundRules rules;
   rules.may_squeeze = now.goal.full.may_squeeze;
@@ -65,11 +98,11 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
   const double voxel_m = now.config.map.voxel_m;
   const policy::ViewTest view(now.world.map, wish.object, wish.range_m, now.config.policy.approach,
                               now.config.sensor.camera_height_m);
+  std::optional<ObjectStorey> storey;
+  if (wish.is_on_storey) storey.emplace(now, wish.object, wish.p_center_world);
   const auto is_wanted = [&](const VoxelKey& key) {
     const Vector3d p_foot = FootOf(key, voxel_m);
-    if (wish.is_on_storey &&
-        !IsOnStorey(wish.p_center_world.z() - p_foot.z(), now.config.policy.explore))
-      return false;
+    if (storey && !storey->Has(p_foot)) return false;
     return IsNewView(wish.p_center_world, p_foot, wish.other_sides, now.config.verify) &&
            view.IsView(key) && !IsNearTried(wish.tried, p_foot);
   };
@@ -99,8 +132,9 @@ FailedViews FailedViewsOf(const GoalState& goal, int poi_id) {
 std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const policy::LivePoi& poi) {
   const FailedViews failed = FailedViewsOf(now.goal, poi.id);
-  ViewWish wish{poi.voxels, now.config.policy.approach.range_m - kSlack_m, failed.p_from_world,
-                ViewsToAvoid(now, poi), poi.p_center_world};
+  ViewWish wish{poi.voxels,          now.config.policy.approach.range_m - kSlack_m,
+                failed.p_from_world, ViewsToAvoid(now, poi),
+                poi.p_center_world,  true};
   if (failed.doubtful_m > 0)
     for (const double share : kNearerShares) {
       ViewWish nearer = wish;

@@ -28,6 +28,20 @@ Vector3d FootOf(const geometry::VoxelKey& key, double voxel_m);
 /// Whether an object at this height above an agent's foot is on the storey of the agent.
 bool IsOnStorey(double above_foot_m, const policy::ExploreConfig& config);
 
+/// Whether an agent's foot is on the storey of an object: no higher than the ground beside the
+/// object, where that is known. The treads of a flight are near the objects beside it, too.
+class ObjectStorey {
+ public:
+  ObjectStorey(const Situation& now, const std::vector<geometry::VoxelKey>& object,
+               const Vector3d& p_center_world);
+  bool Has(const Vector3d& p_foot_world) const;
+
+ private:
+  double center_m_;
+  std::optional<double> ground_m_;
+  policy::ExploreConfig config_;
+};
+
 /// Ranges of a view that follows one from `distance_m` without enough confidence, as shares of it,
 /// in order of preference: almost three times the pixels, down to a fifth more.
 inline constexpr std::array kNearerShares = {0.6, 0.7, 0.8, 0.9};  // chosen

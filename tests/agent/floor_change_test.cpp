@@ -53,6 +53,21 @@ TEST(FloorChange, AFlightIsDescendedWithoutAnyStairMask) {
   ExpectFound(walker, testing::kLowerCouch, 400);
 }
 
+// The agent stopped on the treads, from where the object is near and in sight, but a storey below.
+TEST(FloorChange, AnObjectBesideTheFlightIsReachedOnItsOwnStorey) {
+  const Box3 couch = BoxOf(1.6, 1.2, 0, 2.4, 1.9, 0.7);
+  BoxWalker walker = testing::TwoStoreys();
+  walker.pose.p_world = Vector3d(6.5, 3.0, 2.8);
+  walker.rooms.solids.push_back(couch);
+  FakeSight sight;
+  test::SeeBox(couch, "couch", &sight);
+  Agent agent(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  const Walk walk = RunAgent(agent, walker, 500);
+  EXPECT_EQ(walk.last_action, Action::kStop);
+  EXPECT_NEAR(walker.pose.p_world.z(), 0, 0.5);
+}
+
 TEST(FloorChange, OpenRisersAreClimbed) {
   ExpectFound(testing::OpenRisers(), testing::kUpperCouch, 400);
 }
