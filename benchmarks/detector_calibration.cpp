@@ -11,16 +11,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "covering_points.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/inference/suite.h"
 #include "crossnav/policy/claim.h"
-#include "crossnav/policy/goal_length.h"
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/sim/scene/scene.h"
@@ -50,7 +48,6 @@ struct Scored {
 struct Thing {
   policy::LivePoi poi;
   policy::ClaimTracker book;
-  std::vector<geometry::VoxelKey> voxels;  ///< of all its sightings, sorted
   bool is_true = false;
 };
 
@@ -98,15 +95,11 @@ void NoteThing(const policy::Sighting& sighting, bool is_true, std::vector<Thing
     it->poi.voxels = sighting.voxels;
     it->poi.p_center_world = sighting.p_center_world;
   }
-  std::vector<geometry::VoxelKey> all;
-  std::set_union(it->voxels.begin(), it->voxels.end(), sighting.voxels.begin(),
-                 sighting.voxels.end(), std::back_inserter(all));
-  it->voxels = std::move(all);
   it->is_true = it->is_true || is_true;
 }
 
 /// After one view that claims the thing, and after one to three more: `first` and its successors.
-std::vector<Case> CasesOf(const Thing& thing, double shortness) {
+std::vector<Case> CasesOf(const Thing& thing, std::string_view goal) {
   std::vector<Case> cases;
   const policy::ClaimViews* seen = thing.book.ViewsOf(thing.poi.id);
   if (!seen) return cases;
@@ -117,7 +110,7 @@ std::vector<Case> CasesOf(const Thing& thing, double shortness) {
       std::vector<policy::ViewScore> some;
       for (std::size_t i = 0; i < n; ++i) some.push_back(views[(first + i) % views.size()]);
       cases.push_back(
-          {policy::SummaryOf(some, shortness, policy::EvidenceConfig{}.discount), thing.is_true});
+          {policy::SummaryOf(some, goal, policy::EvidenceConfig{}.discount), thing.is_true});
     }
   }
   return cases;
@@ -177,7 +170,7 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
   }
   for (std::size_t g = 0; g < kCategories.size(); ++g)
     for (const Thing& thing : things[g]) {
-      const auto cases = CasesOf(thing, policy::ShortnessOf(kCategories[g], thing.voxels, voxel_m));
+      const auto cases = CasesOf(thing, kCategories[g]);
       house.cases.insert(house.cases.end(), cases.begin(), cases.end());
     }
   return house;

@@ -70,6 +70,13 @@ Action TurnWithoutProgress(const Situation& now, Pursued& pursued) {
 
 /// On arrival the agent looks at the target once, then gives it up.
 std::optional<Action> ActOnExploration(StepState& now, Pursued& pursued) {
+  if (pursued.target.kind == CandidateKind::kSighting) {
+    const policy::LivePoi* hint = now.goal.full.hints.Find(*pursued.target.poi_id);
+    if (hint && IsHopelessHint(now, *hint)) {
+      End(now, Ending::kRefuted);
+      return std::nullopt;
+    }
+  }
   if (DistanceToEnd(now) > kArrived_m) {
     if (auto action = Walk(now, pursued.route)) return action;
     return TurnWithoutProgress(now, pursued);

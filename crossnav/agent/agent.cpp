@@ -246,8 +246,11 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sig
   if (DoubtsClaims(config)) {
     const policy::VerifyConfig& verify = config.verify;
     NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);
-    if (verify.evidence == "views")
+    if (verify.evidence == "views") {
       NoteScores(goal.live.all(), all, obs, config.map.voxel_m, object, verify, &goal.full.claims);
+      NoteScores(HintsInSight(goal.full.hints, obs, config), all, obs, config.map.voxel_m, object,
+                 verify, &goal.full.hint_views);
+    }
   }
   return sightings;
 }

@@ -8,13 +8,14 @@
 
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/core/category_table.h"
-#include "crossnav/policy/goal_length.h"
 
 namespace crossnav::agent {
 
 using policy::ClaimVerdict;
 
 namespace {
+
+constexpr double kHopelessShare = 0.5;  // chosen: a hint costs a walk, a claim the episode
 
 std::string TwoDigits(double value) {
   char text[16];
@@ -55,12 +56,9 @@ bool IsLikelyByMemory(const GoalState& goal, const policy::LivePoi& poi,
   return margin >= (has_failed ? config.strong_margin : 0);
 }
 
-policy::ViewSummary SummaryOf(const StepState& now, const policy::LivePoi& poi) {
-  const policy::ClaimViews* seen = now.goal.full.claims.ViewsOf(poi.id);
-  const double shortness =
-      policy::ShortnessOf(CanonicalName(now.goal.goal), poi.voxels, now.config.map.voxel_m);
-  return policy::SummaryOf(seen ? seen->scores : std::vector<policy::ViewScore>{}, shortness,
-                           now.config.verify.views.discount);
+policy::ViewSummary SummaryOf(const Situation& now, const policy::ClaimViews* seen) {
+  return policy::SummaryOf(seen ? seen->scores : std::vector<policy::ViewScore>{},
+                           CanonicalName(now.goal.goal), now.config.verify.views.discount);
 }
 
 }  // namespace
@@ -102,7 +100,7 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   if (opinion &&
       IsOfSurroundings(now.world.memory, poi.voxels, now.config.map.voxel_m, *opinion, others))
     opinion.reset();
-  const policy::ViewSummary summary = SummaryOf(now, poi);
+  const policy::ViewSummary summary = SummaryOf(now, seen);
   ClaimVerdict verdict = config.evidence == "views"
                              ? Judge(opinion, summary, config)
                              : Judge(opinion, verification.confidence, views, config);
@@ -128,7 +126,26 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
 }
 
 bool IsDisproved(const StepState& now, const policy::LivePoi& poi) {
-  return DoubtsClaims(now.config) && IsDisproved(SummaryOf(now, poi), now.config.verify);
+  return DoubtsClaims(now.config) &&
+         IsDisproved(SummaryOf(now, now.goal.full.claims.ViewsOf(poi.id)), now.config.verify);
+}
+
+std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const Observation& obs,
+                                          const Config& config) {
+  std::vector<policy::LivePoi> in_sight;
+  for (const policy::LivePoi& hint : hints.all())
+    if (!hint.is_discarded &&
+        policy::IsPlain(policy::SightOf(hint.voxels, obs, config.map.voxel_m)))
+      in_sight.push_back(hint);
+  return in_sight;
+}
+
+bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint) {
+  const policy::VerifyConfig& config = now.config.verify;
+  if (!DoubtsClaims(now.config) || config.evidence != "views") return false;
+  const auto summary = SummaryOf(now, now.goal.full.hint_views.ViewsOf(hint.id));
+  return summary.views >= 2 &&
+         ProbabilityOf(summary, config.views) < kHopelessShare * config.views.refused;
 }
 
 void Reject(StepState& now, const policy::LivePoi& poi) {

@@ -29,6 +29,13 @@ policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
 /// Whether the views of a POI refute it (verify.evidence = views), from wherever they were.
 bool IsDisproved(const StepState& now, const policy::LivePoi& poi);
 
+/// Hints that the frame shows in plain sight.
+std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const Observation& obs,
+                                          const Config& config);
+
+/// Whether views in plain sight say that a hint will never be claimed (verify.evidence = views).
+bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint);
+
 /// Gives up a POI: it, hints of it and remembered places on it are not tried again for this goal
 /// until there is new evidence.
 void Reject(StepState& now, const policy::LivePoi& poi);

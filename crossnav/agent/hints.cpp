@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/agent/claims.h"
 #include "crossnav/agent/poi_targets.h"
 
 namespace crossnav::agent {
@@ -59,7 +60,7 @@ bool NoteLook(StepState& now, int poi_id) {
 Hints::Hints(const Situation& now) : now_(now) {
   const policy::PolicyConfig& config = now.config.policy;
   for (const policy::LivePoi& poi : now.goal.full.hints.all()) {
-    if (poi.is_discarded ||
+    if (poi.is_discarded || IsHopelessHint(now, poi) ||
         IsSpent(now.goal.full.attempts, CandidateKind::kSighting, poi.p_center_world,
                 config.explore.same_place_m, config.explore.max_choices))
       continue;

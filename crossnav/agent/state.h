@@ -167,6 +167,7 @@ struct FullGoal {
   std::vector<Attempt> attempts;    ///< pursuits that ended
   policy::LivePois hints;           ///< sightings too weak for a live POI
   std::vector<CloseLooks> looks;    ///< at hints
+  policy::ClaimTracker hint_views;  ///< of hints in plain sight, verify.evidence = views
   std::vector<FailedViews> failed;  ///< of live POIs other than the active POI
   double doubtful_m = 0;         ///< distance of the last view of the active live POI that was too
                                  ///< little for its confidence; 0 = none was

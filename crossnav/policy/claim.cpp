@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "crossnav/core/pose.h"
+#include "crossnav/policy/goal_length.h"
 
 namespace crossnav::policy {
 namespace {
@@ -190,10 +191,12 @@ void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& s
                 const VerifyConfig& config, ClaimTracker* tracker) {
   const Vector3d p_camera_world = obs.T_world_camera.translation();
   for (const LivePoi& poi : pois) {
-    double best = 0;
-    for (const Sighting& sighting : sightings)
-      if (IsOf(sighting, poi.voxels, poi.p_center_world, object))
-        best = std::max(best, sighting.confidence);
+    double best = 0, length_m = 0;
+    for (const Sighting& sighting : sightings) {
+      if (!IsOf(sighting, poi.voxels, poi.p_center_world, object)) continue;
+      best = std::max(best, sighting.confidence);
+      if (sighting.is_framed) length_m = std::max(length_m, LengthOf(sighting.voxels, voxel_m));
+    }
     if (best <= 0 && !IsPlain(SightOf(poi.voxels, obs, voxel_m))) continue;
     auto it = std::find_if(tracker->views.begin(), tracker->views.end(),
                            [&](const ClaimViews& v) { return v.poi_id == poi.id; });
@@ -201,8 +204,10 @@ void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& s
     auto view = std::find_if(it->scores.begin(), it->scores.end(), [&](const ViewScore& score) {
       return !IsOtherView(poi.p_center_world, p_camera_world, score.p_camera_world, config);
     });
-    if (view == it->scores.end()) view = it->scores.insert(view, ViewScore{p_camera_world, 0, 0});
+    if (view == it->scores.end())
+      view = it->scores.insert(view, ViewScore{p_camera_world, 0, 0, 0});
     if (best <= 0) continue;
+    view->length_m = std::max(view->length_m, length_m);
     view->sum += best;
     ++view->frames;
   }
@@ -230,8 +235,9 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummar
   constexpr int kMost = 4;  // chosen: views; each further one is worth an eighth or less
   const double probability = ProbabilityOf(views, config.views);
   const bool is_weak_memory = margin < config.strong_margin;
+  const bool is_enough = !is_weak_memory && probability >= config.views.decided_alone;
   if (probability >= config.views.decided)
-    return is_weak_memory && views.views < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
+    return views.views < 2 && !is_enough ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
   if (IsDisproved(views, config)) return ClaimVerdict::kRefuted;
   if (views.views < kMost) return ClaimVerdict::kWeak;
   return is_weak_memory ? ClaimVerdict::kRefuted : ClaimVerdict::kAgreed;

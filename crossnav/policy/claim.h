@@ -42,6 +42,7 @@ void Visit(V& visit, VerifyConfig& c) {
   visit("too_short", c.views.too_short, -20.0, 0.0);
   visit("view_discount", c.views.discount, 0.0, 1.0);
   visit("decided", c.views.decided, 0.5, 1.0);
+  visit("decided_alone", c.views.decided_alone, 0.5, 1.0);
   visit("refused", c.views.refused, 0.0, 1.0);
   visit("refute_margin", c.refute_margin, 0.0, 2.0);
   visit("strong_margin", c.strong_margin, -2.0, 2.0);
@@ -145,7 +146,8 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidenc
                    const VerifyConfig& config);
 
 /// The same by all views (verify.evidence = views). A memory without a preference takes a second
-/// view; views that leave the claim undecided are at most four.
+/// view, and so does a first view that is not sure; views that leave the claim undecided are at
+/// most four.
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummary& views,
                    const VerifyConfig& config);
 

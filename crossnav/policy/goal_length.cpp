@@ -25,29 +25,34 @@ constexpr double kUnsure_m = 0.1;  // chosen: a voxel, to either side
 }  // namespace
 
 double LengthOf(const std::vector<VoxelKey>& voxels, double voxel_m) {
-  constexpr int kDirections = 18;  // chosen: every 10 degrees, 2 % of the length at most
+  constexpr int kDirections = 9;  // chosen: every 10 degrees of the first quarter
   if (voxels.empty()) return 0;
-  double longest_vox = 0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double cosine = std::cos(i * M_PI / kDirections);
-    const double sine = std::sin(i * M_PI / kDirections);
+  const auto extent_vox = [&](double angle_rad) {
+    const double cosine = std::cos(angle_rad), sine = std::sin(angle_rad);
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const VoxelKey& key : voxels) {
       const double along = cosine * key.x + sine * key.y;
       low = std::min(low, along);
       high = std::max(high, along);
     }
-    longest_vox = std::max(longest_vox, high - low);
+    return high - low + 1;
+  };
+  double least_area = std::numeric_limits<double>::infinity(), length_vox = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle_rad = i * M_PI / 2 / kDirections;
+    const double a = extent_vox(angle_rad), b = extent_vox(angle_rad + M_PI / 2);
+    if (a * b >= least_area) continue;
+    least_area = a * b;
+    length_vox = std::max(a, b);
   }
-  return (longest_vox + 1) * voxel_m;
+  return length_vox * voxel_m;
 }
 
-double ShortnessOf(std::string_view goal, const std::vector<VoxelKey>& voxels, double voxel_m) {
+double ShortnessOf(std::string_view goal, double length_m) {
   const auto* const it =
       std::find_if(kLeast.begin(), kLeast.end(), [&](const auto& row) { return row.goal == goal; });
-  if (it == kLeast.end() || voxels.empty()) return 0;
-  const double over_m = LengthOf(voxels, voxel_m) - it->least_m;
-  return std::clamp(0.5 - over_m / (2 * kUnsure_m), 0.0, 1.0);
+  if (it == kLeast.end()) return 0;
+  return std::clamp(0.5 - (length_m - it->least_m) / (2 * kUnsure_m), 0.0, 1.0);
 }
 
 }  // namespace crossnav::policy

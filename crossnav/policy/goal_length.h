@@ -10,12 +10,11 @@
 
 namespace crossnav::policy {
 
-/// Longest horizontal extent of the voxels; 0 without any.
+/// Longer side of the smallest upright box about the voxels, turned about its axis; 0 without any.
 double LengthOf(const std::vector<geometry::VoxelKey>& voxels, double voxel_m);
 
-/// How surely the voxels are shorter than any object of the goal's name [0, 1]; 0 for goals
+/// How surely an object of the length is shorter than any of the goal's name [0, 1]; 0 for goals
 /// that come in all lengths. `goal`: as CanonicalName gives it.
-double ShortnessOf(std::string_view goal, const std::vector<geometry::VoxelKey>& voxels,
-                   double voxel_m);
+double ShortnessOf(std::string_view goal, double length_m);
 
 }  // namespace crossnav::policy

@@ -28,6 +28,12 @@ std::vector<VoxelKey> MaskVoxels(const perception::Detection& detection, const O
   return keys;
 }
 
+/// The image shows the object's whole length.
+bool IsFramed(const perception::PixelBox& box, const CameraIntrinsics& camera) {
+  constexpr int kEdge_px = 2;  // chosen: boxes are that wrong
+  return box.u0 >= kEdge_px && box.u1 <= camera.width_px - kEdge_px;
+}
+
 }  // namespace
 
 std::vector<Sighting> LiftDetections(const std::vector<perception::Detection>& detections,
@@ -49,6 +55,7 @@ std::vector<Sighting> LiftDetections(const std::vector<perception::Detection>& d
     sighting.confidence = detection.confidence;
     sighting.mask_quality = detection.mask_quality;
     sighting.area_fraction = detection.box.Area() / image_area;
+    sighting.is_framed = IsFramed(detection.box, obs.camera);
     sighting.detection = static_cast<int>(&detection - detections.data());
     sightings.push_back(std::move(sighting));
   }

@@ -20,6 +20,7 @@ struct Sighting {
   double confidence = 0;
   double mask_quality = 0;
   double area_fraction = 0;  ///< of the box in the image
+  bool is_framed = false;    ///< neither side of the image cuts the box
   int detection = -1;        ///< index of the detection it was lifted from; -1 = not known
 };
 

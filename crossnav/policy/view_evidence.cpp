@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crossnav/policy/goal_length.h"
+
 namespace crossnav::policy {
 
 double LogOddsOf(double score) {
@@ -12,15 +14,16 @@ double LogOddsOf(double score) {
   return std::log(p / (1 - p));
 }
 
-ViewSummary SummaryOf(const std::vector<ViewScore>& views, double shortness, double discount) {
-  double best = 0, sum = 0;
+ViewSummary SummaryOf(const std::vector<ViewScore>& views, std::string_view goal, double discount) {
+  double best = 0, sum = 0, length_m = 0;
   for (const ViewScore& view : views) {
     best = std::max(best, view.Mean());
     sum += view.Mean();
+    length_m = std::max(length_m, view.length_m);
   }
   ViewSummary summary;
   summary.views = static_cast<int>(views.size());
-  summary.shortness = shortness;
+  if (length_m > 0) summary.shortness = ShortnessOf(goal, length_m);
   summary.best_log_odds = LogOddsOf(best);
   if (views.size() < 2) return summary;
   summary.mean = (sum - best) / static_cast<double>(views.size() - 1);
@@ -61,10 +64,12 @@ Sight SightOf(const std::vector<geometry::VoxelKey>& voxels, const Observation& 
 }
 
 bool IsPlain(const Sight& sight) {
+  constexpr double kLeast_m = 0.8;      // chosen: nearer things fill the image
   constexpr double kMost_m = 4;         // chosen: detectors miss small things beyond
-  constexpr double kLeastFramed = 0.6;  // chosen: less of it may not be recognised
+  constexpr double kLeastFramed = 0.8;  // chosen: less of it may not be recognised
   constexpr double kLeastShown = 0.25;  // chosen: of the sides that were seen, some are behind it
-  return sight.range_m <= kMost_m && sight.framed >= kLeastFramed && sight.shown >= kLeastShown;
+  return sight.range_m >= kLeast_m && sight.range_m <= kMost_m && sight.framed >= kLeastFramed &&
+         sight.shown >= kLeastShown;
 }
 
 }  // namespace crossnav::policy

@@ -3,6 +3,7 @@
 // the scores of the others, 0 where the detector missed it in plain sight. World frame, metres.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "crossnav/core/observation.h"
@@ -16,20 +17,22 @@ namespace crossnav::policy {
 struct EvidenceConfig {
   double offset = 0;  ///< log-odds of an object with one view = offset + slope x those of its score
   double slope = 1;   ///< likewise
-  double missed = -1;     // chosen: added log-odds of another view without a detection
-  double found = 1;       // chosen: and of another view with a score of 1; linear in between
-  double too_short = 0;   ///< added log-odds of an object that is too short for the goal
-  double discount = 0.5;  // chosen: what each further view is worth of the one before
-  double decided = 0.9;   // chosen: probability from which an object is the goal
-  double refused = 0.5;   // chosen: and below which, seen from two sides, it is not
+  double missed = -1;           // chosen: added log-odds of another view without a detection
+  double found = 1;             // chosen: and of another view with a score of 1; linear in between
+  double too_short = 0;         ///< added log-odds of an object that is too short for the goal
+  double discount = 0.5;        // chosen: what each further view is worth of the one before
+  double decided = 0.9;         // chosen: probability from which an object is the goal
+  double decided_alone = 0.97;  // chosen: and from one side only
+  double refused = 0.5;         // chosen: and below which, seen from two sides, it is not
 };
 
 /// Frames from about one place. A frame without a detection says little beside others with one: the
 /// object may be cut by the image's edge.
 struct ViewScore {
   Vector3d p_camera_world = Vector3d::Zero();
-  double sum = 0;  ///< of scores
-  int frames = 0;  ///< with a detection; 0 = it was missed from here
+  double sum = 0;       ///< of scores
+  int frames = 0;       ///< with a detection; 0 = it was missed from here
+  double length_m = 0;  ///< longest in a frame that no side of the image cuts; 0 = in none
   double Mean() const { return frames > 0 ? sum / frames : 0; }
 };
 
@@ -44,7 +47,8 @@ struct ViewSummary {
   double mean = 0;
   double shortness = 0;  ///< of the object, for the goal (goal_length.h)
 };
-ViewSummary SummaryOf(const std::vector<ViewScore>& views, double shortness, double discount);
+/// `goal`: as CanonicalName gives it.
+ViewSummary SummaryOf(const std::vector<ViewScore>& views, std::string_view goal, double discount);
 
 /// Probability that the object is the goal. 0.5 without views.
 double ProbabilityOf(const ViewSummary& views, const EvidenceConfig& config);
@@ -58,7 +62,8 @@ struct Sight {
 Sight SightOf(const std::vector<geometry::VoxelKey>& voxels, const Observation& obs,
               double voxel_m);
 
-/// Near, framed and not hidden: a detector without a detection there has missed the object.
+/// Near but not too near, framed and not hidden: a detector without a detection there has missed
+/// the object.
 bool IsPlain(const Sight& sight);
 
 }  // namespace crossnav::policy

@@ -32,8 +32,8 @@ BoxWalker SofaAndBed() {
   return walker;
 }
 
-/// Seen from within `lie_deg` of the direction to -x, the couch is a bed with confidence .75.
-FakeSight Liar(double lie_deg, bool has_features) {
+/// Seen from within `lie_deg` of the direction to -x, the couch is a bed with the confidence.
+FakeSight Liar(double lie_deg, bool has_features, float confidence = 0.75F) {
   FakeSight bed, sofa, sight;
   test::SeeBox(kBed, "bed", &bed);
   test::SeeBox(kSofa, "bed", &sofa);
@@ -43,7 +43,7 @@ FakeSight Liar(double lie_deg, bool has_features) {
     const double off_rad = std::abs(WrapAngle(std::atan2(d.y(), d.x()) - DegToRad(180)));
     if (off_rad > DegToRad(lie_deg)) return found;
     for (auto lie : sofa.detect(obs, goal)) {
-      lie.confidence = 0.75F;
+      lie.confidence = confidence;
       found.push_back(lie);
     }
     return found;
@@ -111,6 +111,25 @@ TEST(Claims, AWeakClaimNeedsAViewFromAnotherSide) {
   const Outcome outcome = SearchForBed(Liar(15, false), "on");
   EXPECT_TRUE(outcome.at_bed) << outcome.walk.traces.size();
   EXPECT_GE(CountEvents(outcome.walk, "claim is weak"), 1);
+}
+
+TEST(Claims, AHintThatTwoViewsRefuteIsNotGoneToAgain) {
+  const auto visits = [](const std::string& evidence) {
+    Config config = SmallConfig();
+    config.verify.evidence = evidence;
+    config.verify.views.offset = -3;
+    config.verify.views.slope = 4;
+    Agent agent(config, FakeSuite(Liar(180, false, 0.45F)));
+    EXPECT_TRUE(agent.SetGoal("bed").has_value());
+    BoxWalker walker = SofaAndBed();
+    walker.rooms.solids = {kSofa};
+    const Walk walk = RunAgent(agent, walker, 600);
+    EXPECT_TRUE(walk.all_explored);
+    return CountEvents(walk, "go_to: undecided") + CountEvents(walk, "go_to: reached");
+  };
+  const int by_frame = visits("frame");
+  EXPECT_GE(by_frame, 8);
+  EXPECT_LE(4 * visits("views"), 3 * by_frame);
 }
 
 TEST(Claims, TheRightObjectIsClaimedWithOrWithout) {

@@ -95,12 +95,12 @@ TEST(Judge, ASecondViewAloneDoesNotSaveWhatFrameAndMemoryDoubt) {
   EXPECT_EQ(Judge(against, 0.72, 2, kConfig), ClaimVerdict::kRefuted);
 }
 
-ViewScore View(double score, int frames = 1) {
-  return {Vector3d::Zero(), frames * score, frames};
+ViewScore View(double score, int frames = 1, double length_m = 0) {
+  return {Vector3d::Zero(), frames * score, frames, length_m};
 }
 
-ViewSummary Summary(const std::vector<ViewScore>& views, double shortness = 0) {
-  return SummaryOf(views, shortness, EvidenceConfig{}.discount);
+ViewSummary Summary(const std::vector<ViewScore>& views, const char* goal = "sofa") {
+  return SummaryOf(views, goal, EvidenceConfig{}.discount);
 }
 
 TEST(ViewEvidence, NearIdenticalViewsCountOnceAndOthersAtADiscount) {
@@ -127,8 +127,10 @@ TEST(ViewEvidence, DecidesOnceTheViewsAgree) {
   config.evidence = "views";
   const MemoryOpinion agrees{0.9, 0.5, "sofa", 9}, unsure{0.71, 0.7, "sofa", 9},
       denies{0.5, 0.9, "sofa", 9};
-  EXPECT_EQ(Judge(agrees, Summary({View(0.95)}), config), ClaimVerdict::kAgreed);
-  EXPECT_EQ(Judge(unsure, Summary({View(0.95)}), config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.98)}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.95)}), config), ClaimVerdict::kWeak) << "not alone";
+  EXPECT_EQ(Judge(agrees, Summary({View(0.95), View(0.9)}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(unsure, Summary({View(0.98)}), config), ClaimVerdict::kWeak);
   EXPECT_EQ(Judge(unsure, Summary({View(0.95), View(0.9)}), config), ClaimVerdict::kAgreed);
   EXPECT_EQ(Judge(agrees, Summary({View(0.7)}), config), ClaimVerdict::kWeak);
   EXPECT_EQ(Judge(agrees, Summary({View(0.7), View(0)}), config), ClaimVerdict::kRefuted);
@@ -145,10 +147,13 @@ TEST(ViewEvidence, ALengthThatNoSofaHasCountsAgainstIt) {
   config.evidence = "views";
   config.views.too_short = -2;
   const MemoryOpinion agrees{0.9, 0.5, "chair", 9};
-  EXPECT_EQ(Judge(agrees, Summary({View(0.92)}), config), ClaimVerdict::kAgreed);
-  EXPECT_EQ(Judge(agrees, Summary({View(0.92)}, 1), config), ClaimVerdict::kWeak);
-  EXPECT_EQ(Judge(agrees, Summary({View(0.8), View(0.5)}, 1), config), ClaimVerdict::kRefuted);
-  EXPECT_DOUBLE_EQ(ProbabilityOf(Summary({}, 1), config.views), 0.5);
+  const ViewScore cut = View(0.98), armchair = View(0.98, 1, 1.0), sofa = View(0.98, 1, 1.6);
+  EXPECT_EQ(Judge(agrees, Summary({cut}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Summary({sofa}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Summary({armchair}), config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, Summary({armchair}, "chair"), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Summary({armchair, sofa}), config), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.8, 1, 1.0), View(0.5)}), config), ClaimVerdict::kRefuted);
 }
 
 /// Frame of a camera at `p_camera` that looks along -x, at the height of the object of ColumnAt(0).
@@ -173,6 +178,7 @@ TEST(ViewEvidence, PlainSightIsNearFramedAndNotHidden) {
   };
   EXPECT_TRUE(plain({2, 0, 0.3}, 2));
   EXPECT_FALSE(plain({5, 0, 0.3}, 5)) << "far";
+  EXPECT_FALSE(plain({0.6, 0, 0.3}, 0.6F)) << "it fills the image";
   EXPECT_FALSE(plain({2, 4, 0.3}, 2)) << "outside the image";
   EXPECT_FALSE(plain({-2, 0, 0.3}, 2)) << "behind the camera";
   EXPECT_FALSE(plain({2, 0, 0.3}, 1)) << "something stands before it";
