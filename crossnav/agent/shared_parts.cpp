@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/agent/shared_parts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "crossnav/policy/steering.h"
@@ -9,6 +10,12 @@ namespace crossnav::agent {
 
 using policy::Candidate;
 using policy::CandidateKind;
+
+namespace {
+
+constexpr double kSameHeight_m = 0.5;  // chosen: two treads; a foot and its place differ by less
+
+}  // namespace
 
 Candidate CandidateOf(const policy::LivePoi& poi) {
   Candidate candidate;
@@ -36,7 +43,9 @@ policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi)
 
 double DistanceToEndOf(const std::vector<geometry::VoxelKey>& path, const Vector3d& p_foot,
                        double voxel_m) {
-  return (CenterOf(path.back(), voxel_m) - p_foot).head<2>().norm();
+  const Vector3d d = CenterOf(path.back(), voxel_m) - p_foot;
+  // A flight may lead to a place right below: a storey off is not there.
+  return std::hypot(d.head<2>().norm(), std::max(0.0, std::abs(d.z()) - kSameHeight_m));
 }
 
 std::deque<Action> FullTurn(const AgentPose& agent, double pitch_rad, const ActionConfig& action) {

@@ -17,8 +17,8 @@ policy::Candidate CandidateOf(const HistoryPoi& poi);
 /// Verification of `poi` by the frame of this step.
 policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi);
 
-/// Horizontal distance from the foot position `p_foot` to the end of `path`, which is not empty
-/// [m].
+/// Distance from the foot position `p_foot` to the end of `path`, which is not empty [m]:
+/// horizontal, and what it is above or below beyond two treads.
 double DistanceToEndOf(const std::vector<geometry::VoxelKey>& path, const Vector3d& p_foot,
                        double voxel_m);
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "agent/storeys.h"
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/trace/trace_json.h"
 
 namespace crossnav::agent {
@@ -179,6 +180,13 @@ TEST(FloorChange, ARestoredMemoryKnowsThePathToTheOtherFloor) {
   const Walk again = RunAgent(second, walker, 400);
   EXPECT_EQ(again.last_action, Action::kStop);
   EXPECT_LT(again.traces.size(), search.traces.size());
+}
+
+// A flight may lead to a place right below the agent.
+TEST(FloorChange, TheEndOfAPathAStoreyBelowIsNotReached) {
+  const std::vector<geometry::VoxelKey> path = {{10, 10, 28}, {10, 10, 0}};
+  EXPECT_GT(DistanceToEndOf(path, Vector3d(1.05, 1.05, 2.85), 0.1), 2.0);
+  EXPECT_LT(DistanceToEndOf(path, Vector3d(1.05, 1.05, 0.2), 0.1), 0.1);
 }
 
 }  // namespace
