@@ -63,6 +63,10 @@ std::vector<VoxelKey> UnionOf(const std::vector<VoxelKey>& a, const std::vector<
   return all;
 }
 
+double PixelsShown(const FrameView& view) {
+  return view.pixels * view.Visible();
+}
+
 /// Removes older voxels that the frame sees through: the object stood a little elsewhere. If these
 /// outnumber the older voxels at a surface, both are removed, because the ground behind a foot is
 /// no surface of the object.
@@ -188,6 +192,9 @@ std::vector<int> ObjectBook::Note(std::span<const SeenObject> seen, const Observ
     ObjectRecord& record = records_[index];
     Merge(record, watches_[index], object, obs);
     watches_[index].noted_step = when.step;
+    const double shown_px = PixelsShown(ViewOf(record.voxels, obs, voxel_m_));
+    double& least_px = watches_[index].least_shown_px;
+    least_px = least_px > 0 ? std::min(least_px, shown_px) : shown_px;
     ++record.views;
     record.last_seen_day = when.day;
     record.last_seen_step = when.step;
@@ -222,7 +229,9 @@ std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Obs
     const FrameView view = ViewOf(record.voxels, obs, voxel_m_);
     const bool is_free = view.free >= config_.good_view && view.surface <= kMostSurface;
     const bool is_asked = std::find(asked.begin(), asked.end(), record.category) != asked.end();
-    const bool is_other = is_asked && view.Visible() >= kLeastVisible &&
+    // What is smaller in the picture than in any view that found it may be missed.
+    const bool is_large = PixelsShown(view) >= watch.least_shown_px;
+    const bool is_other = is_asked && is_large && view.Visible() >= kLeastVisible &&
                           view.free + view.surface + view.hidden >= config_.good_view &&
                           view.pixels >= std::max(kLeastPixels, kLeastImage * image);
     if (!is_free && !is_other) continue;
