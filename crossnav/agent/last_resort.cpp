@@ -119,7 +119,9 @@ bool HasOpeningResort(const GoalState& goal) {
 
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;
-  if (IsSurelyAbsent(now) || IsSearchOver(now)) {
+  // Before a room or a floor is given up, closed ways are tried.
+  if (IsSurelyAbsent(now) ||
+      (IsSearchOver(now) && !(HasOpeningResort(goal) && IsPartCutOff(now)))) {
     goal.events.push_back("all explored; everywhere looked at, it is gone");
     return false;
   }

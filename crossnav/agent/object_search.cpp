@@ -30,12 +30,14 @@ using policy::SearchPatch;
 
 namespace {
 
-constexpr double kWide_m = 0.4;      // chosen: reaches into the next patch
-constexpr double kHintGain = 0.5;    // chosen: half of the hints are the goal
-constexpr double kCommit = 0.8;      // chosen: price of the target in progress, as a share
-constexpr double kAround_m = 6;      // chosen: patches about the agent, a view and a step
+constexpr double kWide_m = 0.4;    // chosen: reaches into the next patch
+constexpr double kHintGain = 0.5;  // chosen: half of the hints are the goal
+constexpr double kCommit = 0.8;    // chosen: price of the target in progress, as a share
+constexpr double kStay = 0.5;    // chosen: likewise of its room and floor: coming back costs a way
+constexpr double kAround_m = 6;  // chosen: patches about the agent, a view and a step
 constexpr int kRefresh_steps = 6;    // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;  // chosen: of a search without a view left
+constexpr double kCutOff = 0.05;     // chosen: a room or a floor, not corners
 constexpr double kClose = 0.6;       // chosen: of the range, near enough for small things
 constexpr double kOffLevel_m = 0.3;  // chosen: a frontier this far off a floor is on furniture
 
@@ -117,6 +119,7 @@ class SearchPrices {
         start_m_(now.config.policy.explore.start_m),
         known_m2_(KnownArea(now)),
         is_absent_(IsSurelyAbsent(now)),
+        is_over_(IsSearchOver(now)),
         views_(now),
         tours_(now),
         candidates_(now) {
@@ -127,7 +130,9 @@ class SearchPrices {
   }
 
   /// The least price that a candidate at the end of `path_m` can have.
-  double Least(double path_m, double gain) const { return kCommit * (path_m + start_m_) / gain; }
+  double Least(double path_m, double gain) const {
+    return std::min(kCommit, kStay) * (path_m + start_m_) / gain;
+  }
   /// The least price that anything farther than `path_m` can have.
   double Least(double path_m) const {
     return Least(path_m, std::max(kHintGain, tours_.most_gain()));
@@ -136,7 +141,7 @@ class SearchPrices {
   std::vector<PricedCandidate> Take() {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       GroundTarget& target = all_[i].target;
-      target.score_m = tours_.Score(rooms_[i], target.score_m, current_room_, kCommit);
+      target.score_m = tours_.Score(rooms_[i], target.score_m, current_room_, kStay);
       target.candidate.score = -target.score_m;
     }
     return std::move(all_);
@@ -148,7 +153,7 @@ class SearchPrices {
       const double gain = GainOf(now_, found, known_m2_);
       const bool is_pocket =
           found.type == ExplorationClass::kFrontier && gain * known_m2_ < kRoom_m2;
-      if (gain <= 0 || (is_absent_ && is_pocket)) continue;
+      if (gain <= 0 || (is_over_ && is_pocket)) continue;
       Add(std::move(found.candidate), search.PathTo(place), path_m, gain, {});
     }
   }
@@ -159,7 +164,7 @@ class SearchPrices {
     const double bound = views_.Bound(place);
     if (bound < kLeastGain) return;
     const auto room = tours_.RoomOf(place);
-    if (!tours_.CanBeChosen(room, path_m, Least(path_m, bound), best_, kCommit)) return;
+    if (!tours_.CanBeChosen(room, path_m, Least(path_m, bound), best_, kStay)) return;
     std::vector<VoxelKey> path = search.PathTo(place);
     auto view = views_.From(place, path_m, ArrivalHeading(now_, path));
     if (!view) return;
@@ -198,7 +203,7 @@ class SearchPrices {
 
   const Situation& now_;
   double start_m_, known_m2_;
-  bool is_absent_;
+  bool is_absent_, is_over_;
   SearchViews views_;
   SearchTours tours_;
   ExplorationCandidates candidates_;
@@ -209,6 +214,13 @@ class SearchPrices {
   std::vector<std::optional<int>> rooms_;  // of `all_`
   std::optional<int> current_room_;
 };
+
+/// A place that the memory believes in was not visited, because no way leads there.
+bool HasPlaceBeyondReach(const Situation& now) {
+  const auto& history = now.goal.history;
+  return std::any_of(history.begin(), history.end(),
+                     [](const HistoryPoi& poi) { return !poi.is_exhausted; });
+}
 
 bool HasPlaceLeft(const Situation& now) {
   const auto& history = now.goal.history;
@@ -242,12 +254,13 @@ void UpdateSearch(StepState& now) {
     search.emplace();
     search->odds = RoomOdds(now.world.objects.records(), now.world.revision->rooms, category);
     search->was_noticed = WasNoticedThroughout(now.world, now.goal.goal);
-    search->notice_range_m = NoticeRange(now.world, now.goal, now.config);
+    const NoticeRanges ranges = RangesOfNotice(now.world, now.goal, now.config);
+    search->notice_range_m = ranges.probably_m;
+    search->sure_range_m = ranges.surely_m;
     const Vector3d sides_m = UsualSides(now.world, category);
     search->is_tall = sides_m.z() >= SearchPatch::kHigh_m;
     search->is_wide = sides_m.head<2>().maxCoeff() >= kWide_m;
-    if (const auto start = now.world.ground.StandingAt(now.agent.p_world))
-      search->hidden = HiddenPatches(now, *start, *search);
+    search->hidden = PatchesOutOfSight(now, *search);
   }
   if (!search || (search->step >= 0 && now.world.step - search->step < kRefresh_steps)) return;
   Weigh(now.world, now.goal, &*search);
@@ -258,6 +271,7 @@ bool BeginCloseSearch(StepState& now) {
   if (search) return false;
   search.emplace();
   search->notice_range_m = kClose * now.config.policy.explore.inspect_range_m;
+  search->sure_range_m = search->notice_range_m;
   UpdateSearch(now);
   return true;
 }
@@ -267,7 +281,7 @@ bool LeaveOutHidden(StepState& now) {
   const auto start = now.world.ground.StandingAt(now.agent.p_world);
   if (!search || !now.world.revision || !start) return false;
   const auto before = search->hidden.size();
-  search->hidden.merge(HiddenPatches(now, *start, *search));
+  search->hidden.merge(PatchesOutOfReach(now, *start, *search));
   if (search->hidden.size() == before) return false;
   Weigh(now.world, now.goal, &*search);
   return true;
@@ -277,6 +291,7 @@ void SearchNearer(StepState& now, double share_of_range) {
   now.world.full.field.BeginGoal();
   if (auto& search = now.goal.full.search) {
     search->notice_range_m *= share_of_range;
+    search->sure_range_m *= share_of_range;
     search->was_noticed = false;
     search->settled.clear();
     search->step = -1;
@@ -317,13 +332,25 @@ void SettleView(StepState& now, const Candidate& view) {
 
 bool IsSurelyAbsent(const Situation& now) {
   const auto& search = now.goal.full.search;
-  return search && now.world.revision &&
+  return search && now.world.revision && !HasPlaceBeyondReach(now) &&
          objects::OddsOfAbsence(search->unseen) >= now.config.memory.absent_from;
+}
+
+bool IsPartCutOff(const Situation& now) {
+  const auto& search = now.goal.full.search;
+  const auto start = now.world.ground.StandingAt(now.agent.p_world);
+  if (!search || !start) return false;
+  double unseen = 0;
+  for (const VoxelKey& cell : PatchesOutOfReach(now, *start, *search))
+    if (const auto share = search->shares.find(cell); share != search->shares.end())
+      unseen += share->second * Unnoticed(now.world.full.field, cell,
+                                          now.world.full.field.patches().at(cell), *search);
+  return unseen >= kCutOff;
 }
 
 bool IsSearchOver(const Situation& now) {
   const auto& search = now.goal.full.search;
-  return search && now.world.revision && search->unseen <= kMostUnseen;
+  return search && now.world.revision && !HasPlaceBeyondReach(now) && search->unseen <= kMostUnseen;
 }
 
 }  // namespace crossnav::agent

@@ -32,6 +32,8 @@ void SettleView(StepState& now, const policy::Candidate& view);
 
 /// memory.mode = revise: nothing was found where nearly everything was looked at: the goal is gone.
 bool IsSurelyAbsent(const Situation& now);
+/// Rooms that may hold the goal have no way to them now.
+bool IsPartCutOff(const Situation& now);
 /// memory.mode = revise: most was looked at; the agent gives up where no view is left.
 bool IsSearchOver(const Situation& now);
 

@@ -15,7 +15,7 @@ using objects::KnownAs;
 
 namespace {
 
-constexpr double kOtherKind = 0.15;   // chosen: of tops for a thing of the ground, and vice versa
+constexpr double kOtherKind = 0.05;   // chosen: of tops for a thing of the ground, and vice versa
 constexpr double kAtOldPlace = 0.25;  // chosen: of things that left their place, near it
 constexpr double kOldPlace_m = 1.2;   // chosen: the next place on a table, or beside it
 

@@ -14,7 +14,8 @@ using policy::SearchPatch;
 
 namespace {
 
-constexpr double kMissed = 0.3;     // chosen: chance that the memory misses a thing that was seen
+constexpr double kMissed = 0.1;     // chosen: chance of missing a small thing from afar
+constexpr double kUnasked = 0.3;    // chosen: chance that the memory misses a thing that was seen
 constexpr double kMargin_m = 0.3;   // chosen: views end that much before the range
 constexpr double kEdge_deg = 5;     // chosen: at each side of the picture
 constexpr int kViewGrid_shift = 3;  // chosen: one view in 8 x 8 columns
@@ -31,9 +32,28 @@ Vector3d PointOf(const SearchPatch& patch, const ObjectSearch& search) {
 /// Chance that the goal stands at the patch and was not noticed, given that it stands there.
 double UnnoticedAt(const SearchPatch& patch, const ObjectSearch& search) {
   const policy::Looked& looked = search.is_tall ? patch.high : patch.low;
-  if (search.was_noticed) return looked.in_run_m <= search.notice_range_m ? 0 : 1;
-  if (looked.for_goal_m <= search.notice_range_m) return 0;
-  return looked.in_run_m <= search.notice_range_m ? kMissed : 1;
+  const double looked_for_m = search.was_noticed ? looked.in_run_m : looked.for_goal_m;
+  if (looked_for_m <= search.sure_range_m) return 0;
+  if (looked.in_run_m > search.notice_range_m) return 1;
+  return search.was_noticed ? kMissed : kUnasked;
+}
+
+std::set<VoxelKey> AllPatches(const Situation& now) {
+  std::set<VoxelKey> cells;
+  for (const auto& [cell, patch] : now.world.full.field.patches()) cells.insert(cell);
+  return cells;
+}
+
+/// Removes the patches that `place` shows.
+void EraseSeenFrom(const Situation& now, const VoxelKey& place, const ObjectSearch& goal,
+                   std::set<VoxelKey>* cells) {
+  const double range_m = goal.notice_range_m;
+  const Vector3d p_eye = EyeAt(now, place);
+  std::erase_if(*cells, [&](const VoxelKey& cell) {
+    const Vector3d p_world = PointOf(now.world.full.field.patches().at(cell), goal);
+    return (p_world - p_eye).squaredNorm() <= range_m * range_m &&
+           now.world.map.HasLineOfSight(p_eye, p_world);
+  });
 }
 
 }  // namespace
@@ -60,21 +80,20 @@ VoxelKey ViewCellOf(const VoxelKey& place) {
   return {place.x >> kViewGrid_shift, place.y >> kViewGrid_shift, place.z >> kViewGrid_shift};
 }
 
-std::set<VoxelKey> HiddenPatches(const Situation& now, const VoxelKey& start,
-                                 const ObjectSearch& goal) {
-  const double range_m = goal.notice_range_m;
-  std::set<VoxelKey> hidden, asked;
-  for (const auto& [cell, patch] : now.world.full.field.patches()) hidden.insert(cell);
+std::set<VoxelKey> PatchesOutOfSight(const Situation& now, const ObjectSearch& goal) {
+  std::set<VoxelKey> hidden = AllPatches(now), asked;
+  for (const auto& [cell, patch] : now.world.full.field.patches())
+    if (const auto place = now.world.ground.StandingAt(patch.p_world))
+      if (asked.insert(ViewCellOf(*place)).second) EraseSeenFrom(now, *place, goal, &hidden);
+  return hidden;
+}
+
+std::set<VoxelKey> PatchesOutOfReach(const Situation& now, const VoxelKey& start,
+                                     const ObjectSearch& goal) {
+  std::set<VoxelKey> hidden = AllPatches(now), asked;
   planner::GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
-  while (const auto place = search.Next()) {
-    if (!asked.insert(ViewCellOf(*place)).second) continue;
-    const Vector3d p_eye = EyeAt(now, *place);
-    std::erase_if(hidden, [&](const VoxelKey& cell) {
-      const Vector3d p_world = PointOf(now.world.full.field.patches().at(cell), goal);
-      return (p_world - p_eye).squaredNorm() <= range_m * range_m &&
-             now.world.map.HasLineOfSight(p_eye, p_world);
-    });
-  }
+  while (const auto place = search.Next())
+    if (asked.insert(ViewCellOf(*place)).second) EraseSeenFrom(now, *place, goal, &hidden);
   return hidden;
 }
 

@@ -22,9 +22,13 @@ double Unnoticed(const policy::SearchField& field, const geometry::VoxelKey& cel
 /// Places of one coarse cell have the same views.
 geometry::VoxelKey ViewCellOf(const geometry::VoxelKey& place);
 
+/// Patches that no place shows, within reach or not: a way that is closed may be opened.
+std::set<geometry::VoxelKey> PatchesOutOfSight(const Situation& now, const ObjectSearch& goal);
+
 /// Patches that no place within reach of `start` shows.
-std::set<geometry::VoxelKey> HiddenPatches(const Situation& now, const geometry::VoxelKey& start,
-                                           const ObjectSearch& goal);
+std::set<geometry::VoxelKey> PatchesOutOfReach(const Situation& now,
+                                               const geometry::VoxelKey& start,
+                                               const ObjectSearch& goal);
 
 struct SearchView {
   double gain = 0;    ///< probability that the goal is in it, unnoticed so far

@@ -151,14 +151,15 @@ struct FailedViews {
 struct ObjectSearch {
   std::map<int, double> odds;                   ///< by room of the graph; empty = all ground alike
   std::map<geometry::VoxelKey, double> shares;  ///< probability of each patch, in sum 1
-  std::set<geometry::VoxelKey> hidden;          ///< patches that no place within reach shows
+  std::set<geometry::VoxelKey> hidden;          ///< patches that no place shows
   std::set<geometry::VoxelKey> settled;         ///< patches of views that were taken
   bool was_noticed = false;                     ///< every frame of the run looked for the goal
   bool is_tall = false;                         ///< it reaches the high points of the patches
   bool is_wide = false;                         ///< it reaches into the next patch
-  double notice_range_m = 0;  ///< up to which a look tells whether the goal is there
-  double unseen = 1;          ///< probability that the goal is at a patch and was not noticed
-  int step = -1;              ///< of the last refresh of `shares` and `unseen`
+  double notice_range_m = 0;                    ///< up to which a look finds the goal in most cases
+  double sure_range_m = 0;                      ///< up to which it finds the goal
+  double unseen = 1;  ///< probability that the goal is at a patch and was not noticed
+  int step = -1;      ///< of the last refresh of `shares` and `unseen`
 };
 
 /// Goal state of policy.profile = full.

@@ -20,6 +20,7 @@ constexpr double kStillThere = 0.5;        // chosen: share of a place's voxels 
 constexpr double kSamePlace = 0.3;         // chosen: share of a place's voxels in a record's box
 constexpr double kNoticed_rad = 1.0 / 12;  // chosen: least size in the picture, 5 degrees
 constexpr double kLeastNotice_m = 2.0;     // chosen: the smallest things are met that near
+constexpr double kUnknown = 0.6;           // chosen: of the range of things that are not small
 constexpr int kLeastViews = 2;             // chosen: frames of a record, as for a live POI
 constexpr double kFirst = 2;               // chosen: more than the places that count alike
 
@@ -104,12 +105,20 @@ Vector3d UsualSides(const World& world, const std::string& category) {
   return sides_m;
 }
 
-double NoticeRange(const World& world, const GoalState& goal, const Config& config) {
-  const Vector3d sides_m = UsualSides(world, objects::KnownAs(world.objects.records(), goal.goal));
-  const double size_m = std::sqrt(sides_m.head<2>().maxCoeff() * sides_m.z());
-  const double range_m = config.policy.explore.inspect_range_m;
-  if (size_m <= 0) return range_m;
-  return std::min(range_m, std::max(kLeastNotice_m, size_m / kNoticed_rad));
+NoticeRanges RangesOfNotice(const World& world, const GoalState& goal, const Config& config) {
+  const Vector3d box_m = UsualSides(world, objects::KnownAs(world.objects.records(), goal.goal));
+  const double most_m = config.policy.explore.inspect_range_m;
+  // A thing that was not met in a known house is small, or nobody has looked for it.
+  if (box_m.maxCoeff() <= 0) return {most_m, kUnknown * most_m};
+  const double from_front_m = std::sqrt(box_m.head<2>().maxCoeff() * box_m.z());
+  // Surfaces lie anywhere in their voxels: the box is a voxel larger than the thing.
+  const Vector3d sides_m =
+      (box_m.array() - world.objects.voxel_m()).max(0.5 * world.objects.voxel_m());
+  const double from_any_side_m = std::sqrt(std::sqrt(sides_m.x() * sides_m.y()) * sides_m.z());
+  const auto range = [&](double size_m) {
+    return std::min(most_m, std::max(kLeastNotice_m, size_m / kNoticed_rad));
+  };
+  return {range(from_front_m), range(from_any_side_m)};
 }
 
 bool ClearsOldSurfaces(const Config& config) {

@@ -24,9 +24,12 @@ Result<void> CountEvidence(geometry::VoxelMap* map);
 /// Largest sides of the category's records [m]; zero without a record.
 Vector3d UsualSides(const World& world, const std::string& category);
 
-/// Distance up to which a look at a place tells whether the goal is there [m]: shorter for a thing
-/// that records show to be small.
-double NoticeRange(const World& world, const GoalState& goal, const Config& config);
+/// Distances of a look at a place [m]: shorter for a thing that records show to be small.
+struct NoticeRanges {
+  double probably_m = 0;  ///< up to which a look finds the goal in most cases
+  double surely_m = 0;    ///< up to which it does so from any side
+};
+NoticeRanges RangesOfNotice(const World& world, const GoalState& goal, const Config& config);
 
 /// The rooms of a loaded map.
 Revision RevisionOf(const World& world);

@@ -354,6 +354,8 @@ TEST(Revise, AShutDoorIsRunIntoNotMoreThanOnce) {
     return step.find("\"bump\"") != std::string::npos;
   });
   EXPECT_LE(bumps, 1);
+  // The couch may well stand behind the door: nobody has seen that it is gone.
+  EXPECT_EQ(walk.traces.back().find("it is gone"), std::string::npos) << walk.traces.back();
 }
 
 }  // namespace
