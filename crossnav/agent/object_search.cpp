@@ -37,8 +37,10 @@ constexpr double kStay = 0.5;    // chosen: likewise of its room and floor: comi
 constexpr double kAround_m = 6;  // chosen: patches about the agent, a view and a step
 constexpr int kRefresh_steps = 6;    // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;  // chosen: of a search without a view left
-constexpr double kCutOff = 0.05;     // chosen: a room or a floor, not corners
-constexpr double kClose = 0.6;       // chosen: of the range, near enough for small things
+constexpr double kWorth_m = 1000;    // chosen: for the probability; a corner two rooms off
+constexpr double kBeside_m = 0.5;  // chosen: the middle of a remembered place and the record's box
+constexpr double kCutOff = 0.05;   // chosen: a room or a floor, not corners
+constexpr double kClose = 0.6;     // chosen: of the range, near enough for small things
 constexpr double kOffLevel_m = 0.3;  // chosen: a frontier this far off a floor is on furniture
 
 void UpdateAllFloors(World* world) {
@@ -215,11 +217,19 @@ class SearchPrices {
   std::optional<int> current_room_;
 };
 
-/// A place that the memory believes in was not visited, because no way leads there.
+/// A believed record was not visited, because no way leads there.
 bool HasPlaceBeyondReach(const Situation& now) {
+  const auto& book = now.world.objects;
+  const std::string category = KnownAs(book.records(), now.goal.goal);
+  const auto is_believed = [&](const HistoryPoi& poi) {
+    return std::any_of(book.records().begin(), book.records().end(), [&](const auto& record) {
+      return record.category == category && record.views > 0 && !book.IsGone(record) &&
+             record.box_world_m.exteriorDistance(poi.p_center_world) <= kBeside_m;
+    });
+  };
   const auto& history = now.goal.history;
   return std::any_of(history.begin(), history.end(),
-                     [](const HistoryPoi& poi) { return !poi.is_exhausted; });
+                     [&](const HistoryPoi& poi) { return !poi.is_exhausted && is_believed(poi); });
 }
 
 bool HasPlaceLeft(const Situation& now) {
@@ -308,6 +318,7 @@ std::vector<PricedCandidate> PriceSearch(const Situation& now, const VoxelKey& s
     prices.AddExplored(search, *place, path_m);
     prices.AddView(search, *place, path_m);
   }
+  if (IsSearchOver(now) && prices.best() > kWorth_m) return {};
   return prices.Take();
 }
 

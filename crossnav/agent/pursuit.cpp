@@ -215,8 +215,14 @@ void MeasureProgress(StepState& now) {
   const auto& explore = now.config.policy.explore;
   const int allowed = IsExploring(pursuit) ? explore.progress_steps : 2 * explore.progress_steps;
   if (route.idle_steps <= allowed) return;
-  if (const VisitPlace* visit = std::get_if<VisitPlace>(&pursuit))
-    now.goal.history[static_cast<std::size_t>(visit->place)].is_exhausted = true;
+  if (const VisitPlace* visit = std::get_if<VisitPlace>(&pursuit)) {
+    HistoryPoi& place = now.goal.history[static_cast<std::size_t>(visit->place)];
+    // Nobody has seen that it is empty.
+    if (now.world.revision)
+      place.unreachable_step = now.world.step;
+    else
+      place.is_exhausted = true;
+  }
   // A claim that only lacks its second view stays: the agent returns to the first view.
   const policy::ClaimTracker& claims = now.goal.full.claims;
   if (const Approach* approach = std::get_if<Approach>(&pursuit);

@@ -14,7 +14,7 @@ using policy::SearchPatch;
 
 namespace {
 
-constexpr double kMissed = 0.1;     // chosen: chance of missing a small thing from afar
+constexpr double kMissed = 0.02;    // chosen: chance of missing a small thing from afar
 constexpr double kUnasked = 0.3;    // chosen: chance that the memory misses a thing that was seen
 constexpr double kMargin_m = 0.3;   // chosen: views end that much before the range
 constexpr double kEdge_deg = 5;     // chosen: at each side of the picture
@@ -34,8 +34,8 @@ double UnnoticedAt(const SearchPatch& patch, const ObjectSearch& search) {
   const policy::Looked& looked = search.is_tall ? patch.high : patch.low;
   const double looked_for_m = search.was_noticed ? looked.in_run_m : looked.for_goal_m;
   if (looked_for_m <= search.sure_range_m) return 0;
-  if (looked.in_run_m > search.notice_range_m) return 1;
-  return search.was_noticed ? kMissed : kUnasked;
+  if (looked_for_m <= search.notice_range_m) return kMissed;
+  return looked.in_run_m <= search.notice_range_m ? kUnasked : 1;
 }
 
 std::set<VoxelKey> AllPatches(const Situation& now) {
