@@ -14,7 +14,7 @@ using policy::SearchPatch;
 
 namespace {
 
-constexpr double kMissed = 0.02;    // chosen: chance of missing a small thing from afar
+constexpr double kMissed = 0.1;     // chosen: chance of missing a small thing from afar
 constexpr double kUnasked = 0.3;    // chosen: chance that the memory misses a thing that was seen
 constexpr double kMargin_m = 0.3;   // chosen: views end that much before the range
 constexpr double kEdge_deg = 5;     // chosen: at each side of the picture
