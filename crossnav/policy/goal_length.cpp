@@ -25,17 +25,18 @@ constexpr double kUnsure_m = 0.1;  // chosen: a voxel, to either side
 }  // namespace
 
 double LengthOf(const std::vector<VoxelKey>& voxels, double voxel_m) {
-  constexpr int kDirections = 9;  // chosen: every 10 degrees of the first quarter
+  constexpr double kTrimmed = 0.03;  // chosen: masks reach that far over an edge, at either end
+  constexpr int kDirections = 9;     // chosen: every 10 degrees of the first quarter
   if (voxels.empty()) return 0;
   const auto extent_vox = [&](double angle_rad) {
     const double cosine = std::cos(angle_rad), sine = std::sin(angle_rad);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const VoxelKey& key : voxels) {
-      const double along = cosine * key.x + sine * key.y;
-      low = std::min(low, along);
-      high = std::max(high, along);
-    }
-    return high - low + 1;
+    std::vector<double> along;
+    for (const VoxelKey& key : voxels) along.push_back(cosine * key.x + sine * key.y);
+    const auto trimmed = static_cast<std::ptrdiff_t>(kTrimmed * static_cast<double>(along.size()));
+    std::nth_element(along.begin(), along.begin() + trimmed, along.end());
+    const double low = along[static_cast<std::size_t>(trimmed)];
+    std::nth_element(along.begin(), along.end() - 1 - trimmed, along.end());
+    return *(along.end() - 1 - trimmed) - low + 1;
   };
   double least_area = std::numeric_limits<double>::infinity(), length_vox = 0;
   for (int i = 0; i < kDirections; ++i) {

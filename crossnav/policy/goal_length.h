@@ -10,7 +10,8 @@
 
 namespace crossnav::policy {
 
-/// Longer side of the smallest upright box about the voxels, turned about its axis; 0 without any.
+/// Longer side of the smallest upright box about all but the outermost voxels, turned about its
+/// axis; 0 without any.
 double LengthOf(const std::vector<geometry::VoxelKey>& voxels, double voxel_m);
 
 /// How surely an object of the length is shorter than any of the goal's name [0, 1]; 0 for goals

@@ -19,7 +19,7 @@ ViewSummary SummaryOf(const std::vector<ViewScore>& views, std::string_view goal
   for (const ViewScore& view : views) {
     best = std::max(best, view.Mean());
     sum += view.Mean();
-    length_m = std::max(length_m, view.length_m);
+    length_m = std::max(length_m, view.Length_m());
   }
   ViewSummary summary;
   summary.views = static_cast<int>(views.size());

@@ -30,9 +30,11 @@ struct EvidenceConfig {
 /// object may be cut by the image's edge.
 struct ViewScore {
   Vector3d p_camera_world = Vector3d::Zero();
-  double sum = 0;       ///< of scores
-  int frames = 0;       ///< with a detection; 0 = it was missed from here
-  double length_m = 0;  ///< longest in a frame that no side of the image cuts; 0 = in none
+  double sum = 0;           ///< of scores
+  int frames = 0;           ///< with a detection; 0 = it was missed from here
+  double sum_length_m = 0;  ///< over frames in which no side of the image cuts it
+  int uncut_frames = 0;
+  double Length_m() const { return uncut_frames > 0 ? sum_length_m / uncut_frames : 0; }
   double Mean() const { return frames > 0 ? sum / frames : 0; }
 };
 
