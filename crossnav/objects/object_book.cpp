@@ -229,7 +229,7 @@ std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Obs
     const FrameView view = ViewOf(record.voxels, obs, voxel_m_);
     const bool is_free = view.free >= config_.good_view && view.surface <= kMostSurface;
     const bool is_asked = std::find(asked.begin(), asked.end(), record.category) != asked.end();
-    // What is smaller in the picture than in any view that found it may be missed.
+    // The detector may miss a thing that is smaller in the picture than in any view that found it.
     const bool is_large = PixelsShown(view) >= watch.least_shown_px;
     const bool is_other = is_asked && is_large && view.Visible() >= kLeastVisible &&
                           view.free + view.surface + view.hidden >= config_.good_view &&

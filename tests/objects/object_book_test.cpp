@@ -185,11 +185,16 @@ TEST(ObjectBook, EachOfSeveralCategoriesThatTheDetectorWasAskedForIsContradicted
   EXPECT_TRUE(book.IsGone(book.records()[1]));
 }
 
-// A small thing was found from near alone; on the way past, the detector misses it.
-TEST(ObjectBook, ViewsSmallerThanThoseThatFoundTheThingDoNotContradictIt) {
+World LongRoomWithChair() {
   World world;
   world.rooms.shell = BoxOf(-10, 0, 0, 6, 4, 2.6);
   world.rooms.solids = {kChair};
+  return world;
+}
+
+// A small thing was found from near alone; on the way past, the detector misses it.
+TEST(ObjectBook, ViewsSmallerThanThoseThatFoundTheThingDoNotContradictIt) {
+  World world = LongRoomWithChair();
   ObjectBook book;
   SeeIt(world, kChair, 4, book);
   const double before = book.records().front().confidence;
@@ -204,9 +209,7 @@ TEST(ObjectBook, ViewsSmallerThanThoseThatFoundTheThingDoNotContradictIt) {
 }
 
 TEST(ObjectBook, ThingsSeenFromTooFarAwayAreNotContradicted) {
-  World world;
-  world.rooms.shell = BoxOf(-10, 0, 0, 6, 4, 2.6);
-  world.rooms.solids = {kChair};
+  World world = LongRoomWithChair();
   ObjectBook book;
   SeeIt(world, kChair, 4, book);
   const double before = book.records().front().confidence;
