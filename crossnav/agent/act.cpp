@@ -11,6 +11,7 @@
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/scan.h"
 #include "crossnav/agent/shared_parts.h"
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/category_table.h"
 #include "crossnav/policy/ground_motion.h"
 #include "crossnav/policy/steering.h"
@@ -24,6 +25,7 @@ namespace {
 constexpr double kArrived_m = 0.35;    // chosen: one forward step and a voxel
 constexpr double kAtEnd_m = 1.0;       // chosen: of the end of a path: a look from there will do
 constexpr int kLooksAtTarget = 6;      // chosen: half a turn, or less and a pitch
+constexpr std::size_t kSides = 3;      // chosen: looks at a remembered place, from pairwise sides
 constexpr double kTouching_m = 0.001;  // chosen: beside a blocked column, not in it
 
 /// The next action along the path; nullopt at its end, or where no step helps.
@@ -105,6 +107,18 @@ std::optional<Action> ActOn(StepState& now, Climb& climb, const policy::Verifica
   return ActOnExploration(now, climb);
 }
 
+/// A thin thing is missed from one side: a place whose record is still believed is looked at from
+/// others. False where it has been.
+bool AskForOtherSide(StepState& now, HistoryPoi& poi) {
+  poi.p_looked_world.push_back(now.agent.p_world);
+  if (poi.p_looked_world.size() >= kSides || !IsBelieved(now.world, now.goal, poi) ||
+      !HasOtherSide(now, poi))
+    return false;
+  poi.looked = 0;
+  now.goal.events.push_back("not seen here: another side is tried");
+  return true;
+}
+
 std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Verification& /*v*/) {
   HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(visit.place)];
   if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && poi.looked == 0) {
@@ -118,6 +132,10 @@ std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Ver
   // Once aimed, a wobble to either side gives the detector a few more frames.
   if (const auto wobble = static_cast<std::size_t>(poi.looked); wobble < kWobble.size())
     return ++poi.looked, kWobble[wobble];
+  if (AskForOtherSide(now, poi)) {
+    End(now, Ending::kUndecided);
+    return std::nullopt;
+  }
   poi.is_exhausted = true;
   if (now.world.revision)
     now.world.objects.Disprove(SpacedName(now.goal.goal), poi.voxels,

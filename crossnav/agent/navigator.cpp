@@ -125,6 +125,7 @@ void ShowPursuit(const Situation& now, Decision* decision) {
 void ChooseAndAct(StepState& now, Decision* decision) {
   bool is_at_loss = false;
   for (int i = 0; i < kChoices && !decision->action && !is_at_loss; ++i) {
+    if (i > 0) BeginSearchWhereDue(now);    // a visit may have ended
     decision->shown = ChooseActivity(now);  // eq:supp_candidate_set, eq:supp_candidate_priority
     is_at_loss = IsIdle(now);
     decision->action = Act(now, decision->verification);

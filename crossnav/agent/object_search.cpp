@@ -12,6 +12,7 @@
 #include "crossnav/agent/exploration_candidates.h"
 #include "crossnav/agent/explore.h"
 #include "crossnav/agent/passing_sights.h"
+#include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/search_shares.h"
 #include "crossnav/agent/search_tours.h"
 #include "crossnav/agent/search_views.h"
@@ -41,6 +42,7 @@ constexpr double kWorth_m = 1000;    // chosen: for the probability; a corner tw
 constexpr double kBeside_m = 0.5;  // chosen: the middle of a remembered place and the record's box
 constexpr double kCutOff = 0.05;   // chosen: a room or a floor, not corners
 constexpr double kClose = 0.6;     // chosen: of the range, near enough for small things
+constexpr double kLeftOver = 0.2;  // chosen: of what earlier days left unseen; the rest is in walls
 constexpr double kOffLevel_m = 0.3;  // chosen: a frontier this far off a floor is on furniture
 
 void UpdateAllFloors(World* world) {
@@ -156,7 +158,9 @@ class SearchPrices {
       const bool is_pocket =
           found.type == ExplorationClass::kFrontier && gain * known_m2_ < kRoom_m2;
       if (gain <= 0 || (is_over_ && is_pocket)) continue;
-      Add(std::move(found.candidate), search.PathTo(place), path_m, gain, {});
+      const bool is_old = found.type == ExplorationClass::kFrontier && now_.world.revision;
+      Add(std::move(found.candidate), search.PathTo(place), path_m,
+          is_old ? kLeftOver * gain : gain, {});
     }
   }
 
@@ -234,9 +238,8 @@ bool HasPlaceBeyondReach(const Situation& now) {
 
 bool HasPlaceLeft(const Situation& now) {
   const auto& history = now.goal.history;
-  return std::any_of(history.begin(), history.end(), [](const HistoryPoi& poi) {
-    return !poi.is_exhausted && !poi.unreachable_step;
-  });
+  return std::any_of(history.begin(), history.end(),
+                     [&](const HistoryPoi& poi) { return IsToBeVisited(now, poi); });
 }
 
 /// Probabilities of the patches and of what is left to see.
@@ -251,6 +254,24 @@ void Weigh(const World& world, const GoalState& goal, ObjectSearch* search) {
 
 }  // namespace
 
+void BeginSearchWhereDue(StepState& now) {
+  auto& search = now.goal.full.search;
+  if (search || !now.world.revision || HasPlaceLeft(now)) return;
+  LocateObjects(&now.world);
+  const std::string category = KnownAs(now.world.objects.records(), now.goal.goal);
+  search.emplace();
+  search->odds = RoomOdds(now.world.objects.records(), now.world.revision->rooms, category);
+  search->was_noticed = WasNoticedThroughout(now.world, now.goal.goal);
+  const NoticeRanges ranges = RangesOfNotice(now.world, now.goal, now.config);
+  search->notice_range_m = ranges.probably_m;
+  search->sure_range_m = ranges.surely_m;
+  const Vector3d sides_m = UsualSides(now.world, category);
+  search->is_tall = sides_m.z() >= SearchPatch::kHigh_m;
+  search->is_wide = sides_m.head<2>().maxCoeff() >= kWide_m;
+  search->hidden = PatchesOutOfSight(now, *search);
+  Weigh(now.world, now.goal, &*search);
+}
+
 void UpdateSearch(StepState& now) {
   const bool is_flat =
       std::abs(now.agent.p_world.z() - now.world.level_m) < kOffLevel_m && now.world.has_level;
@@ -258,20 +279,7 @@ void UpdateSearch(StepState& now) {
   if (now.world.step % kRefresh_steps == 0 && is_flat) UpdateAround(now);
   if (now.world.revision && now.world.step == 0) UpdateAllFloors(&now.world);
   now.world.full.field.Look(now.obs, now.config.policy.explore.inspect_range_m);
-  if (!search && now.world.revision && !HasPlaceLeft(now)) {
-    LocateObjects(&now.world);
-    const std::string category = KnownAs(now.world.objects.records(), now.goal.goal);
-    search.emplace();
-    search->odds = RoomOdds(now.world.objects.records(), now.world.revision->rooms, category);
-    search->was_noticed = WasNoticedThroughout(now.world, now.goal.goal);
-    const NoticeRanges ranges = RangesOfNotice(now.world, now.goal, now.config);
-    search->notice_range_m = ranges.probably_m;
-    search->sure_range_m = ranges.surely_m;
-    const Vector3d sides_m = UsualSides(now.world, category);
-    search->is_tall = sides_m.z() >= SearchPatch::kHigh_m;
-    search->is_wide = sides_m.head<2>().maxCoeff() >= kWide_m;
-    search->hidden = PatchesOutOfSight(now, *search);
-  }
+  BeginSearchWhereDue(now);
   if (!search || (search->step >= 0 && now.world.step - search->step < kRefresh_steps)) return;
   Weigh(now.world, now.goal, &*search);
 }

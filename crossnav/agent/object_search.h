@@ -9,9 +9,12 @@
 
 namespace crossnav::agent {
 
-/// Brings patches and the probabilities of the goal's search up to date; begins a search where
-/// memory.mode = revise asks for one.
+/// Brings patches and the probabilities of the goal's search up to date, and begins a search where
+/// one is due.
 void UpdateSearch(StepState& now);
+
+/// Begins a search under memory.mode = revise where no remembered place is left to visit.
+void BeginSearchWhereDue(StepState& now);
 
 /// Searches the house that was explored in vain, from near. False if a search is on already.
 bool BeginCloseSearch(StepState& now);

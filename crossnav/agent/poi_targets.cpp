@@ -179,13 +179,22 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const HistoryPoi& poi) {
   const double range_m = now.config.policy.approach.range_m;
   for (const double within_m : {range_m - kSlack_m, 2 * range_m})
-    if (auto target =
-            NearestView(now, start, {poi.voxels, within_m, {}, {}, poi.p_center_world, true}))
+    if (auto target = NearestView(
+            now, start, {poi.voxels, within_m, {}, poi.p_looked_world, poi.p_center_world, true}))
       return target;
   return std::nullopt;
 }
 
 }  // namespace
+
+bool HasOtherSide(const Situation& now, const HistoryPoi& poi) {
+  const auto start = now.world.ground.StandingAt(now.agent.p_world);
+  return start && ViewOf(now, *start, poi);
+}
+
+bool IsToBeVisited(const Situation& now, const HistoryPoi& poi) {
+  return !poi.unreachable_step && IsWorthGoingTo(now, poi, std::nullopt, 0);
+}
 
 PlaceChoice ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
   PlaceChoice choice;
@@ -194,7 +203,8 @@ PlaceChoice ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
     choice.unreachable_steps.push_back(poi.unreachable_step);
     if (!poi.is_exhausted) best_score = std::max(best_score, poi.score);
   }
-  // Among places that answer about equally well the nearest; then the others in their order.
+  // Among places that answer about equally well the least path for its probability; then the
+  // others.
   for (const double share : {kBestShare, 0.0}) {
     for (std::size_t i = 0; i < now.goal.history.size(); ++i) {
       const HistoryPoi& poi = now.goal.history[i];
@@ -202,7 +212,9 @@ PlaceChoice ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {
       if (!IsWorthGoingTo(now, poi, unreachable_step, share * best_score)) continue;
       auto target = ViewOf(now, start, poi);
       unreachable_step = target ? std::nullopt : std::optional(now.world.step);
-      if (!target || (choice.target && choice.target->cost_m <= target->cost_m)) continue;
+      if (!target) continue;
+      target->score_m = (target->cost_m + now.config.policy.explore.start_m) / poi.belief;
+      if (choice.target && choice.target->score_m <= target->score_m) continue;
       auto standing = std::move(target->candidate.standing);
       target->candidate = CandidateOf(poi);
       target->candidate.standing = std::move(standing);

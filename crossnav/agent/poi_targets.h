@@ -71,6 +71,13 @@ FailedViews FailedViewsOf(const GoalState& goal, int poi_id);
 /// The best live POI that can be approached.
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const geometry::VoxelKey& start);
 
+/// Whether a remembered place may be visited now or later: it is not settled, was not found to be
+/// out of reach, and answers as strongly as a thing that was found.
+bool IsToBeVisited(const Situation& now, const HistoryPoi& poi);
+
+/// Whether the place, looked at in vain from the views so far, can be seen from another side.
+bool HasOtherSide(const Situation& now, const HistoryPoi& poi);
+
 struct PlaceChoice {
   std::optional<GroundTarget> target;
   int place = -1;  ///< index into GoalState::history

@@ -124,6 +124,8 @@ struct HistoryPoi {
   Vector3d p_center_world = Vector3d::Zero();
   double score = 0;
   double similarity = 0;  ///< mean cosine of its best quarter [-1, 1]
+  double belief = 1;      ///< probability that the object is there, under memory.mode = revise
+  std::vector<Vector3d> p_looked_world;  ///< feet of the looks on arrival that were in vain
   bool is_exhausted = false;
   std::optional<int> unreachable_step;  ///< last step at which no path to a view of it was found
   int looked = 0;                       ///< frames spent looking at it on arrival

@@ -23,6 +23,7 @@ constexpr double kLeastNotice_m = 2.0;     // chosen: the smallest things are me
 constexpr double kUnknown = 0.6;           // chosen: of the range of things that are not small
 constexpr int kLeastViews = 2;             // chosen: frames of a record, as for a live POI
 constexpr double kFirst = 2;               // chosen: more than the places that count alike
+constexpr double kIsMoved = 0.8;           // chosen: chance that a new object is a known one moved
 
 double ShareOfSurfaces(const World& world, const std::vector<VoxelKey>& voxels) {
   const auto count = std::count_if(voxels.begin(), voxels.end(), [&](const VoxelKey& key) {
@@ -72,6 +73,29 @@ HistoryPoi PlaceOf(const ObjectRecord& record, double score) {
   return place;
 }
 
+/// Whether the record is new today in a room that was known before: something was carried there.
+bool HasAppeared(const ObjectRecord& record, const World& world) {
+  if (record.first_seen_day != world.day || !world.revision) return false;
+  const auto& graph = world.revision->graph;
+  const auto floor = FloorAt(graph, record.centre_world_m);
+  return floor && RoomAt(graph, *floor, record.centre_world_m);
+}
+
+/// Chance that the record's object is still there. Where others of its category appeared today,
+/// and this one was not seen today, it may be one of them.
+double BeliefIn(const ObjectRecord& record, const World& world) {
+  if (record.last_seen_day == world.day) return record.confidence;
+  int unseen = 0, appeared = 0;
+  for (const ObjectRecord& other : world.objects.records()) {
+    if (other.category != record.category || other.views < kLeastViews ||
+        world.objects.IsGone(other))
+      continue;
+    unseen += other.last_seen_day < world.day ? 1 : 0;
+    appeared += HasAppeared(other, world) ? 1 : 0;
+  }
+  return record.confidence * (1 - kIsMoved * std::min(1.0, 1.0 * appeared / unseen));
+}
+
 double BestScore(const std::vector<HistoryPoi>& places) {
   double best = 1;
   for (const HistoryPoi& place : places) best = std::max(best, place.score);
@@ -85,14 +109,14 @@ bool HasRecord(const World& world, const std::string& category) {
   });
 }
 
-/// Adds the record's place where no other place covers it.
+/// Adds the record's place, instead of places of the memory that are on it: a small thing answers
+/// weakly there, because its voxels show its table, too.
 void AddPlace(const World& world, const ObjectRecord& record, double score,
               std::vector<HistoryPoi>* places) {
-  const auto covers = [&](const HistoryPoi& place) {
-    return ShareIn(world, place.voxels, record) >= kSamePlace;
-  };
-  const bool is_covered = std::any_of(places->begin(), places->end(), covers);
-  if (!is_covered) places->push_back(PlaceOf(record, score));
+  std::erase_if(*places, [&](const HistoryPoi& place) {
+    return place.score < score && ShareIn(world, place.voxels, record) >= kSamePlace;
+  });
+  places->push_back(PlaceOf(record, score));
 }
 
 }  // namespace
@@ -161,15 +185,18 @@ std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& wor
                                 const GoalState& goal, bool notices_things) {
   const std::string category = objects::KnownAs(world.objects.records(), goal.goal);
   const bool is_complete = notices_things && HasRecord(world, category);
-  const double score = BestScore(places);
+  const double score = kFirst * BestScore(places);
   std::erase_if(places, [&](const HistoryPoi& place) {
     const int opinion = OpinionOf(world, place.voxels, category);
     return opinion < 0 ||
            (opinion == 0 && (is_complete || ShareOfSurfaces(world, place.voxels) < kStillThere));
   });
   for (const ObjectRecord& record : world.objects.records())
-    if (record.category == category && record.views >= kLeastViews && !world.objects.IsGone(record))
+    if (record.category == category && record.views >= kLeastViews &&
+        !world.objects.IsGone(record)) {
       AddPlace(world, record, score, &places);
+      places.back().belief = BeliefIn(record, world);
+    }
   return places;
 }
 
@@ -177,14 +204,14 @@ std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World&
                                     const GoalState& goal) {
   const std::string category = objects::KnownAs(world.objects.records(), goal.goal);
   const double score = kFirst * BestScore(places);
-  for (const ObjectRecord& record : world.objects.records()) {
-    if (record.category != category || record.views < kLeastViews) continue;
-    std::erase_if(places, [&](const HistoryPoi& place) {
-      return place.score < score && ShareIn(world, place.voxels, record) >= kSamePlace;
-    });
-    places.push_back(PlaceOf(record, score));
-  }
+  for (const ObjectRecord& record : world.objects.records())
+    if (record.category == category && record.views >= kLeastViews)
+      AddPlace(world, record, score, &places);
   return places;
+}
+
+bool IsBelieved(const World& world, const GoalState& goal, const HistoryPoi& place) {
+  return OpinionOf(world, place.voxels, objects::KnownAs(world.objects.records(), goal.goal)) > 0;
 }
 
 void SettlePlaceOf(const ObjectRecord& record, GoalState* goal) {

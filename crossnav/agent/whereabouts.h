@@ -39,7 +39,7 @@ void LocateObjects(World* world);
 
 /// memory.mode = revise: places that records or the map contradict are left out, and so are places
 /// without a record where the goal's records are complete (`notices_things`). Records that are
-/// believed are added.
+/// believed are added, and are visited before places without a record.
 std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& world,
                                 const GoalState& goal, bool notices_things);
 
@@ -47,6 +47,9 @@ std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& wor
 /// a record.
 std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World& world,
                                     const GoalState& goal);
+
+/// Whether a record of the goal that is still believed is at the place.
+bool IsBelieved(const World& world, const GoalState& goal, const HistoryPoi& place);
 
 /// The goal's remembered places that are the record's need no visit: the record is gone.
 void SettlePlaceOf(const objects::ObjectRecord& record, GoalState* goal);

@@ -29,6 +29,7 @@ constexpr double kLeastVisible = 0.3;  // chosen: one side of an object hides th
 constexpr double kMostSurface = 0.2;   // chosen: of a free place
 constexpr double kLeastPixels = 300;   // chosen: of an object that a detector finds ...
 constexpr double kLeastImage = 0.002;  // chosen: ... and of the image
+constexpr double kSureImage = 0.012;   // chosen: likewise, of an object that this run has not found
 
 double BeliefTimes(double belief, double factor) {
   const double odds = factor * belief / (1 - belief);
@@ -230,7 +231,8 @@ std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Obs
     const bool is_free = view.free >= config_.good_view && view.surface <= kMostSurface;
     const bool is_asked = std::find(asked.begin(), asked.end(), record.category) != asked.end();
     // The detector may miss a thing that is smaller in the picture than in any view that found it.
-    const bool is_large = PixelsShown(view) >= watch.least_shown_px;
+    const double least_px = watch.least_shown_px > 0 ? watch.least_shown_px : kSureImage * image;
+    const bool is_large = PixelsShown(view) >= least_px;
     const bool is_other = is_asked && is_large && view.Visible() >= kLeastVisible &&
                           view.free + view.surface + view.hidden >= config_.good_view &&
                           view.pixels >= std::max(kLeastPixels, kLeastImage * image);

@@ -304,6 +304,106 @@ TEST(Revise, APlaceThatIsEmptyIsLeftFromAfar) {
   EXPECT_GT(left_m, 1.5);
 }
 
+// The voxels of a small thing answer as weakly as its table does.
+TEST(Revise, ABelievedRecordIsVisitedWhereTheMemoryAnswersWeakly) {
+  Config config;
+  objects::ObjectRecord bowl;
+  bowl.category = "bowl";
+  bowl.views = 5;
+  bowl.confidence = 0.9;
+  bowl.voxels = {{10, 10, 8}, {10, 11, 8}, {11, 10, 8}, {11, 11, 8}};
+  objects::Measure(bowl, config.map.voxel_m);
+  World world(config);
+  world.objects.Load({bowl});
+  world.revision.emplace();
+  GoalState goal;
+  goal.goal = "bowl";
+  HistoryPoi table;
+  table.voxels = bowl.voxels;
+  table.voxels.push_back({12, 10, 8});
+  table.similarity = 0.7;
+  table.score = 10;
+  const auto places = Revised({table}, world, goal, true);
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_EQ(places[0].similarity, 1);
+  EXPECT_EQ(places[0].voxels, bowl.voxels);
+}
+
+// A place that answers more weakly than a thing that was found is not visited: no reason to wait.
+TEST(Revise, AWeakPlaceDoesNotDelayTheSearch) {
+  const Night night = FirstDay();
+  FakeSight sight = testing::CouchSight(kCouch);
+  sight.text = [couch = sight.text](std::string_view text) {
+    return text == "vase" ? std::vector<float>{0.7F, 0, 0, 0.714F} : couch(text);
+  };
+  BoxWalker walker = testing::TwoRooms();
+  Agent agent(ConfigOf("revise"), FakeSuite(sight));
+  Wake(night, 1, &agent);
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
+  ASSERT_TRUE(agent.SetGoal("vase").has_value());
+  const Walk walk = RunAgent(agent, walker, 300);
+  const auto is_view = [](const std::string& step) {
+    return step.find("\"search_view\"") != std::string::npos;
+  };
+  const auto first = std::find_if(walk.traces.begin(), walk.traces.end(), is_view);
+  ASSERT_NE(first, walk.traces.end());
+  EXPECT_TRUE(std::none_of(walk.traces.begin(), first, [](const std::string& step) {
+    return step.find("nothing left") != std::string::npos;
+  }));
+}
+
+// A flat screen shows its edge to the nearest view.
+TEST(Revise, AThingThatOneSideDoesNotShowIsLookedAtFromAnother) {
+  const Box3 screen = BoxOf(6.9, 3.0, 0, 7.3, 3.4, 0.6);
+  FakeSight sight = testing::CouchSight(screen);
+  BoxWalker walker = Rearranged(&screen);
+  Agent first(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(first.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(first, walker, 300).last_action, Action::kStop);
+  const Night night = NightAfter(first);
+  bool is_edge_on = true;
+  sight.detect = [seen = sight.detect, &is_edge_on](const Observation& obs, std::string_view name) {
+    return is_edge_on ? std::vector<perception::Detection>{} : seen(obs, name);
+  };
+  BoxWalker again = Rearranged(&screen);
+  Agent second(ConfigOf("revise"), FakeSuite(sight));
+  Wake(night, 1, &second);
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  Walk walk;
+  for (int i = 0; i < 100 && is_edge_on; ++i) {
+    walk = RunAgent(second, again, 1);
+    is_edge_on = walk.traces.back().find("another side is tried") == std::string::npos;
+  }
+  ASSERT_FALSE(is_edge_on);
+  EXPECT_NE(walk.traces.back().find("\"visit\""), std::string::npos);
+  EXPECT_EQ(RunAgent(second, again, 40).last_action, Action::kStop);
+}
+
+// One couch, and today a couch stands in another known room: it is likely the same.
+TEST(Revise, AThingThatAppearedElsewhereLowersTheBeliefInItsOldPlace) {
+  const Night night = FirstDay();
+  BoxWalker walker = Rearranged(&kMovedCouch);
+  walker.pose.p_world = Vector3d(2.5, 3.0, 0);
+  walker.pose.yaw_rad = DegToRad(-130);  // towards the moved couch
+  Agent agent(ConfigOf("revise"), FakeSuite(testing::CouchSight(kMovedCouch)));
+  Wake(night, 1, &agent);
+  ASSERT_TRUE(agent.SetGoal("plant").has_value());
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(agent.Step(walker.Look()).has_value());
+  ASSERT_EQ(agent.objects().size(), 2U);
+  walker.pose.p_world = Vector3d(4.6, 0.9, 0);  // nearer to the old place, with the back to it
+  walker.pose.yaw_rad = DegToRad(-90);
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  const auto step = agent.Step(walker.Look());
+  ASSERT_TRUE(step.has_value());
+  const auto& shown = step->trace.candidates;
+  const auto target = std::find_if(shown.begin(), shown.end(),
+                                   [](const auto& candidate) { return candidate.is_target; });
+  ASSERT_NE(target, shown.end());
+  EXPECT_EQ(target->kind, "history_poi");
+  EXPECT_LT(target->p_focus_world.x(), 4);
+}
+
 // A shut door of an old map, open today, and the reverse. A map of today clears under either mode.
 TEST(Revise, AnOpenedDoorIsWalkedThrough) {
   BoxWalker shut = testing::TwoRooms();

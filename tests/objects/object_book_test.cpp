@@ -208,6 +208,18 @@ TEST(ObjectBook, ViewsSmallerThanThoseThatFoundTheThingDoNotContradictIt) {
   EXPECT_LT(book.records().front().confidence, before);
 }
 
+// The views that found it yesterday are not known: a small view may have missed it.
+TEST(ObjectBook, SmallViewsDoNotContradictARecordOfYesterday) {
+  World world = LongRoomWithChair();
+  ObjectBook book;
+  SeeIt(world, kChair, 4, book);
+  book.Load(book.Confirmed());
+  const double before = book.records().front().confidence;
+  for (int i = 0; i < 6; ++i)
+    (void)book.Doubt(kChairs, world.Look(-1.6, 1.3 + 0.15 * i, 0), {1, i});
+  EXPECT_EQ(book.records().front().confidence, before);
+}
+
 TEST(ObjectBook, ThingsSeenFromTooFarAwayAreNotContradicted) {
   World world = LongRoomWithChair();
   ObjectBook book;
