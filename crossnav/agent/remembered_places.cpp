@@ -28,7 +28,7 @@ std::vector<HistoryPoi> RememberedPlaces(const World& world, const GoalState& go
   }
   if (world.revision)
     places = Revised(std::move(places), world, goal, NoticesThings(config));
-  else if (world.has_loaded_objects && NoticesThings(config))
+  else if (NoticesThings(config))
     places = WithRecords(std::move(places), world, goal);
   return FittingPlaces(std::move(places), world, goal);
 }

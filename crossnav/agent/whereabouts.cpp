@@ -204,9 +204,11 @@ std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World&
                                     const GoalState& goal) {
   const std::string category = objects::KnownAs(world.objects.records(), goal.goal);
   const double score = kFirst * BestScore(places);
-  for (const ObjectRecord& record : world.objects.records())
-    if (record.category == category && record.views >= kLeastViews)
+  for (const ObjectRecord& record : world.objects.records()) {
+    const bool is_believed = world.has_loaded_objects || !world.objects.IsGone(record);
+    if (record.category == category && record.views >= kLeastViews && is_believed)
       AddPlace(world, record, score, &places);
+  }
   return places;
 }
 

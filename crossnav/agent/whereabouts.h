@@ -43,8 +43,8 @@ void LocateObjects(World* world);
 std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& world,
                                 const GoalState& goal, bool notices_things);
 
-/// memory.mode = keep: all records of the goal are believed, and are visited before places without
-/// a record.
+/// Records of the goal are visited before places without a record. Records of an earlier run are
+/// all believed (memory.mode = keep); of this run only records that nothing contradicts.
 std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World& world,
                                     const GoalState& goal);
 

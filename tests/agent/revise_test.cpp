@@ -259,6 +259,22 @@ TEST(Passing, AThingMetOnTheWayIsOnRecordAndIsWalkedToTheNextDay) {
   }
 }
 
+TEST(Passing, AThingMetOnTheWayIsARememberedPlaceOfALaterGoal) {
+  for (const bool use_history : {true, false}) {
+    BoxWalker walker = testing::TwoRooms();
+    walker.rooms.solids.push_back(kPlant);
+    Config config = SmallConfig();
+    config.policy.poi.use_history = use_history;
+    Agent agent(config, FakeSuite(CouchAndPlant(kCouch, kPlant)));
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    ASSERT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
+    ASSERT_TRUE(agent.SetGoal("plant").has_value());
+    const Walk walk = RunAgent(agent, walker, 300);
+    EXPECT_EQ(walk.last_action, Action::kStop);
+    EXPECT_EQ(std::any_of(walk.traces.begin(), walk.traces.end(), IsVisit), use_history);
+  }
+}
+
 TEST(Passing, AThingThatMovedIsKnownWhereItWasMetToday) {
   BoxWalker walker = testing::TwoRooms();
   walker.rooms.solids.push_back(kFarPlant);
