@@ -35,7 +35,7 @@ if [[ ! -e $file ]]; then
   house() { "$program" world generate --seed "$1" --count "$2" --edition "$edition" \
     --out "$scenes" "${@:3}" >&2; }
   if [[ $set_name == big ]]; then
-    house "$first" 10 --building office --floors 4 --area 250
+    house "$first" 10 --building office --floors 4 --area 300
   else
     house "$first" 20 --floors 2
     house $((first + 20)) 12 --floors 3 --furniture none

@@ -243,6 +243,10 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sig
   // Paper, "Final Target-Object Approach": during the approach the detection is updated.
   const int approached = config.policy.profile == "paper" ? goal.active_live : -1;
   goal.live.Update(sightings, object, config.map.voxel_m, world.step, approached);
+  if (config.policy.profile == "full") {
+    goal.live.DropStrays(sightings, obs, object, config.map.voxel_m);
+    goal.full.hints.DropStrays(all, obs, object, config.map.voxel_m);
+  }
   if (DoubtsClaims(config)) {
     const policy::VerifyConfig& verify = config.verify;
     NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);

@@ -22,6 +22,7 @@ constexpr double kSlack_m = 0.1;      // chosen: the agent stops that near to wh
 constexpr double kUnderFoot_m = 0.5;  // chosen: lower voxels belong to another storey
 constexpr double kFloorShare = 0.25;  // chosen: of the most places at one height; treads have less
 constexpr double kStandBeside_m = 0.6;  // chosen: a robot and a step from the object
+constexpr double kOverGround_m = 0.35;  // chosen: a sill or a step, and a voxel
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
@@ -77,7 +78,7 @@ ObjectStorey::ObjectStorey(const Situation& now, const std::vector<VoxelKey>& ob
 
 bool ObjectStorey::Has(const Vector3d& p_foot_world) const {
   if (!IsOnStorey(center_m_ - p_foot_world.z(), config_)) return false;
-  return !ground_m_ || p_foot_world.z() - *ground_m_ <= kUnderFoot_m;
+  return !ground_m_ || p_foot_world.z() - *ground_m_ <= kOverGround_m;
 }
 
 planner::GroundRules RulesOf(const Situation& now) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crossnav/core/cells.h"
+#include "crossnav/policy/stray_voxels.h"
 
 namespace crossnav::policy {
 namespace {
@@ -185,7 +186,9 @@ Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
       continue;
     if (!best || sighting.confidence > best->confidence) best = &sighting;
   }
-  result.distance_m = DistanceToObject(poi.voxels, p_foot_world, viewer.camera_height_m, voxel_m);
+  result.distance_m =
+      DistanceToObject(best ? WithoutStrays(poi.voxels, *best, obs, voxel_m) : poi.voxels,
+                       p_foot_world, viewer.camera_height_m, voxel_m);
   if (!best) {
     result.failed_check = "not detected";
     return result;

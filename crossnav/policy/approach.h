@@ -69,7 +69,8 @@ struct Viewer {
 };
 
 /// Checks the current frame: detection confidence, mask quality, visibility, viewing direction and
-/// 3D distance must all pass.
+/// 3D distance must all pass. The distance is to the nearest voxel of the object that the frame
+/// does not show beside its mask.
 Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
                     const Viewer& viewer, const PolicyConfig& config, double voxel_m);
 

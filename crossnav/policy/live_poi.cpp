@@ -28,6 +28,15 @@ std::vector<VoxelKey> MaskVoxels(const perception::Detection& detection, const O
   return keys;
 }
 
+/// Votes of the POI's voxels, as those of `voxels`, of which some are new.
+VoxelVotes VotesOf(const LivePoi& poi, const std::vector<VoxelKey>& voxels) {
+  VoxelVotes votes(voxels.size(), 0.0F);
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < voxels.size() && old < poi.votes.size(); ++i)
+    if (voxels[i] == poi.voxels[old]) votes[i] = poi.votes[old++];
+  return votes;
+}
+
 /// The image shows the object's whole length.
 bool IsFramed(const perception::PixelBox& box, const CameraIntrinsics& camera) {
   constexpr int kEdge_px = 2;  // chosen: boxes are that wrong
@@ -51,6 +60,10 @@ std::vector<Sighting> LiftDetections(const std::vector<perception::Detection>& d
     if (static_cast<int>(largest->size()) < config.min_projected_voxels) continue;
     Sighting sighting;
     sighting.voxels = std::move(*largest);
+    parts.erase(largest);
+    for (const auto& part : parts)
+      sighting.other_parts.insert(sighting.other_parts.end(), part.begin(), part.end());
+    std::sort(sighting.other_parts.begin(), sighting.other_parts.end());
     sighting.p_center_world = CentroidOf(sighting.voxels, map_config.voxel_m);
     sighting.confidence = detection.confidence;
     sighting.mask_quality = detection.mask_quality;
@@ -75,16 +88,25 @@ bool IsSameObject(const std::vector<VoxelKey>& a, const Vector3d& a_center,
          2 * static_cast<std::ptrdiff_t>(few.size());  // chosen: a fifth of the smaller one
 }
 
+namespace {
+
+std::vector<LivePoi>::iterator FindSame(std::vector<LivePoi>& pois, const Sighting& sighting,
+                                        const ObjectConfig& config) {
+  return std::find_if(pois.begin(), pois.end(), [&](const LivePoi& poi) {
+    return IsSameObject(poi.voxels, poi.p_center_world, sighting.voxels, sighting.p_center_world,
+                        config.merge_distance_m);
+  });
+}
+
+}  // namespace
+
 void LivePois::Update(const std::vector<Sighting>& sightings, const ObjectConfig& config,
                       double voxel_m, int step, int approached) {
   for (const Sighting& sighting : sightings) {
     if (sighting.confidence < std::min(config.detector_confidence, config.secondary_confidence))
       continue;
     if (sighting.area_fraction < config.min_box_area_fraction) continue;
-    auto match = std::find_if(pois_.begin(), pois_.end(), [&](const LivePoi& poi) {
-      return IsSameObject(poi.voxels, poi.p_center_world, sighting.voxels, sighting.p_center_world,
-                          config.merge_distance_m);
-    });
+    auto match = FindSame(pois_, sighting, config);
     const bool is_approached = match != pois_.end() && match->id == approached;
     if (!is_approached && sighting.confidence < config.detector_confidence) continue;
     if (match == pois_.end()) {
@@ -97,11 +119,22 @@ void LivePois::Update(const std::vector<Sighting>& sightings, const ObjectConfig
     std::vector<VoxelKey> merged;
     std::set_union(match->voxels.begin(), match->voxels.end(), sighting.voxels.begin(),
                    sighting.voxels.end(), std::back_inserter(merged));
+    match->votes = VotesOf(*match, merged);
     match->voxels = std::move(merged);
     match->p_center_world = CentroidOf(match->voxels, voxel_m);
     match->confidence = std::max(match->confidence, sighting.confidence);
     match->frames += match->last_seen_step != step;
     match->last_seen_step = step;
+  }
+}
+
+void LivePois::DropStrays(const std::vector<Sighting>& sightings, const Observation& obs,
+                          const ObjectConfig& config, double voxel_m) {
+  for (const Sighting& sighting : sightings) {
+    const auto match = FindSame(pois_, sighting, config);
+    if (match == pois_.end()) continue;
+    VoteOnVoxels(sighting, obs, voxel_m, &match->voxels, &match->votes);
+    match->p_center_world = CentroidOf(match->voxels, voxel_m);
   }
 }
 

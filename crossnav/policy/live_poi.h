@@ -10,12 +10,14 @@
 #include "crossnav/perception/perception.h"
 #include "crossnav/policy/candidates.h"
 #include "crossnav/policy/policy_config.h"
+#include "crossnav/policy/stray_voxels.h"
 
 namespace crossnav::policy {
 
 /// One detection in 3D.
 struct Sighting {
-  std::vector<VoxelKey> voxels;  ///< largest connected part, sorted
+  std::vector<VoxelKey> voxels;       ///< largest connected part, sorted
+  std::vector<VoxelKey> other_parts;  ///< all others, sorted
   Vector3d p_center_world = Vector3d::Zero();
   double confidence = 0;
   double mask_quality = 0;
@@ -26,7 +28,8 @@ struct Sighting {
 
 struct LivePoi {
   int id = 0;
-  std::vector<VoxelKey> voxels;  ///< everything seen of it, sorted
+  std::vector<VoxelKey> voxels;  ///< everything seen of it but for strays, sorted
+  VoxelVotes votes;              ///< of the voxels; see LivePois::DropStrays
   Vector3d p_center_world = Vector3d::Zero();
   int frames = 0;         ///< agreeing frames
   double confidence = 0;  ///< best so far
@@ -46,6 +49,11 @@ class LivePois {
   /// POI `approached` (-1 = none) also takes sightings of the secondary confidence.
   void Update(const std::vector<Sighting>& sightings, const ObjectConfig& config, double voxel_m,
               int step, int approached = -1);
+
+  /// Takes from each POI in sight the voxels that nearer frames than those of their masks show
+  /// beside the object. After Update, with the same sightings and the frame that they are of.
+  void DropStrays(const std::vector<Sighting>& sightings, const Observation& obs,
+                  const ObjectConfig& config, double voxel_m);
 
   /// Stable and not discarded, most confident first.
   std::vector<const LivePoi*> Stable(const ObjectConfig& config) const;

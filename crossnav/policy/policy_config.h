@@ -97,8 +97,8 @@ struct ExploreConfig {
   int progress_steps = 24;       // chosen: a turn around, twice
   int max_choices = 6;           // chosen: limit of choices of a target that is never reached
   double same_place_m = 0.5;     // chosen: half the width of a door
-  double glance_m2 = 3;          // chosen: unseen area that is worth a turn to the side
-  double glance_range_m = 4;     // chosen: depth of that area
+  double glance_m2 = 0.5;        // chosen: unseen area that is worth a turn to the side
+  double glance_range_m = 9;     // chosen: depth of that area
   double floor_prior_m_per_bit = 25;  // chosen: path worth a doubling of a floor's odds
   double furniture_m = 1.1;  // chosen: height limit of furniture that is climbed by mistake
   double storey_m = 1.8;     // chosen: more than a landing, less than a floor

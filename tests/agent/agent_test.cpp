@@ -98,6 +98,32 @@ TEST(Agent, ADoubtfulSightingIsGoneNearerToAndNeverClaimed) {
   }));
 }
 
+// A network's masks of things far away reach over the rug before them.
+TEST(Agent, MasksThatReachOverTheFloorFromAfarDoNotEndTheApproachEarly) {
+  FakeSight sight = CouchSight();
+  const auto segment = sight.segment;
+  sight.segment = [segment](const Observation& obs, perception::Detection& detection) {
+    segment(obs, detection);
+    if (kCouch.HorizontalDistance(obs.T_world_camera.translation()) < 2.0) return;
+    detection.box = {0, 0, obs.rgb.width, obs.rgb.height};
+    for (int v = 0; v < obs.rgb.height; ++v)
+      for (int u = 0; u < obs.rgb.width; ++u) {
+        const Vector3d p =
+            obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
+        if (p.z() < 0.05 && kCouch.HorizontalDistance(p) < 0.8) detection.mask.At(u, v) = 1;
+      }
+  };
+  Config config = SmallConfig();
+  config.sensor.width_px = config.sensor.height_px = 160;  // pixels of the floor touch
+  Agent agent(config, FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  BoxWalker walker = TwoRooms();
+  walker.sensor = config.sensor;
+  const Walk walk = RunAgent(agent, walker, 400);
+  ASSERT_EQ(walk.last_action, Action::kStop) << "after " << walk.traces.size() << " steps";
+  EXPECT_LE(kCouch.HorizontalDistance(walker.pose.p_world), 1.35);
+}
+
 TEST(Agent, AMalformedObservationIsAnErrorThatNamesItsField) {
   Agent agent(SmallConfig(), FakeSuite({}));
   ASSERT_TRUE(agent.SetGoal("bed").has_value());

@@ -130,7 +130,9 @@ TEST(FloorChange, ALevelIsLookedAroundOnOnce) {
   walker.rooms.solids.push_back(testing::kUpperCouch);
   FakeSight sight;
   test::SeeBox(testing::kUpperCouch, "couch", &sight);
-  Agent agent(SmallConfig(), FakeSuite(sight));
+  Config config = SmallConfig();
+  config.policy.explore.glance_m2 = 1e5;  // no glances: they are scans, too
+  Agent agent(config, FakeSuite(sight));
   ASSERT_TRUE(agent.SetGoal("couch").has_value());
   ASSERT_EQ(RunAgent(agent, walker, 400).last_action, Action::kStop);
   ASSERT_TRUE(agent.SetGoal("bed").has_value());  // there is none

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Things that are met on the way to other goals.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "agent/nights.h"
+#include "agent/two_rooms.h"
+
+namespace crossnav::agent {
+namespace {
+
+using test::BoxWalker;
+using test::FakeSight;
+using test::FakeSuite;
+using testing::BoxOf;
+using testing::ConfigOf;
+using testing::IsVisit;
+using testing::kCouch;
+using testing::kMovedCouch;
+using testing::Night;
+using testing::NightAfter;
+using testing::Rearranged;
+using testing::RunAgent;
+using testing::SmallConfig;
+using testing::Wake;
+using testing::Walk;
+
+/// A couch and a plant; only the couch has features of its own.
+FakeSight CouchAndPlant(const Box3& couch, const Box3& plant) {
+  FakeSight sight = testing::CouchSight(couch), other;
+  test::SeeBox(plant, "plant", &other);
+  const FakeSight one = sight;
+  sight.detect = [one, other](const Observation& obs, std::string_view name) {
+    return name == "plant" ? other.detect(obs, name) : one.detect(obs, name);
+  };
+  sight.segment = [one, other](const Observation& obs, perception::Detection& detection) {
+    const auto plants = other.detect(obs, "plant");
+    const bool is_plant = !plants.empty() && plants.front().box.u0 == detection.box.u0 &&
+                          plants.front().box.v0 == detection.box.v0;
+    (is_plant ? other : one).segment(obs, detection);
+  };
+  return sight;
+}
+
+const Box3 kPlant = BoxOf(2.9, 1.8, 0, 3.4, 2.3, 0.9);     // in the first room
+const Box3 kFarPlant = BoxOf(7.3, 0.1, 0, 7.8, 0.6, 0.9);  // in the second
+
+TEST(Passing, AThingMetOnTheWayIsOnRecordAndIsWalkedToTheNextDay) {
+  BoxWalker walker = testing::TwoRooms();
+  walker.rooms.solids.push_back(kPlant);
+  Agent first(SmallConfig(), FakeSuite(CouchAndPlant(kCouch, kPlant)));
+  ASSERT_TRUE(first.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(first, walker, 300).last_action, Action::kStop);
+  const Night night = NightAfter(first);
+  ASSERT_TRUE(std::any_of(night.objects.begin(), night.objects.end(), [](const auto& record) {
+    return record.category == "plant" && record.box_world_m.contains(kPlant.Center());
+  }));
+  for (const char* mode : {"keep", "revise"}) {
+    BoxWalker again = testing::TwoRooms();
+    again.rooms.solids.push_back(kPlant);
+    again.pose.p_world = Vector3d(6.0, 1.0, 0);
+    Agent second(ConfigOf(mode), FakeSuite(CouchAndPlant(kCouch, kPlant)));
+    Wake(night, 1, &second);
+    ASSERT_TRUE(second.SetGoal("plant").has_value());
+    const Walk walk = RunAgent(second, again, 300);
+    EXPECT_EQ(walk.last_action, Action::kStop) << mode;
+    EXPECT_TRUE(std::any_of(walk.traces.begin(), walk.traces.end(), IsVisit)) << mode;
+    EXPECT_LT(walk.traces.size(), 80U) << mode;
+  }
+}
+
+TEST(Passing, AThingMetOnTheWayIsARememberedPlaceOfALaterGoal) {
+  for (const bool use_history : {true, false}) {
+    BoxWalker walker = testing::TwoRooms();
+    walker.rooms.solids.push_back(kPlant);
+    Config config = SmallConfig();
+    config.policy.poi.use_history = use_history;
+    Agent agent(config, FakeSuite(CouchAndPlant(kCouch, kPlant)));
+    ASSERT_TRUE(agent.SetGoal("couch").has_value());
+    ASSERT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
+    ASSERT_TRUE(agent.SetGoal("plant").has_value());
+    const Walk walk = RunAgent(agent, walker, 300);
+    EXPECT_EQ(walk.last_action, Action::kStop);
+    EXPECT_EQ(std::any_of(walk.traces.begin(), walk.traces.end(), IsVisit), use_history);
+  }
+}
+
+TEST(Passing, AThingThatMovedIsKnownWhereItWasMetToday) {
+  BoxWalker walker = testing::TwoRooms();
+  walker.rooms.solids.push_back(kFarPlant);
+  Agent first(SmallConfig(), FakeSuite(CouchAndPlant(kCouch, kFarPlant)));
+  ASSERT_TRUE(first.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(first, walker, 300).last_action, Action::kStop);
+  const Night night = NightAfter(first);
+  BoxWalker later = Rearranged(&kMovedCouch);
+  later.rooms.solids.push_back(kFarPlant);
+  later.pose.p_world = Vector3d(2.5, 3.0, 0);
+  later.pose.yaw_rad = DegToRad(-130);  // towards the couch
+  Agent second(ConfigOf("revise"), FakeSuite(CouchAndPlant(kMovedCouch, kFarPlant)));
+  Wake(night, 1, &second);
+  ASSERT_TRUE(second.SetGoal("plant").has_value());
+  ASSERT_EQ(RunAgent(second, later, 300).last_action, Action::kStop);
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  const Walk walk = RunAgent(second, later, 300);
+  EXPECT_EQ(walk.last_action, Action::kStop);
+  // From the far plant back to the first room: no round through the second.
+  EXPECT_LT(walk.traces.size(), 80U);
+}
+
+}  // namespace
+}  // namespace crossnav::agent
