@@ -86,6 +86,15 @@ std::vector<ExplorationCandidate> ExplorationCandidates::At(const VoxelKey& plac
   return found;
 }
 
+std::vector<ExplorationCandidate> ExplorationCandidates::OffLevelAt(const VoxelKey& place) {
+  VoxelKey beyond;
+  const bool is_storey_away = std::abs(RiseOf(now_, place)) >= now_.config.policy.explore.storey_m;
+  const bool is_wanted =
+      is_storey_away ||
+      (policy::IsGroundFrontier(now_.world.ground, place, &beyond) && LeadsToStorey(now_, place));
+  return is_wanted ? At(place) : std::vector<ExplorationCandidate>();
+}
+
 /// A frontier is about its nearest member that was not tried in vain.
 std::optional<ExplorationCandidate> ExplorationCandidates::FrontierAt(const VoxelKey& place,
                                                                       const VoxelKey& beyond) {

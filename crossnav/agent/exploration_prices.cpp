@@ -145,10 +145,16 @@ void ExplorationPrices::RaiseFlightsPastFloors(std::vector<PricedCandidate>* all
   }
 }
 
-double ExplorationPrices::LargestDiscount() const {
-  return std::min({0.0, config_.hint_bonus_m,
-                   config_.other_floor_penalty_m - std::abs(floor_prior_m_)}) -
-         config_.commit_m;
+double ExplorationPrices::LeastScoreOnLevel(double path_m, bool has_hints) const {
+  const double hint_m = has_hints ? std::min(0.0, config_.hint_bonus_m) : 0;
+  const bool is_committed = IsExploring(PursuitOf(now_.goal.full.activity));
+  return path_m + config_.start_m + hint_m - (is_committed ? config_.commit_m : 0);
+}
+
+double ExplorationPrices::LeastScore(double path_m, bool has_hints) const {
+  const double down_m = config_.other_floor_penalty_m + floor_prior_m_;
+  const double up_m = config_.other_floor_penalty_m - (HasDescent() ? 0 : floor_prior_m_);
+  return LeastScoreOnLevel(path_m, has_hints) + std::min({0.0, down_m, up_m});
 }
 
 double ExplorationPrices::UpperBound(const PricedCandidate& priced) const {

@@ -37,8 +37,11 @@ class ExplorationPrices {
   /// floor, however near its next tread is.
   void RaiseFlightsPastFloors(std::vector<PricedCandidate>* all) const;
 
-  /// Largest discount that a class and the commitment can give, negative.
-  double LargestDiscount() const;
+  /// A price that no candidate of the level at the end of a path of `path_m` is below. Only with
+  /// hints does the discount of a hint count.
+  double LeastScoreOnLevel(double path_m, bool has_hints) const;
+  /// Likewise of any candidate: the floor prior makes flights cheaper.
+  double LeastScore(double path_m, bool has_hints) const;
   /// Price of `priced` once RaiseFlightsPastFloors has raised it, at most.
   double UpperBound(const PricedCandidate& priced) const;
   /// A flight down from the level was priced, and none was known before.

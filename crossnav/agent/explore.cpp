@@ -33,8 +33,11 @@ std::vector<PricedCandidate> PriceCandidates(const Situation& now, const VoxelKe
   while (const auto place = search.Next()) {
     const double path_m = search.cost() * now.config.map.voxel_m;
     // A hook may prefer candidates that are far away.
-    if (!now.hooks && path_m + prices->LargestDiscount() >= best_m) break;
-    for (ExplorationCandidate& found : candidates.At(*place)) {
+    if (!now.hooks && prices->LeastScore(path_m, candidates.has_hints()) >= best_m) break;
+    const bool may_win_on_level =
+        now.hooks || prices->LeastScoreOnLevel(path_m, candidates.has_hints()) < best_m;
+    for (ExplorationCandidate& found :
+         may_win_on_level ? candidates.At(*place) : candidates.OffLevelAt(*place)) {
       all.push_back(prices->Of(std::move(found), search.PathTo(*place), path_m));
       best_m = std::min(best_m, prices->UpperBound(all.back()));
     }

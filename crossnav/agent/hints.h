@@ -31,6 +31,8 @@ class Hints {
   /// from near so far, nor approached in vain [m].
   std::optional<double> StraightTo(const geometry::VoxelKey& key) const;
 
+  bool empty() const { return hints_.empty(); }
+
  private:
   struct Hint {
     const policy::LivePoi& poi;
