@@ -5,7 +5,7 @@
 #   scripts/navigation_figures.sh SET OUT [JOBS] [EVAL OPTION...]
 #
 # Sets: development, held-out (edition 1 of the generator), development-2, held-out-2 (edition 2),
-# big (edition 2: offices of four floors and 1,000 m2, up to 100 rooms, 3,600 actions).
+# big (edition 2: offices of four floors and 1,200 m2, about 100 rooms, 3,600 actions).
 # e.g. scripts/navigation_figures.sh held-out out/navigation 2 --variant paper
 # CROSSNAV_HOMES=DIR adds the homes in DIR (scene folders; docs/homes.md) to a new development set.
 # Needs the furniture pack (crossnav assets import). An interrupted evaluation resumes.
