@@ -39,7 +39,7 @@ class ExplorationCandidates {
 
   /// Candidates for which `place` is the cheapest place to stand. Places come in order of cost.
   std::vector<ExplorationCandidate> At(const geometry::VoxelKey& place);
-  /// Those of them that are on a flight or on another storey.
+  /// Candidates of At that are on a flight or on another storey.
   std::vector<ExplorationCandidate> OffLevelAt(const geometry::VoxelKey& place);
   bool has_hints() const { return !hints_.empty(); }
 

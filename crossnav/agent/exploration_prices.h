@@ -37,10 +37,10 @@ class ExplorationPrices {
   /// floor, however near its next tread is.
   void RaiseFlightsPastFloors(std::vector<PricedCandidate>* all) const;
 
-  /// A price that no candidate of the level at the end of a path of `path_m` is below. Only with
-  /// hints does the discount of a hint count.
+  /// Lower bound of the price of a candidate of the level at the end of a path of `path_m`. The
+  /// discount of a hint counts only where the goal has hints.
   double LeastScoreOnLevel(double path_m, bool has_hints) const;
-  /// Likewise of any candidate: the floor prior makes flights cheaper.
+  /// Lower bound for any candidate: the floor prior makes flights cheaper.
   double LeastScore(double path_m, bool has_hints) const;
   /// Price of `priced` once RaiseFlightsPastFloors has raised it, at most.
   double UpperBound(const PricedCandidate& priced) const;

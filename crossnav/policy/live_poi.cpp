@@ -28,13 +28,21 @@ std::vector<VoxelKey> MaskVoxels(const perception::Detection& detection, const O
   return keys;
 }
 
-/// Votes of the POI's voxels, as those of `voxels`, of which some are new.
+/// The POI's votes in the order of `voxels`, which are the POI's and new ones. New voxels have 0.
 VoxelVotes VotesOf(const LivePoi& poi, const std::vector<VoxelKey>& voxels) {
   VoxelVotes votes(voxels.size(), 0.0F);
   std::size_t old = 0;
   for (std::size_t i = 0; i < voxels.size() && old < poi.votes.size(); ++i)
     if (voxels[i] == poi.voxels[old]) votes[i] = poi.votes[old++];
   return votes;
+}
+
+std::vector<LivePoi>::iterator FindSame(std::vector<LivePoi>& pois, const Sighting& sighting,
+                                        const ObjectConfig& config) {
+  return std::find_if(pois.begin(), pois.end(), [&](const LivePoi& poi) {
+    return IsSameObject(poi.voxels, poi.p_center_world, sighting.voxels, sighting.p_center_world,
+                        config.merge_distance_m);
+  });
 }
 
 /// The image shows the object's whole length.
@@ -87,18 +95,6 @@ bool IsSameObject(const std::vector<VoxelKey>& a, const Vector3d& a_center,
   return 10 * shared >=
          2 * static_cast<std::ptrdiff_t>(few.size());  // chosen: a fifth of the smaller one
 }
-
-namespace {
-
-std::vector<LivePoi>::iterator FindSame(std::vector<LivePoi>& pois, const Sighting& sighting,
-                                        const ObjectConfig& config) {
-  return std::find_if(pois.begin(), pois.end(), [&](const LivePoi& poi) {
-    return IsSameObject(poi.voxels, poi.p_center_world, sighting.voxels, sighting.p_center_world,
-                        config.merge_distance_m);
-  });
-}
-
-}  // namespace
 
 void LivePois::Update(const std::vector<Sighting>& sightings, const ObjectConfig& config,
                       double voxel_m, int step, int approached) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "agent/storeys.h"
 #include "agent/two_rooms.h"
 
 namespace crossnav::agent {
@@ -64,6 +65,21 @@ std::vector<Action> ActionsOf(const Walk& walk) {
 TEST(Hooks, OwnAnswersChangeNoAction) {
   Hooks own;
   EXPECT_EQ(ActionsOf(FindCouch(&own)), ActionsOf(FindCouch(nullptr)));
+}
+
+// With hooks every candidate is priced, without only candidates that can win. The floor prior of
+// both goals is for the other storey.
+TEST(Hooks, TheBoundedSearchForTargetsChoosesLikeTheWholeOne) {
+  const auto search = [](const std::string& goal, double start_m, Hooks* hooks) {
+    Agent agent(SmallConfig(), FakeSuite({}), hooks);
+    EXPECT_TRUE(agent.SetGoal(goal).has_value());
+    auto walker = testing::TwoStoreys();
+    if (start_m > 0) walker.pose.p_world = Vector3d(6.5, 3.0, start_m);
+    return ActionsOf(RunAgent(agent, walker, 300));
+  };
+  Hooks own;
+  EXPECT_EQ(search("sofa", 2.8, &own), search("sofa", 2.8, nullptr));
+  EXPECT_EQ(search("bed", 0, &own), search("bed", 0, nullptr));
 }
 
 TEST(Hooks, TheLeastScoreIsGoneTo) {

@@ -7,28 +7,16 @@
 #include "agent/nights.h"
 #include "agent/two_rooms.h"
 
-namespace crossnav::agent {
+namespace crossnav::agent::testing {
 namespace {
 
 using test::BoxWalker;
 using test::FakeSight;
 using test::FakeSuite;
-using testing::BoxOf;
-using testing::ConfigOf;
-using testing::IsVisit;
-using testing::kCouch;
-using testing::kMovedCouch;
-using testing::Night;
-using testing::NightAfter;
-using testing::Rearranged;
-using testing::RunAgent;
-using testing::SmallConfig;
-using testing::Wake;
-using testing::Walk;
 
 /// A couch and a plant; only the couch has features of its own.
 FakeSight CouchAndPlant(const Box3& couch, const Box3& plant) {
-  FakeSight sight = testing::CouchSight(couch), other;
+  FakeSight sight = CouchSight(couch), other;
   test::SeeBox(plant, "plant", &other);
   const FakeSight one = sight;
   sight.detect = [one, other](const Observation& obs, std::string_view name) {
@@ -46,19 +34,28 @@ FakeSight CouchAndPlant(const Box3& couch, const Box3& plant) {
 const Box3 kPlant = BoxOf(2.9, 1.8, 0, 3.4, 2.3, 0.9);     // in the first room
 const Box3 kFarPlant = BoxOf(7.3, 0.1, 0, 7.8, 0.6, 0.9);  // in the second
 
+BoxWalker RoomsWith(const Box3& plant) {
+  BoxWalker walker = TwoRooms();
+  walker.rooms.solids.push_back(plant);
+  return walker;
+}
+
+/// The agent has found the couch; the plant was on its way.
+void FindCouch(Agent& agent, BoxWalker& walker) {
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
+}
+
 TEST(Passing, AThingMetOnTheWayIsOnRecordAndIsWalkedToTheNextDay) {
-  BoxWalker walker = testing::TwoRooms();
-  walker.rooms.solids.push_back(kPlant);
+  BoxWalker walker = RoomsWith(kPlant);
   Agent first(SmallConfig(), FakeSuite(CouchAndPlant(kCouch, kPlant)));
-  ASSERT_TRUE(first.SetGoal("couch").has_value());
-  ASSERT_EQ(RunAgent(first, walker, 300).last_action, Action::kStop);
+  FindCouch(first, walker);
   const Night night = NightAfter(first);
   ASSERT_TRUE(std::any_of(night.objects.begin(), night.objects.end(), [](const auto& record) {
     return record.category == "plant" && record.box_world_m.contains(kPlant.Center());
   }));
   for (const char* mode : {"keep", "revise"}) {
-    BoxWalker again = testing::TwoRooms();
-    again.rooms.solids.push_back(kPlant);
+    BoxWalker again = RoomsWith(kPlant);
     again.pose.p_world = Vector3d(6.0, 1.0, 0);
     Agent second(ConfigOf(mode), FakeSuite(CouchAndPlant(kCouch, kPlant)));
     Wake(night, 1, &second);
@@ -72,13 +69,11 @@ TEST(Passing, AThingMetOnTheWayIsOnRecordAndIsWalkedToTheNextDay) {
 
 TEST(Passing, AThingMetOnTheWayIsARememberedPlaceOfALaterGoal) {
   for (const bool use_history : {true, false}) {
-    BoxWalker walker = testing::TwoRooms();
-    walker.rooms.solids.push_back(kPlant);
+    BoxWalker walker = RoomsWith(kPlant);
     Config config = SmallConfig();
     config.policy.poi.use_history = use_history;
     Agent agent(config, FakeSuite(CouchAndPlant(kCouch, kPlant)));
-    ASSERT_TRUE(agent.SetGoal("couch").has_value());
-    ASSERT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
+    FindCouch(agent, walker);
     ASSERT_TRUE(agent.SetGoal("plant").has_value());
     const Walk walk = RunAgent(agent, walker, 300);
     EXPECT_EQ(walk.last_action, Action::kStop);
@@ -87,11 +82,9 @@ TEST(Passing, AThingMetOnTheWayIsARememberedPlaceOfALaterGoal) {
 }
 
 TEST(Passing, AThingThatMovedIsKnownWhereItWasMetToday) {
-  BoxWalker walker = testing::TwoRooms();
-  walker.rooms.solids.push_back(kFarPlant);
+  BoxWalker walker = RoomsWith(kFarPlant);
   Agent first(SmallConfig(), FakeSuite(CouchAndPlant(kCouch, kFarPlant)));
-  ASSERT_TRUE(first.SetGoal("couch").has_value());
-  ASSERT_EQ(RunAgent(first, walker, 300).last_action, Action::kStop);
+  FindCouch(first, walker);
   const Night night = NightAfter(first);
   BoxWalker later = Rearranged(&kMovedCouch);
   later.rooms.solids.push_back(kFarPlant);
@@ -109,4 +102,4 @@ TEST(Passing, AThingThatMovedIsKnownWhereItWasMetToday) {
 }
 
 }  // namespace
-}  // namespace crossnav::agent
+}  // namespace crossnav::agent::testing

@@ -14,8 +14,8 @@ constexpr int kSide_px = 320;
 constexpr double kVoxel_m = 0.1, kCamera_m = 0.88;
 constexpr double kFront_m = 5.0;  // x of the front of the box that is the object
 
-/// What a level camera over (x, 0), which looks along +x, sees of a floor and of a box, 2 m wide
-/// and 0.8 m high, that stands on it.
+/// View of a floor and of a box on it, 2 m wide and 0.8 m high. The camera is level above (x, 0)
+/// and looks along +x.
 Observation ViewFrom(double x_m) {
   Observation obs;
   obs.camera = IntrinsicsFromHfov(kSide_px, kSide_px, DegToRad(90));
