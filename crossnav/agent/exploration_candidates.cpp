@@ -19,13 +19,13 @@ using policy::CandidateKind;
 namespace {
 
 /// Whether the target was tried in vain. A frontier is the same on whatever level it counts.
-bool WasTried(const Situation& now, const Candidate& candidate) {
+bool WasTried(const Situation& now, CandidateKind kind, const Vector3d& p_focus_world) {
   const auto& explore = now.config.policy.explore;
-  const auto is_spent = [&](CandidateKind kind) {
-    return IsSpent(now.goal.full.attempts, kind, candidate.p_focus_world, explore.same_place_m,
+  const auto is_spent = [&](CandidateKind tried) {
+    return IsSpent(now.goal.full.attempts, tried, p_focus_world, explore.same_place_m,
                    explore.max_choices);
   };
-  if (!policy::IsFrontier(candidate.kind)) return is_spent(candidate.kind);
+  if (!policy::IsFrontier(kind)) return is_spent(kind);
   return is_spent(CandidateKind::kTraversableFrontier) || is_spent(CandidateKind::kStairFrontier);
 }
 
@@ -95,18 +95,37 @@ std::vector<ExplorationCandidate> ExplorationCandidates::OffLevelAt(const VoxelK
   return is_wanted ? At(place) : std::vector<ExplorationCandidate>();
 }
 
+std::vector<FlightAhead> ExplorationCandidates::FlightsAhead(
+    const std::function<bool(const FlightAhead&)>& may_win) const {
+  const planner::GroundMap& ground = now_.world.ground;
+  planner::GroundPlaces& places = ground.places();
+  std::vector<FlightAhead> ahead;
+  // Steps of a place whose ground changed may lead to places that the cache has not: it grows.
+  for (std::int32_t place = 0; place < static_cast<std::int32_t>(places.size()); ++place) {
+    const bool is_known = places.AreStepsKnown(ground, place);
+    if (!is_known && !ground.IsStanding(places.KeyAt(place))) continue;
+    VoxelKey beyond;
+    if (!policy::IsGroundFrontier(ground, place, &beyond)) continue;
+    const VoxelKey key = places.KeyAt(place);
+    const FlightAhead flight{place, key, CenterOf(beyond, now_.config.map.voxel_m),
+                             RiseOf(now_, key)};
+    if (may_win(flight) && ground.IsStanding(key) && LeadsToStorey(now_, key) &&
+        !WasTried(now_, CandidateKind::kTraversableFrontier, flight.p_focus_world))
+      ahead.push_back(flight);
+  }
+  return ahead;
+}
+
 /// A frontier is about its nearest member that was not tried in vain.
 std::optional<ExplorationCandidate> ExplorationCandidates::FrontierAt(const VoxelKey& place,
                                                                       const VoxelKey& beyond) {
   const double voxel_m = now_.config.map.voxel_m;
-  Candidate nearest;
-  nearest.kind = CandidateKind::kTraversableFrontier;
-  nearest.p_focus_world = CenterOf(beyond, voxel_m);
-  if (WasTried(now_, nearest)) return std::nullopt;
+  const Vector3d p_focus_world = CenterOf(beyond, voxel_m);
+  if (WasTried(now_, CandidateKind::kTraversableFrontier, p_focus_world)) return std::nullopt;
   ExplorationCandidate found;
   found.place = place;
   found.candidate = policy::GroundFrontierAround(now_.world.ground, place, &clustered_);
-  found.candidate.p_focus_world = nearest.p_focus_world;
+  found.candidate.p_focus_world = p_focus_world;
   found.is_on_level = IsOnLevel(now_, CenterOf(place, voxel_m));
   found.candidate.kind =
       found.is_on_level ? CandidateKind::kTraversableFrontier : CandidateKind::kStairFrontier;
@@ -142,7 +161,7 @@ std::optional<ExplorationCandidate> ExplorationCandidates::UninspectedAt(const V
   found.candidate.p_focus_world = p_world;
   found.candidate.standing = {place};
   found.candidate.size = count;
-  if (WasTried(now_, found.candidate)) return std::nullopt;
+  if (WasTried(now_, found.candidate.kind, p_world)) return std::nullopt;
   return found;
 }
 

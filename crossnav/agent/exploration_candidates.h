@@ -3,6 +3,8 @@
 // that were not walked yet, uninspected ground, hints. World frame, metres.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <vector>
@@ -29,6 +31,14 @@ struct ExplorationCandidate {
   std::optional<double> to_hint_m;
 };
 
+/// A frontier on a flight where no search was yet.
+struct FlightAhead {
+  std::int32_t place = -1;  ///< index among the places of the ground
+  geometry::VoxelKey key;   ///< of the place
+  Vector3d p_focus_world = Vector3d::Zero();
+  double rise_m = 0;  ///< over the exploration level
+};
+
 /// Rise of a foot at `place` over the exploration level [m].
 double RiseOf(const Situation& now, const geometry::VoxelKey& place);
 
@@ -41,6 +51,11 @@ class ExplorationCandidates {
   std::vector<ExplorationCandidate> At(const geometry::VoxelKey& place);
   /// Candidates of At that are on a flight or on another storey.
   std::vector<ExplorationCandidate> OffLevelAt(const geometry::VoxelKey& place);
+  /// Frontiers on flights anywhere on the known ground that `may_win`, but for those that At gave.
+  std::vector<FlightAhead> FlightsAhead(
+      const std::function<bool(const FlightAhead&)>& may_win) const;
+  /// Whether At gives a candidate of the frontier at `place` no more.
+  bool WasGiven(const geometry::VoxelKey& place) const { return clustered_.contains(place); }
   bool has_hints() const { return !hints_.empty(); }
 
  private:

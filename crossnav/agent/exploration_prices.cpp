@@ -18,6 +18,10 @@ constexpr std::size_t kHeading = 5;  // chosen: places of a path that give its d
 constexpr double kRoom_m2 = 4;       // chosen: unseen area that may be a room
 constexpr double kFromAfar_m = 4;    // chosen: the path around a table to a nearer view
 
+bool IsOfKind(const Pursuit& pursuit, policy::CandidateKind kind) {
+  return IsExploring(pursuit) && PursuedIn(pursuit)->target.kind == kind;
+}
+
 }  // namespace
 
 ExplorationPrices::ExplorationPrices(const Situation& now, const policy::Relevancy& relevancy)
@@ -37,7 +41,8 @@ PricedCandidate ExplorationPrices::Of(ExplorationCandidate found, std::vector<Vo
   target.cost_m = path_m + SettingOut(target.path);
   target.score_m = (target.cost_m + config_.start_m) / terms.worth + terms.class_m +
                    TurningBack(found.candidate);
-  priced.spared_m = CommitmentDiscount(found.candidate, terms.class_m);
+  if (IsOfKind(PursuitOf(now_.goal.full.activity), found.candidate.kind))
+    priced.spared_m = CommitmentDiscount(found.candidate.p_focus_world, terms.class_m);
   target.score_m -= priced.spared_m;
   target.candidate = std::move(found.candidate);
   target.candidate.score = -target.score_m;
@@ -49,7 +54,7 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
   const double level_m = found.is_on_level ? 0 : config_.other_floor_penalty_m;
   switch (found.type) {
     case ExplorationClass::kFlight:
-      return {FlightPrice(RiseOf(now_, found.place)) + Doubt(found.candidate)};
+      return {FlightPrice(RiseOf(now_, found.place)) + Doubt(found.candidate.p_focus_world)};
     case ExplorationClass::kUninspected:
       return {config_.uninspected_m + level_m};
     case ExplorationClass::kHint:
@@ -60,7 +65,8 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
       break;
   }
   const bool is_small = found.candidate.size < config_.min_cluster;
-  Terms terms{level_m + (is_small ? config_.small_frontier_penalty_m : 0) + Doubt(found.candidate),
+  Terms terms{level_m + (is_small ? config_.small_frontier_penalty_m : 0) +
+                  Doubt(found.candidate.p_focus_world),
               policy::FrontierWorth(now_.world.ground, found.place, relevancy_, config_)};
   // A frontier on the straight line to a hint may be priced by that line.
   const double rest_m = path_m + config_.start_m;
@@ -71,12 +77,12 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
 }
 
 /// The edge of a world, a window front or a hedge is one long frontier that opens nowhere.
-double ExplorationPrices::Doubt(const Candidate& candidate) const {
+double ExplorationPrices::Doubt(const Vector3d& p_focus_world) const {
   const auto& attempts = now_.goal.full.attempts;
   const auto closed = std::count_if(attempts.begin(), attempts.end(), [&](const Attempt& attempt) {
     return policy::IsFrontier(attempt.kind) &&
            (attempt.ending == Ending::kNotOpened || attempt.ending == Ending::kNoProgress) &&
-           (attempt.p_focus_world - candidate.p_focus_world).norm() < config_.doubt_range_m;
+           (attempt.p_focus_world - p_focus_world).norm() < config_.doubt_range_m;
   });
   return config_.doubt_m * static_cast<double>(closed);
 }
@@ -121,13 +127,11 @@ double ExplorationPrices::SettingOut(const std::vector<VoxelKey>& path) const {
 }
 
 /// Hysteresis: the current target does not pay its class penalty again.
-double ExplorationPrices::CommitmentDiscount(const Candidate& candidate, double class_m) const {
+double ExplorationPrices::CommitmentDiscount(const Vector3d& p_focus_world, double class_m) const {
   const Pursuit& pursuit = PursuitOf(now_.goal.full.activity);
   if (!IsExploring(pursuit)) return 0;
-  const Candidate& current = PursuedIn(pursuit)->target;
-  if (current.kind != candidate.kind ||
-      (current.p_focus_world - candidate.p_focus_world).norm() >= 2 * config_.same_place_m)
-    return 0;
+  const Vector3d& p_current_world = PursuedIn(pursuit)->target.p_focus_world;
+  if ((p_current_world - p_focus_world).norm() >= 2 * config_.same_place_m) return 0;
   return config_.commit_m + std::max(0.0, class_m);
 }
 
@@ -145,6 +149,13 @@ void ExplorationPrices::RaiseFlightsPastFloors(std::vector<PricedCandidate>* all
   }
 }
 
+bool ExplorationPrices::MayBeRaised(const std::vector<PricedCandidate>& all, double best_m) const {
+  return std::any_of(all.begin(), all.end(), [&](const PricedCandidate& priced) {
+    return priced.is_flight && priced.target.score_m <= best_m &&
+           std::abs(priced.rise_m) > config_.storey_m + now_.config.map.voxel_m;
+  });
+}
+
 double ExplorationPrices::LeastScoreOnLevel(double path_m, bool has_hints) const {
   const double hint_m = has_hints ? std::min(0.0, config_.hint_bonus_m) : 0;
   const bool is_committed = IsExploring(PursuitOf(now_.goal.full.activity));
@@ -155,6 +166,18 @@ double ExplorationPrices::LeastScore(double path_m, bool has_hints) const {
   const double down_m = config_.other_floor_penalty_m + floor_prior_m_;
   const double up_m = config_.other_floor_penalty_m - (HasDescent() ? 0 : floor_prior_m_);
   return LeastScoreOnLevel(path_m, has_hints) + std::min({0.0, down_m, up_m});
+}
+
+double ExplorationPrices::LeastScoreOf(const FlightAhead& flight, double path_m,
+                                       bool has_hints) const {
+  const bool is_level = std::abs(flight.rise_m) < now_.config.map.voxel_m;
+  // The first flight down changes the prices of flights up, even if another candidate wins.
+  if (!is_level && flight.rise_m < 0 && !HasDescent()) return LeastScore(path_m, has_hints);
+  const double up_m = HasDescent() ? 0 : std::max(0.0, floor_prior_m_);
+  const double prior_m = flight.rise_m < 0 ? floor_prior_m_ : -up_m;
+  const double class_m =
+      (is_level ? 0 : config_.other_floor_penalty_m + prior_m) + Doubt(flight.p_focus_world);
+  return path_m + config_.start_m + class_m - CommitmentDiscount(flight.p_focus_world, class_m);
 }
 
 double ExplorationPrices::UpperBound(const PricedCandidate& priced) const {

@@ -37,11 +37,16 @@ class ExplorationPrices {
   /// floor, however near its next tread is.
   void RaiseFlightsPastFloors(std::vector<PricedCandidate>* all) const;
 
+  /// Whether floors that a search finds later may raise a flight that costs `best_m` at most.
+  bool MayBeRaised(const std::vector<PricedCandidate>& all, double best_m) const;
+
   /// Lower bound of the price of a candidate of the level at the end of a path of `path_m`. The
   /// discount of a hint counts only where the goal has hints.
   double LeastScoreOnLevel(double path_m, bool has_hints) const;
   /// Lower bound for any candidate: the floor prior makes flights cheaper.
   double LeastScore(double path_m, bool has_hints) const;
+  /// Lower bound for a flight at the end of a path of at least `path_m`.
+  double LeastScoreOf(const FlightAhead& flight, double path_m, bool has_hints) const;
   /// Price of `priced` once RaiseFlightsPastFloors has raised it, at most.
   double UpperBound(const PricedCandidate& priced) const;
   /// A flight down from the level was priced, and none was known before.
@@ -54,11 +59,11 @@ class ExplorationPrices {
   };
   Terms TermsOf(const ExplorationCandidate& found, double path_m);
   double FlightPrice(double rise_m);
-  double Doubt(const policy::Candidate& candidate) const;
+  double Doubt(const Vector3d& p_focus_world) const;
   bool HasDescent() const;
   double TurningBack(const policy::Candidate& candidate) const;
   double SettingOut(const std::vector<geometry::VoxelKey>& path) const;
-  double CommitmentDiscount(const policy::Candidate& candidate, double class_m) const;
+  double CommitmentDiscount(const Vector3d& p_focus_world, double class_m) const;
 
   const Situation& now_;
   const policy::ExploreConfig& config_;

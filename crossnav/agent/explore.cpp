@@ -23,12 +23,48 @@ using policy::CandidateKind;
 
 namespace {
 
+/// Flights ahead of a search that may still win.
+class FlightsAheadOf {
+ public:
+  FlightsAheadOf(const VoxelKey& start, double voxel_m, const ExplorationCandidates& candidates,
+                 const ExplorationPrices& prices)
+      : start_(start), voxel_m_(voxel_m), candidates_(candidates), prices_(prices) {}
+
+  /// Whether one of the places that `search` will visit, at a path of `path_m` or more, may have a
+  /// price below `best_m`. Calls come with rising `path_m` and falling `best_m`.
+  bool MayWin(const planner::GroundSearch& search, double path_m, double best_m) {
+    const auto is_open = [&](const FlightAhead& flight) {
+      return !search.WasVisited(flight.place) && !candidates_.WasGiven(flight.key) &&
+             LeastScore(flight, path_m) < best_m;
+    };
+    if (!flights_) flights_ = candidates_.FlightsAhead(is_open);
+    while (!flights_->empty() && !is_open(flights_->back())) flights_->pop_back();
+    return !flights_->empty();
+  }
+
+ private:
+  /// No path is shorter than the straight line.
+  double LeastScore(const FlightAhead& flight, double path_m) const {
+    constexpr double kRounding_m = 1e-6;
+    const double straight_m = geometry::VoxelDistance(start_, flight.key) * voxel_m_;
+    return prices_.LeastScoreOf(flight, std::max(path_m, straight_m) - kRounding_m,
+                                candidates_.has_hints());
+  }
+
+  VoxelKey start_;
+  double voxel_m_;
+  const ExplorationCandidates& candidates_;
+  const ExplorationPrices& prices_;
+  std::optional<std::vector<FlightAhead>> flights_;  // empty before the first call
+};
+
 /// Candidates in order of path cost with their prices, until none ahead can be cheaper.
 std::vector<PricedCandidate> PriceCandidates(const Situation& now, const VoxelKey& start,
                                              ExplorationPrices* prices) {
   std::vector<PricedCandidate> all;
   ExplorationCandidates candidates(now);
   planner::GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  FlightsAheadOf ahead(start, now.config.map.voxel_m, candidates, *prices);
   double best_m = std::numeric_limits<double>::infinity();
   while (const auto place = search.Next()) {
     const double path_m = search.cost() * now.config.map.voxel_m;
@@ -41,6 +77,9 @@ std::vector<PricedCandidate> PriceCandidates(const Situation& now, const VoxelKe
       all.push_back(prices->Of(std::move(found), search.PathTo(*place), path_m));
       best_m = std::min(best_m, prices->UpperBound(all.back()));
     }
+    if (!may_win_on_level && !ahead.MayWin(search, path_m, best_m) &&
+        !prices->MayBeRaised(all, best_m))
+      break;
   }
   prices->RaiseFlightsPastFloors(&all);
   return all;

@@ -47,6 +47,10 @@ class GroundPlaces {
   std::size_t size() const { return places_.size(); }
 
   const Steps& StepsFrom(const GroundMap& ground, std::int32_t place);
+  /// Whether the steps are cached and still hold.
+  bool AreStepsKnown(const GroundMap& ground, std::int32_t place) const {
+    return AreStepsKnown(ground, At(place));
+  }
   Clearance RoomAt(const GroundMap& ground, std::int32_t place);
 
  private:

@@ -66,6 +66,8 @@ void GroundSearch::Expand(std::int32_t from_place) {
 void GroundSearch::Relax(const From& from, std::int32_t to, const Price& price) {
   const VoxelKey key = ground_->places().KeyAt(to);
   if (rules_.level && !rules_.level->Contains(key.z - 1)) return;
+  // No edge costs less than its length.
+  if (from.cost + geometry::VoxelDistance(from.key, key) >= At(to).cost - 1e-12) return;
   const Clearance room = ground_->places().RoomAt(*ground_, to);
   const bool is_squeeze = room == Clearance::kPinch && !from.is_in_pinch;
   if (is_squeeze && !rules_.may_squeeze) return;

@@ -40,6 +40,11 @@ class GroundSearch {
   std::vector<VoxelKey> PathTo(const VoxelKey& key) const;
   /// Cost of a visited place, or nullopt.
   std::optional<double> CostOf(const VoxelKey& key) const;
+  /// Whether a place was visited, by its index.
+  bool WasVisited(std::int32_t place) const {
+    const auto index = static_cast<std::size_t>(place);
+    return index < nodes_.size() && nodes_[index].is_closed;
+  }
 
  private:
   struct Node {

@@ -18,15 +18,19 @@ bool IsSame(const geometry::StairFlight& a, const geometry::StairFlight& b) {
 }
 
 bool HasEvidence(const Vector3d& p_world, const StairEvidence& evidence, double voxel_m) {
+  const auto& voxels = evidence.voxels();
   const VoxelKey foot = geometry::KeyOf(p_world, voxel_m);
-  for (int dx = -kBeside_vox; dx <= kBeside_vox; ++dx)
-    for (int dy = -kBeside_vox; dy <= kBeside_vox; ++dy) {
-      const auto it =
-          evidence.voxels().lower_bound({foot.x + dx, foot.y + dy, foot.z - kBeside_vox});
-      if (it != evidence.voxels().end() && it->first.x == foot.x + dx &&
-          it->first.y == foot.y + dy && it->first.z <= foot.z + kBeside_vox)
-        return true;
+  const VoxelKey lo = foot - VoxelKey{kBeside_vox, kBeside_vox, kBeside_vox};
+  const VoxelKey hi = foot + VoxelKey{kBeside_vox, kBeside_vox, kBeside_vox};
+  for (int x = lo.x; x <= hi.x; ++x) {
+    // From column to column that has evidence.
+    auto it = voxels.lower_bound({x, lo.y, lo.z});
+    while (it != voxels.end() && it->first.x == x && it->first.y <= hi.y) {
+      const VoxelKey& key = it->first;
+      if (key.z >= lo.z && key.z <= hi.z) return true;
+      it = voxels.lower_bound({x, key.z < lo.z ? key.y : key.y + 1, lo.z});
     }
+  }
   return false;
 }
 

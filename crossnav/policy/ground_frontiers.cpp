@@ -17,8 +17,14 @@ static_assert(planner::kStepSides[6][0] == 1 && planner::kStepSides[1][0] == -1 
 }  // namespace
 
 bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, VoxelKey* beyond) {
+  return IsGroundFrontier(ground, ground.places().IndexOf(key), beyond);
+}
+
+bool IsGroundFrontier(const planner::GroundMap& ground, std::int32_t place, VoxelKey* beyond) {
   planner::GroundPlaces& places = ground.places();
-  const unsigned unseen = places.StepsFrom(ground, places.IndexOf(key)).unseen;
+  const unsigned unseen = places.StepsFrom(ground, place).unseen;
+  if (unseen == 0) return false;
+  const VoxelKey key = places.KeyAt(place);
   for (const std::size_t side : kStraight) {
     if ((unseen >> side & 1) == 0) continue;
     const auto& [dx, dy] = planner::kStepSides[side];

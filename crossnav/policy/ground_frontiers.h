@@ -4,6 +4,7 @@
 // like the unknown; an observed drop is none, since ground within a step down is not a drop.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace crossnav::policy {
 
 /// Whether `key`, a place to stand, has unseen ground beside it; `beyond` gets that voxel.
 bool IsGroundFrontier(const planner::GroundMap& ground, const VoxelKey& key, VoxelKey* beyond);
+/// The same of a place by its index.
+bool IsGroundFrontier(const planner::GroundMap& ground, std::int32_t place, VoxelKey* beyond);
 
 /// The frontier places connected to `seed` by neighbouring columns within the climb limit, sorted,
 /// each with its unseen column. `visited` gets all of them; places already in it are left out.
