@@ -8,8 +8,10 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <span>
 
+#include "batch_check.h"
 #include "commands.h"
 #include "crossnav/core/categories.h"
 #include "crossnav/evaluation/files/output_path.h"
@@ -163,6 +165,25 @@ Result<double> TimeOf(const fs::path& path, const Entry& entry,
   return ms;
 }
 
+/// Batches of networks.batch frames, with an agent's look at a plain picture.
+Result<BatchCheck> CheckBatchesOf(const fs::path& path, const Entry& entry,
+                                  const evaluation::RunConfig& config) {
+  auto card = inference::ReadModelCard(path);
+  if (!card) return tl::unexpected(card.error());
+  inference::FindFile(*card);
+  const auto work = [&](const perception::PerceptionSuite& suite, int agent,
+                        int frame) -> Result<void> {
+    Observation obs = PlainFrame(config.agent.sensor);
+    obs.rgb.data[0] = {static_cast<std::uint8_t>(frame), static_cast<std::uint8_t>(agent), 0};
+    const std::span<const std::string_view> goal(kCategories.data(), 1);
+    const auto look = LookAt(suite, obs, goal, suite.encoder ? "chair" : "");
+    if (!look) return tl::unexpected(look.error());
+    return {};
+  };
+  return CheckBatches(*card, Alone(config.networks, path.string(), entry.parts),
+                      config.agent.sensor.camera_height_m, work);
+}
+
 Json LookJson(const Look& look, const std::string& panel) {
   Json found = Json::array();
   for (const auto& [goal, detection] : look.found) {
@@ -249,11 +270,20 @@ Result<void> NetworksCheck(const NetworksOptions& options, const CommonOptions& 
       if (time) ms = *time;
       if (!time) entry.error = time.error().Message();
     }
+    std::optional<BatchCheck> batches;
+    if (entry.error.empty() && config->networks.batch > 1) {
+      auto checked = CheckBatchesOf(path, entry, *config);
+      if (!checked) entry.error = checked.error().Message();
+      if (checked) batches = std::move(*checked);
+    }
     if (!entry.error.empty() && !is_absent && first_error.empty()) first_error = entry.error;
     text += fmt::format(
         "{:<24} {}\n", entry.name,
         entry.error.empty() ? fmt::format("fits its card, {:.1f} ms a frame", ms) : entry.error);
     list.push_back({{"name", entry.name}, {"ms", ms}, {"error", entry.error}});
+    if (!batches) continue;
+    text += BatchText(*batches);
+    list.back()["batches"] = BatchJson(*batches);
   }
   console.Print(text);
   console.Document(Json({{"networks", std::move(list)}}));

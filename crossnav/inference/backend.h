@@ -24,11 +24,15 @@ class Session {
   virtual Result<std::vector<Tensor>> Run(std::span<const Tensor> inputs) = 0;
 };
 
+class SharedNetworks;
+
 struct SessionOptions {
   std::string backend = "auto";  ///< name of a backend; auto = the first that has the provider
   std::string provider = "cpu";  ///< execution device: cpu, cuda or tensorrt
   int threads = 1;               ///< more than one may change the last bits
   std::map<std::string, Shape> shapes;  ///< of inputs with open shapes in the file
+  /// where networks that run batches are opened once for several agents; null = each its own
+  std::shared_ptr<SharedNetworks> shared;
 };
 
 struct Backend {

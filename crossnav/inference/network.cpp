@@ -7,6 +7,7 @@
 
 #include "crossnav/core/check.h"
 #include "crossnav/core/read_file.h"
+#include "crossnav/inference/batcher.h"
 
 namespace crossnav::inference {
 namespace {
@@ -27,6 +28,13 @@ std::string Names(const std::vector<Port>& ports) {
   for (const Port& port : ports)
     text += (text.empty() ? "" : ", ") + port.name + " " + ShapeText(port.shape);
   return text.empty() ? "none" : text;
+}
+
+/// Whether each port holds one frame, so that frames can be put into a batch.
+bool AreOfOneFrame(const std::vector<Port>& ports) {
+  return std::all_of(ports.begin(), ports.end(), [](const Port& port) {
+    return !port.shape.empty() && port.shape.front() == 1;
+  });
 }
 
 Result<std::size_t> Find(const Port& wanted, const std::vector<Port>& ports, const char* kind,
@@ -60,7 +68,10 @@ Result<Network> Network::FromBytes(const std::string& onnx, const Signature& sig
                                    SessionOptions options, std::string where) {
   for (const Port& port : signature.inputs) options.shapes[port.name] = port.shape;
   if (onnx.empty()) return Fail(ErrorCode::kMalformed, "is empty", where);
-  auto session = OpenSession(onnx, options, where);
+  const bool is_shared =
+      options.shared && AreOfOneFrame(signature.inputs) && AreOfOneFrame(signature.outputs);
+  auto session =
+      is_shared ? options.shared->Open(onnx, options, where) : OpenSession(onnx, options, where);
   if (!session) return tl::unexpected(session.error());
   Network network;
   network.where_ = std::move(where);

@@ -20,6 +20,8 @@ struct NetworksConfig {
   std::string backend = "auto";  ///< auto | openvino | onnxruntime
   std::string provider = "cpu";  ///< cpu | cuda | tensorrt: of onnxruntime
   int threads = 1;               ///< of inference; more may change the last bits
+  /// most frames of several agents of one process in one run; 1 = each agent has its own network
+  int batch = 1;
 };
 
 template <class V>
@@ -32,6 +34,7 @@ void Visit(V& visit, NetworksConfig& c) {
   visit(CROSSNAV_SETTING(c, backend), {"auto", "openvino", "onnxruntime"});
   visit(CROSSNAV_SETTING(c, provider), {"cpu", "cuda", "tensorrt"});
   visit(CROSSNAV_SETTING(c, threads), 1, 64);
+  visit(CROSSNAV_SETTING(c, batch), 1, 64);
 }
 
 }  // namespace crossnav::inference

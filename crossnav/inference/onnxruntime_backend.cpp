@@ -85,6 +85,7 @@ void AppendTensorRt(Ort::SessionOptions& options) {
 /// May fail if the library was built with a provider whose own libraries are missing.
 Result<void> AppendProvider(const std::string& provider, Ort::SessionOptions& options) {
   try {
+    TheEnv();  // the providers log to it
     if (provider == "tensorrt") AppendTensorRt(options);
     if (provider != "cpu") AppendCuda(options);
     return {};

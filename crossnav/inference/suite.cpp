@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "crossnav/core/read_file.h"
+#include "crossnav/inference/batcher.h"
 #include "crossnav/inference/depth_mask.h"
 #include "crossnav/inference/detector_by_goal.h"
 #include "crossnav/inference/sha256.h"
@@ -171,6 +172,11 @@ Result<perception::PerceptionSuite> NetworkSet::MakeSuite(double camera_height_m
   options.session.backend = config_.backend;
   options.session.provider = config_.provider;
   options.session.threads = config_.threads;
+  if (config_.batch > 1) {
+    if (!shared_) shared_ = std::make_shared<SharedNetworks>(BatchOptions{config_.batch});
+    options.session.shared = shared_;
+    models_.clear();  // the caches of a model are one agent's
+  }
   options.camera_height_m = camera_height_m;
   std::map<std::string_view, Model*> models;
   std::vector<std::unique_ptr<perception::Detector>> detectors;

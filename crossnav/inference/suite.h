@@ -41,8 +41,9 @@ class NetworkSet {
   static Result<NetworkSet> Read(const NetworksConfig& config, const std::filesystem::path& dir,
                                  const std::vector<std::filesystem::path>& file_dirs = {});
 
-  /// A suite over networks, which are opened at the first call. One suite at a time. Omitted parts
-  /// are null, and an agent needs all: see IsComplete.
+  /// A suite over networks, which are opened at the first call. One suite at a time; with
+  /// `networks.batch` > 1 any number, each of which may run in a thread of its own (batcher.h). Not
+  /// thread-safe itself. Omitted parts are null, and an agent needs all: see IsComplete.
   Result<perception::PerceptionSuite> MakeSuite(double camera_height_m);
 
   /// Error that names the first omitted part.
@@ -62,6 +63,7 @@ class NetworkSet {
   std::map<std::string, std::string> hashes_;
   std::string encoder_name_;
   std::map<std::string, std::shared_ptr<Model>> models_;
+  std::shared_ptr<SharedNetworks> shared_;  // null = one suite at a time
 };
 
 }  // namespace crossnav::inference

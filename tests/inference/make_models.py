@@ -81,7 +81,7 @@ def detr():
           number("classes", np.array([[1, 1, 2, 0]], np.int64))])
 
 
-def crossnav():
+def crossnav(name="crossnav", frames=1):
     """Goals named by colours: red cells are chairs, green beds, blue plants, and nothing is one of
     the three others; boxes of 12 px;
     a cell whose mean height is h is stairs with probability h; dense: mean colour and depth."""
@@ -94,7 +94,7 @@ def crossnav():
                       conv("share", "cells", "logits", mask, [0, 0, 0, -10, -10, -10, 10])):
         nodes.append(made)
         numbers += own
-    save("crossnav",
+    save(name,
          [node("AveragePool", "image", "cells", kernel_shape=[4, 4], strides=[4, 4]),
           node("AveragePool", "depth", "far", kernel_shape=[4, 4], strides=[4, 4]),
           node("AveragePool", "height", "stairs", kernel_shape=[4, 4], strides=[4, 4]),
@@ -102,10 +102,11 @@ def crossnav():
           node("Concat", "cells far", "all", axis=1),
           node("AveragePool", "all", "coarse", kernel_shape=[2, 2], strides=[2, 2]),
           node("Transpose", "coarse", "dense", perm=[0, 2, 3, 1])],
-         [value("image", [1, 3, 32, 32]), value("depth", [1, 1, 32, 32]),
-          value("height", [1, 1, 32, 32])],
-         [value("heat", [1, 6, 8, 8]), value("box", [1, 4, 8, 8]), value("mask", [1, 7, 8, 8]),
-          value("stairs", [1, 1, 8, 8]), value("dense", [1, 4, 4, 4])], numbers)
+         [value("image", [frames, 3, 32, 32]), value("depth", [frames, 1, 32, 32]),
+          value("height", [frames, 1, 32, 32])],
+         [value("heat", [frames, 6, 8, 8]), value("box", [frames, 4, 8, 8]),
+          value("mask", [frames, 7, 8, 8]), value("stairs", [frames, 1, 8, 8]),
+          value("dense", [frames, 4, 4, 4])], numbers)
 
 
 def yolo(name, output, table, size=16):
@@ -175,3 +176,4 @@ if __name__ == "__main__":
     huge()
     detr()
     crossnav()
+    crossnav("crossnav_frames", "frames")  # for batches

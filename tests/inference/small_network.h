@@ -28,8 +28,8 @@ table = "names.npy"
 )";
 
 /// With the hash of its file.
-inline std::string SmallCard() {
-  return "sha256 = \"" + Sha256(*ReadFile(DataFile("crossnav.onnx"))) + "\"\n" + kCardWithoutHash;
+inline std::string SmallCard(const std::string& file = "crossnav.onnx") {
+  return "sha256 = \"" + Sha256(*ReadFile(DataFile(file))) + "\"\n" + kCardWithoutHash;
 }
 
 /// Rows of float32, as NumPy writes them.
@@ -48,10 +48,12 @@ inline std::string Npy(const std::vector<std::vector<float>>& rows) {
 }
 
 /// Leaves card, file and text table in `folder`; settings that name it for everything.
-inline NetworksConfig WriteSmallNetwork(const std::filesystem::path& folder) {
+/// crossnav_frames.onnx is the same network with an open number of frames.
+inline NetworksConfig WriteSmallNetwork(const std::filesystem::path& folder,
+                                        const std::string& file = "crossnav.onnx") {
   using crossnav::test::WriteText;
-  WriteText(folder / "small.toml", SmallCard());
-  WriteText(folder / "small.onnx", *ReadFile(DataFile("crossnav.onnx")));
+  WriteText(folder / "small.toml", SmallCard(file));
+  WriteText(folder / "small.onnx", *ReadFile(DataFile(file)));
   WriteText(folder / "names.txt", "chair\nbed\nplant\nWall\ntoilet\ntv\ncouch\n");
   WriteText(folder / "names.npy", Npy({{1, 0, 0, 0},
                                        {0, 2, 0, 0},
