@@ -4,14 +4,19 @@
 All draws come from the given generator; a sample is changed in place.
 """
 
+import common
 import cv2
 import numpy as np
 
 
+ENLARGED = 0.35  # chosen: cameras with a narrower field of view occur
+
+
 def place(sample, size, rng):
-    """Part of the picture, stretched a little and sometimes mirrored, at `size` pixels."""
+    """Part of the picture, stretched a little and sometimes mirrored, at `size` pixels: things are as large as in
+    the whole picture at the network's own size, or sometimes larger."""
     full = sample.depth.shape[0]
-    side = full * (rng.uniform(0.55, 1.0) if rng.random() < 0.5 else 1.0)
+    side = full * min(1.0, size / common.INPUT_PX) / (rng.uniform(1, 1.8) if rng.random() < ENLARGED else 1.0)
     stretch = rng.uniform(0.87, 1.15)
     width, height = min(full, int(side * stretch)), min(full, int(side / stretch))
     left, top = int(rng.integers(full - width + 1)), int(rng.integers(full - height + 1))
@@ -103,6 +108,9 @@ def restyle(image, sample, rng):
     size, ids = len(sample.house.goal_of), sample.instance
     chosen = rng.random(size) < rng.choice([0.3, 0.7, 1.0])
     colour = paints(size, rng)
+    if rng.random() < 0.4:  # furniture of one series: neither colour nor cloth tells an armchair from a sofa
+        house = sample.house
+        colour[(house.goal_of >= 0) | house.is_lookalike] = paints(1, rng)
     at = points(sample)
     if rng.random() < 0.6:  # the light of the picture
         grey = image.mean(axis=2)
@@ -111,7 +119,9 @@ def restyle(image, sample, rng):
         bright = np.clip(grey / np.maximum(mean.astype(np.float32)[ids], 8), 0.2, 2.5)
     else:
         bright = shading(at, rng)
-    made = colour[ids] * (bright * pattern(at, ids, size, rng))[..., None]
+    if rng.random() < 0.5:
+        bright = bright * pattern(at, ids, size, rng)
+    made = colour[ids] * bright[..., None]
     return np.where(chosen[ids][..., None], made, image)
 
 

@@ -119,8 +119,9 @@ limits = {listed(LIMITS)}
 
 [input]
 size = {size}
+focal_px = {common.FOCAL_PX:g}  # depth is scaled by the ratio to the camera's
 image = "image"    # f32 [1, 3, {size}, {size}], RGB, 0 to 1
-depth = "depth"    # f32 [1, 1, {size}, {size}], planar [m], 0 = no reading
+depth = "depth"    # f32 [1, 1, {size}, {size}], planar [m], scaled, 0 = no reading
 height = "height"  # f32 [1, 1, {size}, {size}], of the seen point above the foot [m], 0 where no depth
 
 [output]

@@ -11,6 +11,7 @@ SHARED = REPO.parent / "shared"
 INPUT_PX = 256  # chosen: the largest size with all heads and some masks below 15 ms on one core
 STORED_PX = 320  # of rendered frames
 HFOV_DEG = 90.0
+FOCAL_PX = INPUT_PX / 2  # of the network's own pictures, HFOV_DEG wide: their depth is in metres, see Sample.inputs
 
 # In the order of kCategories (crossnav/core/categories.h).
 GOALS = ["chair", "bed", "plant", "toilet", "tv_monitor", "sofa"]
@@ -18,9 +19,9 @@ GOALS = ["chair", "bed", "plant", "toilet", "tv_monitor", "sofa"]
 # Seeds of generated houses, the generator's edition and their part of the furniture. Held-out seeds begin at
 # 5001; held-out furniture appears in sets with `test` in their name only.
 SETS = {
-    "train": {"seeds": range(2001, 2105), "furniture": "train", "frames": 150},
-    "train-2": {"seeds": range(3001, 3105), "furniture": "train", "frames": 100, "edition": 2},
-    "train-3": {"seeds": range(3201, 3261), "furniture": "program", "frames": 100, "edition": 2},
+    "train": {"seeds": range(2001, 2105), "furniture": "train", "frames": 120},
+    "train-2": {"seeds": range(3001, 3105), "furniture": "train", "frames": 120, "edition": 2},
+    "train-3": {"seeds": range(3201, 3361), "furniture": "program", "frames": 120, "edition": 2},
     "dev": {"seeds": range(2901, 2907), "furniture": "train", "frames": 60},
     "dev-2": {"seeds": range(3901, 3907), "furniture": "train", "frames": 60, "edition": 2},
     "test": {"seeds": range(5101, 5111), "furniture": "held", "frames": 60},
@@ -36,12 +37,14 @@ LOOKED_AT = ["3BedroomHouseWithMezzanine", "4BedroomHouse"]  # their pictures we
 HOMES = ["1BedroomApartmentWithRoundWall", "2BedroomApartment", "2BedroomApartmentWithBowWindow",
          "2BedroomHouseWithBasement", "3BedroomApartment", "3BedroomHouseWithAttic", "Studio"]
 STYLES = {
-    "train-drawn": {"input": HOMES_JAR, "homes": LOOKED_AT, "frames": 500},
+    "train-drawn": {"input": HOMES_JAR, "homes": LOOKED_AT, "frames": 800},
     "drawn": {"input": HOMES_JAR, "homes": HOMES, "frames": 120},
     "building": {"input": SHARED / "data/ifc/Duplex.ifc", "furnish": [1, 2, 3], "frames": 100},
 }
 TRAIN_STYLES = ["train-drawn"]
 
+# Seats that look like another goal but for their size; frames that show them are drawn more often.
+LOOKALIKES = {"armchair", "ottoman", "stool", "bench"}
 STAIR_NAMES = {"stairs", "staircase", "stair"}
 
 # Classes of the dense head: their name (goals in the benchmark's spelling), the name with their

@@ -22,11 +22,13 @@ class House:
         self.goal_of = np.full(size, -1, np.int16)  # by instance id
         self.class_of = np.full(size, -1, np.int16)
         self.is_stairs = np.zeros(size, bool)
+        self.is_lookalike = np.zeros(size, bool)
         for row in document["instances"]:
             if row["category"]:
                 self.goal_of[row["id"]] = common.GOALS.index(row["category"])
             self.class_of[row["id"]] = common.CLASS_OF.get(row["name"], -1)
             self.is_stairs[row["id"]] = row["name"] in common.STAIR_NAMES
+            self.is_lookalike[row["id"]] = row["name"] in common.LOOKALIKES
 
 
 def read_set(data, *names):
@@ -64,7 +66,15 @@ class Sample:
         self.rows = np.arange(size) - centre  # below the principal point [px of `focal`]
         self.columns = np.arange(size) - centre  # right of it
 
+    def focal_px(self):
+        """Focal length of the picture as it is now: the mean of both axes, which may be stretched."""
+        step = lambda at: abs(at[-1] - at[0]) / (len(at) - 1)
+        return self.focal / math.sqrt(step(self.rows) * step(self.columns))
+
     def inputs(self):
+        """Depth is scaled to the network's focal length, so that a thing's pixels times its depth are always its
+        size in metres: in an enlarged part of a picture, an armchair is as wide as a sofa otherwise."""
         height = height_above_foot(self.depth, self.rows, self.focal, self.pitch_rad, self.camera_height_m)
+        depth = self.depth * np.float32(common.FOCAL_PX / self.focal_px())
         return {"image": self.rgb.transpose(2, 0, 1),  # u8: divided by 255 on input
-                "depth": self.depth[None], "height": height[None]}
+                "depth": depth[None], "height": height[None]}

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Makes houses and renders their frames: one process a house and verb, arrays on disk.
 
-Existing houses are kept, so that an interrupted run resumes.
+Existing houses are kept, so that an interrupted run resumes. The sets take turns, so that training may begin before all
+are there.
 """
 
 import argparse
 import concurrent.futures
+import itertools
 import json
 import os
 import pathlib
@@ -90,6 +92,11 @@ def missing_of(data, name, parts):
     return [job for job in wanted if not (job[-1] / "models.json").exists()]
 
 
+def in_turn(lists):
+    """One of each list, then the next of each."""
+    return [job for turn in itertools.zip_longest(*lists) for job in turn if job is not None]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=pathlib.Path, default=common.DATA)
@@ -101,16 +108,13 @@ def main():
     train, held = furniture.split(args.pack, args.data / "furniture")
     parts = {"train": train, "held": held,
              "program": furniture.program_part(args.program, common.HOMES_JAR, args.data / "furniture/program")}
+    start, jobs = time.time(), in_turn([missing_of(args.data, name, parts) for name in args.sets])
+    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+        for done, _ in enumerate(pool.map(lambda job: render_scene(args.program, *job), jobs), 1):
+            if done % 10 == 0:
+                print(f"{done} of {len(jobs)} scenes, {time.time() - start:.0f} s", flush=True)
     for name in args.sets:
-        start = time.time()
-        missing = missing_of(args.data, name, parts)
-        with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
-            made = pool.map(lambda job: render_scene(args.program, *job), missing)
-            for done, _ in enumerate(made, 1):
-                if done % 10 == 0:
-                    print(f"{name}: {done} of {len(missing)} scenes, {time.time() - start:.0f} s", flush=True)
-        print(f"{name}: {len(list((args.data / name).glob('*/models.json')))} scenes, "
-              f"{time.time() - start:.0f} s", flush=True)
+        print(f"{name}: {len(list((args.data / name).glob('*/models.json')))} scenes", flush=True)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@ The learning rate follows the share of the frames or minutes that is used up, wh
 is whole however fast the machine is. Every few minutes the state goes to `checkpoint.pt`; the mean of the
 weights is what counts. Frames in which the network claims a goal that is not there are drawn more often.
 
-With --from-onnx a new run starts from the weights of an exported file instead of from nothing.
+With --from-onnx a new run starts from the weights of an exported file instead of from nothing. On a GPU the frames
+are kept in its memory and batches are made there (batches.py).
 """
 
 import argparse
@@ -17,6 +18,7 @@ import pathlib
 import time
 
 import augment
+import batches
 import common
 import cv2
 import frames
@@ -28,10 +30,12 @@ import warm
 from model import Network
 
 SAVE_EVERY_S = 180
+TELL_EVERY_S = 30
 DRAWN = 2.5  # chosen: two homes among a hundred houses are a fifth of what is drawn
+LOOKALIKE = 2.0  # chosen: an armchair is told from a sofa by its width alone, if both are of one series
 HARD = 3.0  # chosen: a frame with a sure false claim is drawn four times as often as one without
 UNSEEN = 0.3  # chosen: score of the false claims of frames not yet drawn
-SETTLE_BATCHES = 24  # chosen: 384 frames for the norms of a run that starts from a file
+SETTLE_FRAMES = 384  # chosen: for the norms of a run that starts from a file
 
 
 def arguments():
@@ -42,11 +46,13 @@ def arguments():
     parser.add_argument("--sets", nargs="+", default=[*common.TRAIN_SETS, *common.TRAIN_STYLES])
     parser.add_argument("--frames", type=int, default=200_000, help="to look at in all")
     parser.add_argument("--minutes", type=float, default=120, help="at most; the end comes at the earlier of both")
-    parser.add_argument("--batch", type=int, default=16)
+    parser.add_argument("--batch", type=int, default=None, help="16 on a CPU, 128 on a GPU")
     parser.add_argument("--size", type=int, default=common.INPUT_PX)
-    parser.add_argument("--small-size", type=int, default=160, help="of the first part of the run")
-    parser.add_argument("--small-share", type=float, default=0.85, help="of the run")
+    parser.add_argument("--small-size", type=int, default=192, help="of the parts of pictures in the first part of the run")
+    parser.add_argument("--small-share", type=float, default=0.75, help="of the run")
     parser.add_argument("--rate", type=float, default=2.5e-3)
+    parser.add_argument("--device", default=None, help="default: cuda where there is one, else cpu")
+    parser.add_argument("--most-frames", type=int, default=60_000, help="in the memory of a GPU, 0.7 MB each")
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--seed", type=int, default=1)
     return parser.parse_args()
@@ -60,9 +66,9 @@ def autocast(device):
 
 
 def frame_weights(houses):
-    """Frames with goals that few frames show are drawn more often, and frames of homes that people drew; frames
-    without goals less. Also which frame shows which goal, stairs last."""
-    places, goals = [], []
+    """Frames with goals that few frames show are drawn more often, and frames of homes that people drew or of seats
+    that look like another goal; frames without goals less. Also which frame shows which goal, stairs last."""
+    places, goals, alike = [], [], []
     for house in houses:
         for index in range(len(house.frames)):
             seen = np.zeros(len(common.GOALS) + 1)
@@ -71,24 +77,31 @@ def frame_weights(houses):
             for goal in house.goal_of[big]:
                 seen[goal] = seen[goal] or goal >= 0
             seen[-1] = house.is_stairs[big].any()
+            alike.append(house.is_lookalike[big].any())
             places.append((house, index))
             goals.append(seen)
     goals = np.array(goals)
     rarity = 1 / np.maximum(goals.mean(0), 0.01) ** 0.5
     weights = 1.0 + (goals * rarity).max(1)
     weights *= [DRAWN if house.name in common.LOOKED_AT else 1.0 for house, _ in places]
+    weights *= np.where(alike, LOOKALIKE, 1.0)
     return places, weights / weights.sum(), goals
 
 
 def dense_weights(houses, size=64):
-    """Rare names count more, common ones less: by the square root of how often they are seen."""
+    """Of the names, for the houses on disk."""
     count = np.ones(len(common.CLASS_NAMES))
     step = common.STORED_PX // size
     for house in houses:
         names = house.class_of[house.instance[::6, ::step, ::step]]
         count += np.bincount(names[names >= 0], minlength=len(count))
+    return class_weights(torch.from_numpy(count))
+
+
+def class_weights(count):
+    """Rare names count more, common ones less: by the square root of how often they are seen."""
     weights = (count / count.sum()) ** -0.5
-    return torch.tensor(np.clip(weights / np.median(weights), 0.2, 5), dtype=torch.float32)
+    return (weights / weights.median()).clamp(0.2, 5).float()
 
 
 class Draw:
@@ -115,7 +128,7 @@ class Draw:
 def false_scores(heat, answers):
     """Of each picture, the highest score of a claim away from all goal objects."""
     away = (answers["heat"] < 0.05) & (answers["asked"] > 0)
-    return (torch.sigmoid(heat.detach().float()) * away).amax((1, 2, 3)).cpu().numpy()
+    return (torch.sigmoid(heat.detach().float()) * away).amax((1, 2, 3))
 
 
 def batch_of(places, size, rng):
@@ -133,6 +146,101 @@ def to_device(arrays, device):
     return {key: value.to(device) for key, value in arrays.items()}
 
 
+class FromDisk:
+    """Batches made on the CPU, each during the step before."""
+
+    grows_every_s = 180
+
+    def __init__(self, args, seed):
+        self.args, self.rng = args, np.random.default_rng(seed)
+        self.frames_of, self.pool, self.coming, self.at = None, concurrent.futures.ThreadPoolExecutor(1), None, None
+        self.read()
+
+    def read(self):
+        self.houses, self.places, weights = read_places(self.args.data, self.args.sets)
+        self.frames_of = Draw(self.places, weights, self.frames_of)
+        self.class_weight = dense_weights(self.houses)
+
+    def prepare(self, size):
+        at = self.frames_of.choose(self.args.batch, self.rng)
+        chosen = [self.frames_of.places[index] for index in at]
+        return self.frames_of, at, self.pool.submit(batch_of, chosen, size, self.rng)
+
+    def take(self, size):
+        """Inputs and answers."""
+        self.drawn_of, self.at, batch = self.coming or self.prepare(size)
+        made = batch.result()
+        self.coming = self.prepare(size)
+        return made
+
+    def learn(self, false):
+        self.drawn_of.learn(self.at, false.cpu().numpy())
+
+    def grow(self):
+        if is_grown(self.args.data, self.args.sets, self.houses):
+            self.read()
+
+    def close(self):
+        self.pool.shutdown(cancel_futures=True)
+
+
+class InMemory:
+    """Batches made on a GPU from frames in its memory."""
+
+    grows_every_s = 20
+
+    def __init__(self, args, device, seed):
+        self.args, self.device, self.rng = args, device, batches.Random(device, seed)
+        self.store = batches.Store(args.most_frames, device)
+        self.false, self.known = torch.full((args.most_frames,), UNSEEN, device=device), set()
+        self.goals = torch.zeros((args.most_frames, len(common.GOALS) + 1), device=device)
+        self.extra = torch.ones(args.most_frames, device=device)
+        self.grow()
+        if not self.known:
+            raise SystemExit(f"no frames in {args.data} of {', '.join(args.sets)}: run networks/render.py first")
+
+    @property
+    def houses(self):
+        return self.store.houses
+
+    @property
+    def places(self):
+        return range(self.store.count)
+
+    def grow(self):
+        """Adds the houses that were rendered since, as far as they fit."""
+        new = [folder for folder in folders_of(self.args.data, self.args.sets) if folder not in self.known]
+        for folder in new:
+            house = frames.House(folder)
+            if self.store.is_full(house):
+                print(f"{folder.name} and later houses do not fit --most-frames {self.args.most_frames}", flush=True)
+                break
+            self.known.add(folder)
+            at = self.store.add(house)
+            self.goals[at], alike = self.store.shown(at)
+            self.extra[at] = torch.where(alike, LOOKALIKE, 1.0) * (DRAWN if house.name in common.LOOKED_AT else 1.0)
+        if new:
+            self.store.close()
+            goals = self.goals[: self.store.count]
+            rarity = 1 / goals.mean(0).clamp(min=0.01).sqrt()
+            self.weights = (1 + (goals * rarity).amax(1)) * self.extra[: self.store.count]
+            self.class_weight = class_weights(self.store.name_counts())
+            print(f"{len(self.known)} houses, {self.store.count} frames", flush=True)
+
+    def take(self, size):
+        chance = self.weights * (1 + HARD * self.false[: len(self.weights)])
+        self.at = torch.multinomial(chance, self.args.batch, replacement=True, generator=self.rng.generator)
+        with torch.no_grad():
+            batch = batches.augmented(self.store, self.at, size, self.rng)
+            return batch.inputs(), batches.targets_of(batch)
+
+    def learn(self, false):
+        self.false[self.at] = 0.5 * (self.false[self.at] + false)
+
+    def close(self):
+        pass
+
+
 class Average:
     """Running mean of the weights, quicker at the beginning."""
 
@@ -144,11 +252,8 @@ class Average:
         keep = min(0.997, self.steps / (self.steps + 10))
         with torch.no_grad():
             mine, theirs = self.network.state_dict(), network.state_dict()
-            for name, value in mine.items():
-                if value.dtype.is_floating_point:
-                    value.lerp_(theirs[name], 1 - keep)
-                else:
-                    value.copy_(theirs[name])
+            names = [name for name, value in mine.items() if value.dtype.is_floating_point]
+            torch._foreach_lerp_([mine[name] for name in names], [theirs[name] for name in names], 1 - keep)
 
 
 class Run:
@@ -157,7 +262,8 @@ class Run:
         decayed = [p for p in self.network.parameters() if p.ndim > 1]
         others = [p for p in self.network.parameters() if p.ndim <= 1]
         self.optimizer = torch.optim.AdamW([{"params": decayed, "weight_decay": 0.02},
-                                            {"params": others, "weight_decay": 0.0}], lr=args.rate)
+                                            {"params": others, "weight_decay": 0.0}], lr=args.rate,
+                                           fused=device.type != "cpu")
         self.average = Average(self.network)
         self.used_s, self.steps, self.frames_seen = 0.0, 0, 0
         self.start = args.from_onnx.name if args.from_onnx else ""  # file of its first weights
@@ -185,12 +291,12 @@ def rate_at(share, top):
     return top * min(1.0, share / 0.03 + 0.02) * (0.5 + 0.5 * math.cos(math.pi * min(share, 1.0))) + 1e-6
 
 
-def start_from(network, file, draw, args, rng):
+def start_from(network, file, source, args):
     """Loads an exported file's weights, with norms as the training frames have them."""
     warm.load(network, file)
     device = next(network.parameters()).device
-    sets = (batch_of([draw.places[at] for at in draw.choose(args.batch, rng)], args.size, rng)[0] for _ in range(SETTLE_BATCHES))
-    warm.settle(network, (to_device(inputs, device) for inputs in sets))
+    count = max(1, SETTLE_FRAMES // args.batch)
+    warm.settle(network, (to_device(source.take(args.size)[0], device) for _ in range(count)))
 
 
 def step(run, inputs, answers, class_weight, device):
@@ -202,7 +308,7 @@ def step(run, inputs, answers, class_weight, device):
     torch.nn.utils.clip_grad_norm_(run.network.parameters(), 5.0)
     run.optimizer.step()
     run.average.update(run.network)
-    return {name: float(value.detach()) for name, value in parts.items()}, false_scores(raw["heat"], answers)
+    return {name: value.detach() for name, value in parts.items()}, false_scores(raw["heat"], answers)
 
 
 def read_places(data, sets):
@@ -213,9 +319,13 @@ def read_places(data, sets):
     return houses, places, weights
 
 
+def folders_of(data, sets):
+    """Of the scenes that are rendered: training may begin before all of them are there."""
+    return [path.parent for name in sets for path in sorted((data / name).glob("*/models.json"))]
+
+
 def is_grown(data, sets, houses):
-    """Whether houses were rendered since: training may begin before all of them are there."""
-    return sum(len(list((data / name).glob("*/models.json"))) for name in sets) > len(houses)
+    return len(folders_of(data, sets)) > len(houses)
 
 
 def share_of(run, args):
@@ -227,64 +337,66 @@ def size_at(share, args):
     return args.small_size if share < args.small_share else args.size
 
 
-def about(args, run, houses, places):
+def about(args, run, source):
     """What the card tells of the run."""
     start = {"from": run.start} if run.start else {}
-    return {"seed": args.seed, "houses": len(houses), "frames": len(places), **start}
+    return {"seed": args.seed, "houses": len(source.houses), "frames": len(source.places), **start}
 
 
-def train(args):
-    device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
-    torch.set_num_threads(args.threads)
-    torch.manual_seed(args.seed)
-    path = args.checkpoint or args.data / "checkpoint.pt"
-    cv2.setNumThreads(args.threads)
-    houses, places, weights = read_places(args.data, args.sets)
-    class_weight = dense_weights(houses).to(device)
-    frames_of = Draw(places, weights)
+def begin(args, device, path):
+    """The run and its batches: new, continued, or from a file's weights."""
     run = Run(args, device)
     if path.exists():
         run.restore(torch.load(path, map_location=device, weights_only=True))
         print(f"goes on after {run.used_s / 60:.1f} minutes, {run.steps} steps", flush=True)
-    elif args.from_onnx:
-        start_from(run.network, args.from_onnx, frames_of, args, np.random.default_rng(args.seed))
+    seed = [args.seed, run.steps]
+    source = FromDisk(args, seed) if device.type == "cpu" else InMemory(args, device, args.seed + run.steps)
+    if args.from_onnx and not path.exists():
+        start_from(run.network, args.from_onnx, source, args)
         run.average = Average(run.network)
         print(f"starts from {args.from_onnx.name}", flush=True)
-    rng = np.random.default_rng([args.seed, run.steps])
+    return run, source
+
+
+def tell(run, means):
+    print(f"{run.used_s / 60:6.1f} min {run.steps:6} steps {run.frames_seen:7} frames",
+          " ".join(f"{name} {float(value):.3f}" for name, value in means.items()), flush=True)
+
+
+def train(args):
+    device = torch.device(args.device or ("cuda" if torch.cuda.is_available() else "cpu"))
+    args.batch = args.batch or (16 if device.type == "cpu" else 128)
+    torch.set_num_threads(args.threads)
+    torch.manual_seed(args.seed)
+    torch.backends.cudnn.benchmark = True
+    path = args.checkpoint or args.data / "checkpoint.pt"
+    cv2.setNumThreads(args.threads)
+    run, source = begin(args, device, path)
     run.network.train()
-    last, saved, told, means = time.time(), time.time(), time.time(), {}
-    pool = concurrent.futures.ThreadPoolExecutor(1)
-
-    def draw():
-        at = frames_of.choose(args.batch, rng)
-        chosen = [frames_of.places[index] for index in at]
-        return frames_of, at, pool.submit(batch_of, chosen, size_at(share_of(run, args), args), rng)
-
-    coming = draw()  # the next batch, prepared during the step
+    last = saved = told = grown = time.time()
+    means = {}
     while (share := share_of(run, args)) < 1:
         for group in run.optimizer.param_groups:
             group["lr"] = rate_at(share, args.rate)
-        drawn_of, at, batch = coming
-        (inputs, answers), coming = batch.result(), draw()
-        parts, false = step(run, to_device(inputs, device), to_device(answers, device), class_weight, device)
-        drawn_of.learn(at, false)
-        parts["false"] = float(false.mean())
+        inputs, answers = source.take(size_at(share, args))
+        parts, false = step(run, to_device(inputs, device), to_device(answers, device), source.class_weight.to(device), device)
+        source.learn(false)
+        parts["false"] = false.mean()
         run.steps, run.frames_seen = run.steps + 1, run.frames_seen + args.batch
         now = time.time()
         run.used_s, last = run.used_s + now - last, now
-        means = {name: 0.97 * means.get(name, value) + 0.03 * value for name, value in parts.items()}
-        if now - told > 30:
+        means = {name: means.get(name, value).lerp(value, 0.03) for name, value in parts.items()}
+        if now - told > TELL_EVERY_S:
             told = now
-            print(f"{run.used_s / 60:6.1f} min {run.steps:6} steps {run.frames_seen:7} frames",
-                  " ".join(f"{name} {value:.3f}" for name, value in means.items()), flush=True)
+            tell(run, means)
         if now - saved > SAVE_EVERY_S:
             saved = now
-            run.save(path, about(args, run, houses, places))
-            if is_grown(args.data, args.sets, houses):
-                houses, places, weights = read_places(args.data, args.sets)
-                frames_of = Draw(places, weights, frames_of)
-    pool.shutdown(cancel_futures=True)
-    run.save(path, about(args, run, houses, places))
+            run.save(path, about(args, run, source))
+        if now - grown > source.grows_every_s:
+            grown = now
+            source.grow()
+    source.close()
+    run.save(path, about(args, run, source))
     print(f"{path}: {run.steps} steps, {run.frames_seen} frames in {run.used_s / 60:.1f} minutes")
 
 

@@ -122,8 +122,7 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
     if (seen_ && XXH128_isEqual(*seen_, hash) != 0) return {};
     seen_.reset();
     found_.clear();
-    inputs_ = {ColourTensor(obs.rgb, card_.input, "image"),
-               DepthTensor(obs.depth_m, card_.input, "depth"),
+    inputs_ = {ColourTensor(obs.rgb, card_.input, "image"), DepthTensor(obs, card_.input, "depth"),
                HeightTensor(obs, camera_height_m_, card_.input, "height")};
     auto outputs = network_.Run(inputs_);
     if (!outputs) return tl::unexpected(outputs.error());

@@ -96,6 +96,14 @@ Tensor OnePlane(const ModelCard::Input& input, const char* name) {
   return out;
 }
 
+/// Of the input's focal length, which is the mean of both axes where the picture is stretched.
+float DepthScale(const Observation& obs, const ModelCard::Input& input) {
+  if (!input.focal_px) return 1;
+  const Placement at = PlacementOf(input, obs.rgb.width, obs.rgb.height);
+  const double focal_px = std::sqrt(obs.camera.fx * at.scale_x * obs.camera.fy * at.scale_y);
+  return static_cast<float>(*input.focal_px / focal_px);
+}
+
 }  // namespace
 
 perception::PixelBox Placement::ToFrame(double left, double top, double right, double bottom,
@@ -148,11 +156,12 @@ Tensor ColourTensor(const RgbImage& rgb, const ModelCard::Input& input, const ch
   return out;
 }
 
-Tensor DepthTensor(const DepthImage& depth_m, const ModelCard::Input& input, const char* name) {
+Tensor DepthTensor(const Observation& obs, const ModelCard::Input& input, const char* name) {
   Tensor out = OnePlane(input, name);
-  ForNearest(depth_m.width, depth_m.height, input, [&](std::size_t index, int u, int v) {
-    const float d = depth_m.At(u, v);
-    if (IsMeasured(d)) out.data[index] = d;
+  const float scale = DepthScale(obs, input);
+  ForNearest(obs.depth_m.width, obs.depth_m.height, input, [&](std::size_t index, int u, int v) {
+    const float d = obs.depth_m.At(u, v);
+    if (IsMeasured(d)) out.data[index] = scale * d;
   });
   return out;
 }

@@ -34,8 +34,10 @@ Placement PlacementOf(const ModelCard::Input& input, int width, int height);
 /// uncovered part of a letterbox is filled with 114 of 255.
 Tensor ColourTensor(const RgbImage& rgb, const ModelCard::Input& input, const char* name);
 
-/// 1 x 1 x height x width [m], the nearest pixel; 0 without a measurement.
-Tensor DepthTensor(const DepthImage& depth_m, const ModelCard::Input& input, const char* name);
+/// 1 x 1 x height x width [m], the nearest pixel; 0 without a measurement. With `input.focal_px`
+/// depth is scaled as if by a move of a camera of that focal length: pixels times depth are then
+/// the same metres for every camera.
+Tensor DepthTensor(const Observation& obs, const ModelCard::Input& input, const char* name);
 
 /// 1 x 1 x height x width: height of the seen point above the robot's foot [m], of the same pixels;
 /// 0 without a measurement.

@@ -181,6 +181,7 @@ Result<void> ReadInput(Section section, ModelCard::Input& input, Ports& ports) {
   section.Size("size", input.width, input.height);
   section.Text("resize", input.resize, {"plain", "letterbox", "corner"});
   section.Flag("antialias", input.antialias);
+  section.Number("focal_px", input.focal_px, 1, 10 * kMostSide);
   section.Text("colour", input.colour, {"rgb", "bgr"});
   section.Number("scale", input.scale, 0, 1e6);
   section.Three("mean", input.mean, -1e6, 1e6);

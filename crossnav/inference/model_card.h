@@ -31,6 +31,7 @@ struct ModelCard {
     std::array<double, 3> mean{0, 0, 0};       ///< subtracted, by channel of `colour`
     std::array<double, 3> deviation{1, 1, 1};  ///< then divided by
     std::string layout = "chw";                ///< chw | hwc
+    std::optional<double> focal_px;            ///< to which depth is scaled; none = metres
   } input;
 
   struct Output {

@@ -15,6 +15,7 @@ cv2 = pytest.importorskip("cv2")
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 import augment
+import batches
 import common
 import frames
 import furniture
@@ -34,7 +35,7 @@ def house():
     goal = np.array([-1, 0, -1, -1], np.int16)
     names = np.array([-1, 0, common.CLASS_NAMES.index("stairs"), common.CLASS_NAMES.index("wall")], np.int16)
     return types.SimpleNamespace(name="toy", goal_of=goal, class_of=names,
-                                 is_stairs=np.array([False, False, True, False]))
+                                 is_stairs=np.array([False, False, True, False]), is_lookalike=np.zeros(4, bool))
 
 
 def sample(size=SIZE):
@@ -125,6 +126,31 @@ def test_augmentation_keeps_shapes_and_the_same_generator_gives_the_same():
         results.append(inputs)
     for name, value in results[0].items():
         assert (value == results[1][name]).all(), name
+
+
+def test_enlarged_parts_keep_sizes_in_metres(monkeypatch):
+    """A thing's pixels times its depth are its size, whatever part of the picture is shown."""
+    monkeypatch.setattr(augment, "ENLARGED", 1.0)
+    sizes = []
+    for seed in range(12):
+        made = sample(320)
+        made.instance[:] = WALL
+        made.instance[150:170, 150:170] = CHAIR
+        made.depth[:] = 1.5
+        augment.place(made, 192, np.random.default_rng(seed))
+        chair = made.instance == CHAIR
+        if chair.any() and not (chair[[0, -1]].any() or chair[:, [0, -1]].any()):  # whole
+            sizes.append(np.sqrt(chair.sum()) * made.inputs()["depth"].mean() / common.FOCAL_PX)
+    assert len(sizes) > 4
+    assert sizes == pytest.approx([20 * 1.5 / 160] * len(sizes), rel=0.06)
+
+
+def test_parts_of_a_picture_are_as_large_as_in_the_whole(monkeypatch):
+    monkeypatch.setattr(augment, "ENLARGED", 0.0)
+    for size in (192, common.INPUT_PX):
+        made = sample(320)
+        augment.place(made, size, np.random.default_rng(1))
+        assert made.focal_px() == pytest.approx(common.FOCAL_PX, rel=0.08)
 
 
 def test_some_paints_are_vivid_and_some_nearly_black():
@@ -398,3 +424,101 @@ def test_masks_of_an_exported_file_are_the_same_at_another_size(tmp_path):
         export.export_masks(export.fold_norms(network), tmp_path / "a_masks.onnx", size=64)
         after = export.exported_masks(tmp_path / "a_masks.onnx")[0](seen)
     assert torch.allclose(before, after, atol=0.02)  # weights were stored in half precision
+
+
+def stored(size=SIZE, count=6):
+    """A store on the CPU with pictures of the toy house."""
+    made = sample(size)
+    pose = [{"pitch_deg": 5.0 * index, "camera_height_m": 0.88} for index in range(count)]
+    many = lambda plane: np.stack([plane] * count)
+    house = types.SimpleNamespace(**vars(made.house), frames=pose, rgb=many(made.rgb), instance=many(made.instance),
+                                  depth_mm=many((made.depth * 1000).astype(np.uint16)))
+    store = batches.Store(count, torch.device("cpu"), size)
+    return store, store.add(house)
+
+
+def one_of(batch, index):
+    """A picture of a batch as a sample."""
+    made = frames.Sample.__new__(frames.Sample)
+    made.house, made.index = batch.store.houses[int(batch.house[index])], index
+    made.rgb = batch.image[index].to(torch.uint8).numpy()
+    made.depth, made.instance = batch.depth[index].numpy(), batch.ids[index].numpy().astype(np.uint16)
+    made.rows, made.columns = batch.rows[index].numpy(), batch.columns[index].numpy()
+    made.focal, made.pitch_rad, made.camera_height_m = batch.focal, float(batch.pitch[index]), float(batch.camera_height[index])
+    return made
+
+
+def test_a_store_tells_what_its_frames_show():
+    store, at = stored(320)
+    goals, alike = store.shown(at)
+    assert goals[:, common.GOALS.index("chair")].tolist() == [1.0] * 6
+    assert goals[:, common.GOALS.index("bed")].tolist() == [0.0] * 6
+    assert goals[:, -1].tolist() == [1.0] * 6
+    assert not alike.any()
+    assert store.is_full(store.houses[0])
+
+
+@pytest.mark.parametrize("size", [96, 64])
+def test_batches_have_the_targets_and_inputs_of_their_pictures(size):
+    store, _ = stored()
+    store.close()
+    batch = batches.augmented(store, torch.arange(6).repeat(4), size, batches.Random(store.device, 3))
+    inputs, answers = batch.inputs(), batches.targets_of(batch)
+    assert (answers["heat"] == 1).any()
+    for index in range(len(batch)):
+        made = one_of(batch, index)
+        for name, value in targets.all_of(made, size).items():
+            assert answers[name][index].numpy() == pytest.approx(value, abs=1e-5), name
+        for name, value in made.inputs().items():
+            assert inputs[name][index].numpy() == pytest.approx(value, abs=1e-4), name
+
+
+def test_batches_keep_the_place_of_every_pixel():
+    """What a pixel shows lies in the direction that its row and column tell."""
+    store, _ = stored()
+    store.rgb[:, :, :, 0] = torch.arange(SIZE)
+    store.rgb[:, :, :, 1] = torch.arange(SIZE)[:, None]
+    store.close()
+    batch = batches.place(store, torch.arange(6).repeat(8), 64, batches.Random(store.device, 5))
+    across = batch.columns.abs() - (batch.image[..., 0].mean(1) - (SIZE - 1) / 2).abs()
+    assert across.abs().max() < 1.1  # half a pixel of the coarser grid
+    down = batch.rows - (batch.image[..., 1].mean(2) - (SIZE - 1) / 2)
+    assert down.abs().max() < 1.1
+    chair = batch.ids == CHAIR
+    assert (batch.depth[chair] == 1.5).all()
+    assert (batch.columns[:, 0] > 0).any() and (batch.columns[:, 0] < 0).any()  # some are mirrored
+
+
+def test_batches_change_colours_and_depth_within_bounds():
+    store, _ = stored()
+    store.close()
+    batch = batches.augmented(store, torch.arange(6).repeat(40), 64, batches.Random(store.device, 7))
+    assert batch.image.min() >= 0 and batch.image.max() <= 255
+    assert batch.depth.min() == 0 and batch.depth.max() < 4
+    assert 0.01 < (batch.depth == 0).float().mean() < 0.3
+    assert 1 < batch.camera_height.sub(0.88).abs().max() * 100 < 15
+    again = batches.augmented(store, torch.arange(6).repeat(40), 64, batches.Random(store.device, 7))
+    assert torch.equal(batch.image, again.image)
+
+
+def test_a_jpeg_of_high_quality_is_nearly_the_picture():
+    smooth = torch.linspace(20, 230, 64)[None, None, :, None].expand(2, 64, 64, 3)
+    made = batches.jpeg(smooth, batches.Random(torch.device("cpu"), 1))
+    assert 0.01 < (made - smooth).abs().mean() < 4
+
+
+def test_training_in_memory_draws_frames_with_false_claims_more_often(tmp_path, monkeypatch):
+    store, _ = stored(320)
+    house = store.houses[0]
+    monkeypatch.setattr(train, "folders_of", lambda *_: [tmp_path])
+    monkeypatch.setattr(frames, "House", lambda _: house)
+    args = types.SimpleNamespace(data=tmp_path, sets=["train"], most_frames=6, batch=64)
+    source = train.InMemory(args, torch.device("cpu"), 1)
+    inputs, answers = source.take(64)
+    assert inputs["image"].shape == (64, 3, 64, 64) and answers["mask"].shape == (64, 16, 16)
+    assert source.class_weight.shape == (len(common.CLASS_NAMES),)
+    for _ in range(12):
+        source.learn((source.at == 2).float())
+        source.take(64)
+    drawn = torch.bincount(torch.cat([source.at for _ in range(20) if source.take(64)]), minlength=6)
+    assert drawn[2] > 2 * drawn[[0, 1, 3, 4, 5]].max()

@@ -102,8 +102,15 @@ TEST(Batcher, ABatchHasAtMostTheSettingsFrames) {
       const auto x = static_cast<float>(frame + 1000 * agent);
       EXPECT_EQ(group.Run(agent, x)->at(0).data[0], 2 * x);
     }
+    group.sessions[static_cast<std::size_t>(agent)].reset();  // the slowest may end alone
   });
-  EXPECT_EQ(group.batches, std::vector<std::size_t>(kAgents * kFrames / 2, 2));
+  std::size_t frames = 0;
+  for (const std::size_t batch : group.batches) {
+    EXPECT_LE(batch, 2U);
+    frames += batch;
+  }
+  EXPECT_EQ(frames, static_cast<std::size_t>(kAgents) * kFrames);
+  EXPECT_GE(std::count(group.batches.begin(), group.batches.end(), 2U), kFrames);
 }
 
 TEST(Batcher, AFrameWaitsNoLongerThanTheLimit) {

@@ -45,6 +45,7 @@ TEST_F(Cards, AreReadWithDefaults) {
   EXPECT_EQ(card->output.classes, 4);
   EXPECT_EQ(card->input.mean[1], 0.5);
   EXPECT_EQ(card->input.resize, "plain");
+  EXPECT_FALSE(card->input.focal_px);
 }
 
 TEST_F(Cards, OfOurNetworksAreRead) {
@@ -54,6 +55,7 @@ goals = ["chair", "sofa"]
 limits = ["six goals only"]
 [input]
 size = 224
+focal_px = 112
 image = "colours"
 height = "height"
 [output]
@@ -73,6 +75,7 @@ minutes = 6.1
   ASSERT_TRUE(card) << card.error().Message();
   EXPECT_EQ(card->labels.size(), 2U);
   EXPECT_EQ(card->input.height, 224);
+  EXPECT_EQ(card->input.focal_px, 112);
   EXPECT_EQ(card->PortName("image"), "colours");
   EXPECT_EQ(card->PortName("dense"), "dense");
   EXPECT_DOUBLE_EQ(card->thresholds.accept[1], 0.2);

@@ -65,12 +65,27 @@ TEST(ColourTensor, ALetterboxKeepsTheShapeAndPadsWithGrey) {
 }
 
 TEST(DepthTensor, TakesTheNearestPixelAndDropsInvalidDepth) {
-  DepthImage depth(4, 4, 1.0F);
-  depth.At(3, 1) = 2;
-  depth.At(1, 1) = std::numeric_limits<float>::quiet_NaN();
-  depth.At(1, 3) = -1;
-  const Tensor t = DepthTensor(depth, InputOf(2, 2), "d");
+  Observation obs;
+  obs.depth_m = DepthImage(4, 4, 1.0F);
+  obs.depth_m.At(3, 1) = 2;
+  obs.depth_m.At(1, 1) = std::numeric_limits<float>::quiet_NaN();
+  obs.depth_m.At(1, 3) = -1;
+  const Tensor t = DepthTensor(obs, InputOf(2, 2), "d");
   EXPECT_EQ(t.data, (std::vector<float>{0, 2, 0, 1}));
+}
+
+TEST(DepthTensor, OfTheCardsFocalLengthTimesPixelsIsTheSizeInMetres) {
+  ModelCard::Input input = InputOf(64, 64);
+  input.focal_px = 32;
+  for (const double hfov_deg : {90.0, 60.0}) {
+    Observation obs;
+    obs.camera = IntrinsicsFromHfov(128, 128, DegToRad(hfov_deg));
+    obs.rgb = RgbImage(128, 128);
+    obs.depth_m = DepthImage(128, 128, 2.0F);
+    const double sofa_px =
+        1.4 / 2 * obs.camera.fx * 64 / 128;  // 1.4 m wide, 2 m away, in the input
+    EXPECT_NEAR(sofa_px * DepthTensor(obs, input, "d").data[0] / 32, 1.4, 1e-5);
+  }
 }
 
 TEST(HeightTensor, IsTheHeightAboveTheFootAtAnyPose) {
