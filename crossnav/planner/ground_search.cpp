@@ -14,7 +14,7 @@ double GroundEdgeCost(const VoxelKey& from, const VoxelKey& to, Clearance room, 
     case Clearance::kFree:
       return length + high;
     case Clearance::kTight:
-      return (length + high) * config.inflated_cost_factor;
+      return (length + high) * config.tight_cost_factor;
     case Clearance::kTouch:
     case Clearance::kPinch:
       break;

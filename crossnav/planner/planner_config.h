@@ -9,6 +9,8 @@ namespace crossnav::planner {
 struct PlannerConfig {
   double stair_edge_radius_m = 1.0;
   double inflated_cost_factor = 2;
+  double tight_cost_factor =
+      1.2;                       // chosen: profile full, ground in inflated space: doors are tight
   double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
   double high_step_cost = 2;  // chosen: [voxels] a step at the climb limit; stairs have lower ones
   double bridge_cost_factor = 2;  // chosen: as inflated space; across an unobserved tread
@@ -22,6 +24,7 @@ template <class V>
 void Visit(V& visit, PlannerConfig& c) {
   visit(CROSSNAV_SETTING(c, stair_edge_radius_m), 0.1, 5.0);
   visit(CROSSNAV_SETTING(c, inflated_cost_factor), 1.0, 100.0);
+  visit(CROSSNAV_SETTING(c, tight_cost_factor), 1.0, 100.0);
   visit(CROSSNAV_SETTING(c, touch_cost_factor), 1.0, 1000.0);
   visit(CROSSNAV_SETTING(c, high_step_cost), 0.0, 1000.0);
   visit(CROSSNAV_SETTING(c, bridge_cost_factor), 1.0, 1000.0);

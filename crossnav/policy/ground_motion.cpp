@@ -42,7 +42,7 @@ class CostToGo {
     for (int dx = -2; dx <= 2; ++dx)
       for (int dy = -2; dy <= 2; ++dy) {
         const auto near_z = ground_.StandingNear(key.x + dx, key.y + dy, z, ground_.climb());
-        if (!near_z) continue;
+        if (!near_z || !IsOpenBetween(key, dx, dy, z)) continue;
         const VoxelKey near{key.x + dx, key.y + dy, *near_z};
         const auto cost = search_.CostOf(near);
         if (!cost) continue;
@@ -52,6 +52,19 @@ class CostToGo {
   }
 
  private:
+  /// Whether there is ground on the way to a column two away: a wall can be one voxel thick.
+  bool IsOpenBetween(const VoxelKey& key, int dx, int dy, int z) const {
+    if (std::abs(dx) < 2 && std::abs(dy) < 2) return true;
+    const auto is_ground = [&](int x, int y) {
+      return ground_.StandingNear(key.x + x, key.y + y, z, ground_.climb()).has_value();
+    };
+    const int x = dx / 2, y = dy / 2;  // toward zero
+    if (is_ground(x, y)) return true;
+    if (std::abs(dx) == 1) return is_ground(dx, y);
+    if (std::abs(dy) == 1) return is_ground(x, dy);
+    return false;
+  }
+
   planner::GroundSearch From(const std::vector<VoxelKey>& path, std::size_t places,
                              const planner::PlannerConfig& planner,
                              const planner::GroundRules& rules) const {

@@ -61,13 +61,13 @@ struct ApproachConfig {
 
 /// Walking: how the body keeps clear, and how far ahead steps are searched.
 struct MotionConfig {
-  double wanted_clearance_m = 0.15;  // chosen: the body's radius and half a voxel
+  double wanted_clearance_m = 0.10;  // chosen: the body's radius
   double min_clearance_m = 0.02;     // chosen: occupied voxels are up to a voxel wider
   double clearance_weight = 4;       // chosen: [steps] extra cost of a step that touches
-  double turn_steps = 1;             // chosen: [steps] price of a turn: an action, as a step is
+  double turn_steps = 0.4;           // chosen: [steps] price of a turn, which adds no path
   double arrival_m = 0.12;           // chosen: half a forward step
   double min_gain_steps = 0.3;       // chosen: less is not worth a turn
-  int horizon_steps = 6;             // chosen: a metre and a half
+  int horizon_steps = 8;             // chosen: two metres
   double travel_pitch_deg = -30;     // chosen: sees the ground at the feet and the horizon
   double bump_m = 0.20;              // chosen: a forward step that moved less met something
 };

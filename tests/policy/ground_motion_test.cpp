@@ -45,8 +45,8 @@ TEST(GroundMotion, WalksStraightOnAStraightPath) {
   agent.p_world = {0.55, 0.55, 0.1};
   const auto actions =
       MotionAlong(ground, PathOver(ground, {5, 5, 1}, {30, 5, 1}), agent, {}, {}, {});
-  ASSERT_EQ(actions.size(), 6u);
-  EXPECT_EQ(std::count(actions.begin(), actions.end(), Action::kMoveForward), 6);
+  ASSERT_EQ(actions.size(), std::size_t(MotionConfig().horizon_steps));
+  EXPECT_EQ(std::count(actions.begin(), actions.end(), Action::kMoveForward), actions.size());
 }
 
 TEST(GroundMotion, EndsNoTurnWithoutAStep) {
@@ -181,6 +181,39 @@ TEST(GroundMotion, WalksLessWhereTurnsAreCheap) {
     cheaply_m += b_m;
   }
   EXPECT_LT(cheaply_m, walked_m);
+}
+
+/// Whether the agent arrives in the passage behind a wall of one voxel, from before the wall.
+bool WalksBehindAThinWall(double x_m, double yaw_rad) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 30, 11, 0);
+  for (int x = 0; x < 24; ++x)
+    for (int z = 0; z <= 15; ++z)
+      for (const int y : {6, 11}) SetState(map, {x, y, z}, VoxelState::kOccupied);
+  const auto ground = GroundOf(map);
+  const VoxelKey goal{2, 9, 1};
+  AgentPose agent;
+  agent.p_world = {x_m, 0.25, 0.1};
+  agent.yaw_rad = yaw_rad;
+  for (int step = 0; step < 80; ++step) {
+    if ((CenterOf(goal, 0.1) - agent.p_world).head<2>().norm() < 0.25) return true;
+    const auto here = ground.StandingAt(agent.p_world);
+    if (!here) return false;
+    const auto actions = MotionAlong(ground, PathOver(ground, *here, goal), agent, {}, {}, {});
+    if (actions.empty()) return false;
+    Do(actions.front(), agent);
+  }
+  return false;
+}
+
+// Regression: the cost-to-go of a place was read from two columns away, through a wall of one
+// voxel: where ground beside walls is cheap, the agent stood before the wall (20 of these 24
+// starts).
+TEST(GroundMotion, ReadsNoCostToGoThroughAWallOfOneVoxel) {
+  for (const double yaw_deg : {0, 90, 180, 270})
+    for (int place = 0; place < 6; ++place)
+      EXPECT_TRUE(WalksBehindAThinWall(0.25 + 0.3 * place, DegToRad(yaw_deg)))
+          << yaw_deg << ' ' << place;
 }
 
 }  // namespace
