@@ -2,7 +2,8 @@
 // How often a detector's score is right, and what several views of one thing say together
 // (crossnav/policy/view_evidence.h): houses are looked at from covering points, each sighting is
 // held against the objects that are there. Usage:
-//   detector_calibration NETWORKS_DIR HOUSE_FOLDER...
+//   detector_calibration NETWORKS_DIR [--second CARD] HOUSE_FOLDER...
+// With a second detector (networks.second_detector) the section is its [opinion.evidence].
 // Prints a reliability diagram of the score, the section [evidence] of a card (EvidenceConfig), and
 // diagrams of things after one and after several views. The first half of the houses fits, the
 // second half is judged; the last line is the fit of all.
@@ -23,6 +24,7 @@
 #include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/sim/scene/scene.h"
 #include "crossnav/sim/sensing/simulator.h"
+#include "sighting_truth.h"
 
 namespace {
 
@@ -31,8 +33,6 @@ namespace fs = std::filesystem;
 
 constexpr double kSpacing_m = 1.6;  // between the places from which a house is seen
 constexpr int kYaws = 6, kSide_px = 320;
-constexpr double kMargin_m = 0.2;  // of an object's box: voxels, and the detector's mask
-constexpr double kInside = 0.5;    // share of a sighting's voxels that makes it the object's
 constexpr double kLeastScore = 0.2;
 constexpr double kHint = 0.5;   // least score of a thing
 constexpr double kClaim = 0.7;  // and of the view that claims it
@@ -68,20 +68,6 @@ policy::VerifyConfig Separate() {
   policy::VerifyConfig config;
   config.view_angle_deg = 0;
   return config;
-}
-
-bool IsThere(const policy::Sighting& sighting, std::string_view goal, const sim::Scene& scene,
-             double voxel_m) {
-  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
-    if (instance.category != goal) return false;
-    const auto inside =
-        std::count_if(sighting.voxels.begin(), sighting.voxels.end(), [&](const auto& key) {
-          const Vector3d p = geometry::CenterOf(key, voxel_m);
-          return (p.array() >= instance.box.min.array() - kMargin_m).all() &&
-                 (p.array() <= instance.box.max.array() + kMargin_m).all();
-        });
-    return static_cast<double>(inside) >= kInside * static_cast<double>(sighting.voxels.size());
-  });
 }
 
 /// Its thing, new if there is none yet.
@@ -243,16 +229,24 @@ void PrintDiagram(const char* title, const std::vector<Scored>& all) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) return std::fprintf(stderr, "NETWORKS_DIR and two HOUSE_FOLDERs or more\n"), 2;
-  auto set = inference::NetworkSet::Read({}, argv[1]);
+  inference::NetworksConfig config;
+  int first = 2;
+  if (argc > 3 && std::string_view(argv[2]) == "--second") {
+    config.second_detector = argv[3];
+    config.second_every = 1;
+    first = 4;
+  }
+  if (argc < first + 2)
+    return std::fprintf(stderr, "NETWORKS_DIR [--second CARD] and two HOUSE_FOLDERs or more\n"), 2;
+  auto set = inference::NetworkSet::Read(config, argv[1]);
   auto suite = set ? set->MakeSuite(SensorConfig{}.camera_height_m)
                    : Result<perception::PerceptionSuite>(tl::unexpected(set.error()));
   if (!suite) return std::fprintf(stderr, "%s\n", suite.error().Message().c_str()), 1;
   std::array<House, 2> halves;
-  for (int i = 2; i < argc; ++i) {
+  for (int i = first; i < argc; ++i) {
     auto house = Look(argv[i], *suite);
     if (!house) return std::fprintf(stderr, "%s\n", house.error().Message().c_str()), 1;
-    House& half = halves[i - 2 < (argc - 2) / 2 ? 0 : 1];
+    House& half = halves[i - first < (argc - first) / 2 ? 0 : 1];
     std::fprintf(stderr, "%s: %zu sightings\n", argv[i], house->sightings.size());
     half.sightings.insert(half.sightings.end(), house->sightings.begin(), house->sightings.end());
     half.cases.insert(half.cases.end(), house->cases.begin(), house->cases.end());

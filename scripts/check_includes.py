@@ -94,7 +94,7 @@ ADAPTERS = {
     "libpng": (r"^png", ["crossnav/core/png_image.cpp"]),
     "xxHash": (r"^xxhash", ["crossnav/sim/scene/scene.cpp", "crossnav/sim/navmesh/*.cpp",
                             "crossnav/store/*.cpp", "crossnav/world/furniture/furniture_pack.cpp",
-                            "crossnav/inference/crossnav_network.cpp"]),
+                            "crossnav/inference/frame_input.cpp"]),
     "Protobuf": (r"^google/protobuf/", ["crossnav/serve/messages.cpp"]),
     "libevent": (r"^event2/", ["crossnav/watch/event_server.cpp"]),
     "OpenVINO": (r"^openvino/", ["crossnav/inference/openvino_backend.cpp"]),

@@ -58,7 +58,10 @@ void UseCards(evaluation::RunConfig& config) {
 
   const auto detector = CardOf(config, config.networks.detector);
   if (!detector) return;
-  const inference::ModelCard::Evidence& evidence = detector->evidence;
+  const auto second = CardOf(config, config.networks.second_detector);
+  const inference::ModelCard::Evidence& evidence = second && second->opinion.evidence.IsMeasured()
+                                                       ? second->opinion.evidence
+                                                       : detector->evidence;
   if (verify.evidence == "auto" && evidence.IsMeasured()) verify.evidence = "views";
   Use(evidence.offset, standard.views.offset, &verify.views.offset);
   Use(evidence.slope, standard.views.slope, &verify.views.slope);

@@ -2,11 +2,8 @@
 // Our network (networks/): colour, depth and height above the foot in; goal centres, boxes, masks,
 // stairs and dense features out. It runs once a frame, at the first call to any of its four parts.
 // An optional second network of the card draws the mask in each requested box.
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 
 #include "crossnav/inference/boxes.h"
@@ -21,23 +18,6 @@ using perception::Detection;
 using perception::PixelBox;
 
 enum Output { kHeat, kBox, kMask, kStairs, kDense };
-
-/// Equal for equal frames.
-XXH128_hash_t HashOf(const Observation& obs) {
-  const Eigen::Matrix4d pose = obs.T_world_camera.matrix();
-  const CameraIntrinsics& K = obs.camera;
-  const double rest[] = {K.fx,
-                         K.fy,
-                         K.cx,
-                         K.cy,
-                         CameraHeightOf(obs, 0),
-                         static_cast<double>(obs.rgb.width),
-                         static_cast<double>(obs.depth_m.width)};
-  const XXH64_hash_t seed = XXH3_64bits(pose.data(), sizeof(double) * 16) ^
-                            XXH3_64bits(rest, sizeof(rest)) ^
-                            XXH3_64bits(obs.depth_m.data.data(), 4 * obs.depth_m.data.size());
-  return XXH3_128bits_withSeed(obs.rgb.data.data(), sizeof(Rgb8) * obs.rgb.data.size(), seed);
-}
 
 class CrossnavModel : public Model, public std::enable_shared_from_this<CrossnavModel> {
  public:
@@ -118,8 +98,8 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
  private:
   /// All outputs for this frame.
   Result<void> See(const Observation& obs) {
-    const XXH128_hash_t hash = HashOf(obs);
-    if (seen_ && XXH128_isEqual(*seen_, hash) != 0) return {};
+    const FrameHash hash = HashOf(obs);
+    if (seen_ == hash) return {};
     seen_.reset();
     found_.clear();
     inputs_ = {ColourTensor(obs.rgb, card_.input, "image"), DepthTensor(obs, card_.input, "depth"),
@@ -254,7 +234,7 @@ class CrossnavModel : public Model, public std::enable_shared_from_this<Crossnav
   std::optional<Network> masks_;
   TextTable texts_;
   double camera_height_m_;
-  std::optional<XXH128_hash_t> seen_;  // frame of outputs_
+  std::optional<FrameHash> seen_;  // frame of outputs_
   std::vector<Tensor> inputs_, outputs_;
   Placement placement_;
   std::vector<Found> found_;  // boxes returned for this frame

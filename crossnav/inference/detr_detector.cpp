@@ -22,10 +22,25 @@ class DetrModel : public Model, public std::enable_shared_from_this<DetrModel> {
   Result<std::vector<perception::Detection>> Detect(const Observation& obs, std::string_view goal) {
     const std::vector<int> wanted = LabelsOf(goal, card_.labels);
     if (wanted.empty()) return NoSuchLabel(goal, card_);
-    const int width = obs.rgb.width, height = obs.rgb.height;
+    const auto boxes = DetectAll(obs, card_.thresholds.score);
+    if (!boxes) return tl::unexpected(boxes.error());
+    std::vector<perception::Detection> out;
+    for (const FoundBox& box : *boxes) {
+      if (std::find(wanted.begin(), wanted.end(), box.label) == wanted.end()) continue;
+      const auto pixels = Placement{}.ToFrame(box.left, box.top, box.right, box.bottom,
+                                              obs.rgb.width, obs.rgb.height);
+      const double confidence = ConfidenceOf(card_.thresholds, box.label, box.score);
+      if (pixels.Area() > 0) out.push_back({pixels, static_cast<float>(confidence), {}, 0});
+    }
+    return out;
+  }
+
+  Result<std::vector<FoundBox>> DetectAll(const Observation& obs, double least) override {
     const Tensor inputs[] = {
         ColourTensor(obs.rgb, card_.input, "images"),
-        {"orig_target_sizes", {1, 2}, {static_cast<float>(width), static_cast<float>(height)}}};
+        {"orig_target_sizes",
+         {1, 2},
+         {static_cast<float>(obs.rgb.width), static_cast<float>(obs.rgb.height)}}};
     const auto outputs = network_.Run(inputs);
     if (!outputs) return tl::unexpected(outputs.error());
     const Tensor &labels = (*outputs)[0], &boxes = (*outputs)[1], &scores = (*outputs)[2];
@@ -34,20 +49,12 @@ class DetrModel : public Model, public std::enable_shared_from_this<DetrModel> {
                   network_.where());
     std::vector<FoundBox> found;
     for (std::size_t i = 0; i < scores.data.size(); ++i) {
-      const int label = static_cast<int>(std::lround(labels.data[i]));
-      if (scores.data[i] < card_.thresholds.score) continue;
-      if (std::find(wanted.begin(), wanted.end(), label) == wanted.end()) continue;
       const float* box = &boxes.data[4 * i];
-      found.push_back({box[0], box[1], box[2], box[3], scores.data[i], label, i});
+      const int label = static_cast<int>(std::lround(labels.data[i]));
+      if (scores.data[i] >= least)
+        found.push_back({box[0], box[1], box[2], box[3], scores.data[i], label, i});
     }
-    std::vector<perception::Detection> out;
-    for (const FoundBox& box : Suppress(std::move(found), card_.thresholds.nms_iou)) {
-      const auto pixels =
-          Placement{}.ToFrame(box.left, box.top, box.right, box.bottom, width, height);
-      const double confidence = ConfidenceOf(card_.thresholds, box.label, box.score);
-      if (pixels.Area() > 0) out.push_back({pixels, static_cast<float>(confidence), {}, 0});
-    }
-    return out;
+    return Suppress(std::move(found), card_.thresholds.nms_iou);
   }
 
  private:

@@ -9,8 +9,8 @@ namespace {
 constexpr std::array kFamilies = {
     Family{"crossnav", "our network: colour, depth and height in, every head out",
            "detector segmenter stairs encoder", &OpenCrossnavNetwork},
-    Family{"detr", "DEIM, D-FINE or RT-DETR with labels, boxes and scores", "detector",
-           &OpenDetrDetector},
+    Family{"detr", "DEIM, D-FINE or RT-DETR with labels, boxes and scores",
+           "detector second_detector", &OpenDetrDetector},
     Family{"yolov8", "YOLOv8, YOLOv11 or YOLO-World with baked words", "detector", &OpenYolo8},
     Family{"yolov8-seg", "YOLOv8 with masks", "detector segmenter", &OpenYolo8Segment},
     Family{"yolo-world", "YOLO-World that is given its words", "detector", &OpenYoloWorld},
@@ -25,6 +25,10 @@ constexpr std::array kFamilies = {
 };
 
 }  // namespace
+
+Result<std::vector<FoundBox>> Model::DetectAll(const Observation& /*obs*/, double /*least*/) {
+  return Fail(ErrorCode::kUnsupported, "is no second detector", "networks.second_detector");
+}
 
 std::span<const Family> Families() {
   return kFamilies;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/inference/frame_input.h"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -105,6 +107,24 @@ float DepthScale(const Observation& obs, const ModelCard::Input& input) {
 }
 
 }  // namespace
+
+FrameHash HashOf(const Observation& obs) {
+  const Eigen::Matrix4d pose = obs.T_world_camera.matrix();
+  const CameraIntrinsics& K = obs.camera;
+  const double rest[] = {K.fx,
+                         K.fy,
+                         K.cx,
+                         K.cy,
+                         CameraHeightOf(obs, 0),
+                         static_cast<double>(obs.rgb.width),
+                         static_cast<double>(obs.depth_m.width)};
+  const XXH64_hash_t seed = XXH3_64bits(pose.data(), sizeof(double) * 16) ^
+                            XXH3_64bits(rest, sizeof(rest)) ^
+                            XXH3_64bits(obs.depth_m.data.data(), 4 * obs.depth_m.data.size());
+  const XXH128_hash_t hash =
+      XXH3_128bits_withSeed(obs.rgb.data.data(), sizeof(Rgb8) * obs.rgb.data.size(), seed);
+  return {hash.low64, hash.high64};
+}
 
 perception::PixelBox Placement::ToFrame(double left, double top, double right, double bottom,
                                         int width, int height) const {

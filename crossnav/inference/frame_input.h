@@ -3,7 +3,9 @@
 // All resizing is here. Pixel centres are at half positions in both, edges are clamped.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "crossnav/core/image.h"
@@ -17,6 +19,10 @@ namespace crossnav::inference {
 inline bool IsMeasured(float depth_m) {
   return std::isfinite(depth_m) && depth_m > 0;
 }
+
+/// Equal for equal frames: pixels, depth, camera, pose and height.
+using FrameHash = std::array<std::uint64_t, 2>;
+FrameHash HashOf(const Observation& obs);
 
 /// Place of the frame in the network's input: input px = frame px * scale + offset.
 struct Placement {

@@ -273,6 +273,20 @@ Result<void> ReadEvidence(Section section, ModelCard::Evidence& evidence) {
   return section.Finish();
 }
 
+Result<void> ReadOpinion(Section section, const std::vector<std::string>& labels,
+                         ModelCard::Opinion& opinion) {
+  section.Number("weight", opinion.weight, 0, 20);
+  section.Number("neutral", opinion.neutral, -20, 20);
+  section.Number("unseen", opinion.unseen, -20, 20);
+  Section of = section.Inner("unseen_of");
+  opinion.unseen_of.assign(labels.size(), opinion.unseen);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    of.Number(labels[i].c_str(), opinion.unseen_of[i], -20, 20);
+  if (auto ok = of.Finish(); !ok) return ok;
+  if (auto ok = ReadEvidence(section.Inner("evidence"), opinion.evidence); !ok) return ok;
+  return section.Finish();
+}
+
 Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path& path) {
   ModelCard card;
   card.path = path;
@@ -303,7 +317,8 @@ Result<ModelCard> ReadCard(const toml::table& table, const std::filesystem::path
       ReadThresholds(top.Inner("thresholds"), card.labels.size(), card.thresholds),
       ReadText(top.Inner("text"), folder, card.text),
       ReadRetrieval(top.Inner("retrieval"), card.retrieval),
-      ReadEvidence(top.Inner("evidence"), card.evidence)};
+      ReadEvidence(top.Inner("evidence"), card.evidence),
+      ReadOpinion(top.Inner("opinion"), card.labels, card.opinion)};
   if (auto ok = top.Finish(); !ok) return tl::unexpected(ok.error());
   for (const auto& part : parts)
     if (!part) return tl::unexpected(part.error());

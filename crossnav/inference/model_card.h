@@ -89,6 +89,16 @@ struct ModelCard {
     bool IsMeasured() const { return offset && slope && missed && found && too_short; }
   } evidence;
 
+  /// Of a second detector (second_opinion.h), as benchmarks/detector_pair measured it beside our
+  /// network: log-odds.
+  struct Opinion {
+    std::optional<double> weight;   ///< of its log-odds for the goal less those of its best rival
+    double neutral = 0;             ///< added, so that the mean confidence stays
+    double unseen = 0;              ///< of a box that the first detector does not have
+    std::vector<double> unseen_of;  ///< likewise, by label
+    Evidence evidence;              ///< of both together
+  } opinion;
+
   /// The second file of a network that has two.
   struct Second {
     std::filesystem::path file;

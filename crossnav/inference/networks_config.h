@@ -13,6 +13,10 @@ struct NetworksConfig {
   // Our own network in all roles; chosen: it is in the repository.
   /// or several: the first with a label for the goal answers
   std::string detector = "crossnav_small";
+  /// that raises or lowers the detector's confidence where both have a box; empty = none
+  std::string second_detector;
+  /// the second detector also looks in one of so many frames in which the first has no box
+  int second_every = 4;  // chosen: it costs as much as the first
   /// or depth: the depth cluster in the box, without a file
   std::string segmenter = "crossnav_small";
   std::string stairs = "crossnav_small";
@@ -28,6 +32,8 @@ template <class V>
 void Visit(V& visit, NetworksConfig& c) {
   visit(CROSSNAV_SETTING(c, dir));
   visit(CROSSNAV_SETTING(c, detector));
+  visit(CROSSNAV_SETTING(c, second_detector));
+  visit(CROSSNAV_SETTING(c, second_every), 1, 1000);
   visit(CROSSNAV_SETTING(c, segmenter));
   visit(CROSSNAV_SETTING(c, stairs));
   visit(CROSSNAV_SETTING(c, encoder));

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "crossnav/inference/boxes.h"
 #include "crossnav/inference/model_card.h"
 #include "crossnav/inference/network.h"
 #include "crossnav/perception/perception.h"
@@ -22,6 +23,9 @@ class Model {
   virtual std::unique_ptr<perception::Segmenter> MakeSegmenter() { return nullptr; }
   virtual std::unique_ptr<perception::StairSegmenter> MakeStairs() { return nullptr; }
   virtual std::unique_ptr<perception::DenseEncoder> MakeEncoder() { return nullptr; }
+  /// Of a second detector (second_opinion.h): the boxes of all its classes [px of the frame], after
+  /// suppression, with scores from `least` on. kUnsupported from other families.
+  virtual Result<std::vector<FoundBox>> DetectAll(const Observation& obs, double least);
 };
 
 /// Name of a dense encoder in saved memories: the network's name and the beginning of its hash.
@@ -93,7 +97,8 @@ using OpenModel = Result<std::shared_ptr<Model>> (*)(const ModelCard& card,
 struct Family {
   const char* name;   ///< as in cards
   const char* what;   ///< description for users
-  const char* parts;  ///< provided parts: some of "detector segmenter stairs encoder"
+  const char* parts;  ///< provided parts: some of "detector second_detector segmenter
+                      ///< stairs encoder"
   OpenModel open;
 };
 

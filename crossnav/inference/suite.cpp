@@ -11,6 +11,7 @@
 #include "crossnav/inference/batcher.h"
 #include "crossnav/inference/depth_mask.h"
 #include "crossnav/inference/detector_by_goal.h"
+#include "crossnav/inference/second_opinion.h"
 #include "crossnav/inference/sha256.h"
 
 namespace crossnav::inference {
@@ -38,6 +39,7 @@ std::vector<std::string> NamesOf(const std::string& list) {
 std::vector<Role> RolesOf(const NetworksConfig& config) {
   std::vector<Role> roles;
   for (std::string& name : NamesOf(config.detector)) roles.push_back({"detector", std::move(name)});
+  if (!config.second_detector.empty()) roles.push_back({"second_detector", config.second_detector});
   roles.push_back({"segmenter", config.segmenter});
   roles.push_back({"stairs", config.stairs});
   roles.push_back({"encoder", config.encoder});
@@ -132,6 +134,10 @@ Result<NetworkSet> NetworkSet::Read(const NetworksConfig& config, const std::fil
                   path.string());
     if (set.cards_.count(name) == 0)
       if (auto ok = set.HashFiles(*card); !ok) return tl::unexpected(ok.error());
+    if (part == std::string_view("second_detector") && !card->opinion.weight)
+      return Fail(ErrorCode::kMismatch,
+                  "key \"opinion.weight\" is missing; networks.second_detector needs it",
+                  path.string());
     if (part == std::string_view("encoder")) set.encoder_name_ = EncoderNameOf(*card);
     set.cards_.emplace(name, std::move(*card));
   }
@@ -191,6 +197,13 @@ Result<perception::PerceptionSuite> NetworkSet::MakeSuite(double camera_height_m
   suite.detector = MakeDetectorByGoal(std::move(detectors));
   if (models.count("segmenter") > 0) suite.segmenter = models["segmenter"]->MakeSegmenter();
   if (config_.segmenter == kDepthSegmenter) suite.segmenter = MakeDepthSegmenter();
+  if (models.count("second_detector") > 0 && suite.detector && suite.segmenter) {
+    DetectorPair pair = MakeDetectorPair(std::move(suite.detector), std::move(suite.segmenter),
+                                         models_[config_.second_detector],
+                                         cards_.at(config_.second_detector), config_.second_every);
+    suite.detector = std::move(pair.detector);
+    suite.segmenter = std::move(pair.segmenter);
+  }
   if (models.count("stairs") > 0) suite.stairs = models["stairs"]->MakeStairs();
   if (models.count("encoder") > 0) suite.encoder = models["encoder"]->MakeEncoder();
   return suite;

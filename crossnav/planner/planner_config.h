@@ -9,9 +9,8 @@ namespace crossnav::planner {
 struct PlannerConfig {
   double stair_edge_radius_m = 1.0;
   double inflated_cost_factor = 2;
-  double tight_cost_factor =
-      1.2;                       // chosen: profile full, ground in inflated space: doors are tight
-  double touch_cost_factor = 6;  // chosen: a detour of a metre around a spot of one voxel's width
+  double tight_cost_factor = 1.2;  // chosen: of profile full, in place of it: doors are tight
+  double touch_cost_factor = 6;    // chosen: a detour of a metre around a spot of one voxel's width
   double high_step_cost = 2;  // chosen: [voxels] a step at the climb limit; stairs have lower ones
   double bridge_cost_factor = 2;  // chosen: as inflated space; across an unobserved tread
   // chosen: a storey's exploration, for a step down without a known path back up
