@@ -3,7 +3,7 @@
 // (crossnav/policy/view_evidence.h): houses are looked at from covering points, each sighting is
 // held against the objects that are there. Usage:
 //   detector_calibration NETWORKS_DIR [--second CARD] HOUSE_FOLDER...
-// With a second detector (networks.second_detector) the section is its [opinion.evidence].
+// --second: of the pair with networks.second_detector.
 // Prints a reliability diagram of the score, the section [evidence] of a card (EvidenceConfig), and
 // diagrams of things after one and after several views. The first half of the houses fits, the
 // second half is judged; the last line is the fit of all.

@@ -58,10 +58,7 @@ void UseCards(evaluation::RunConfig& config) {
 
   const auto detector = CardOf(config, config.networks.detector);
   if (!detector) return;
-  const auto second = CardOf(config, config.networks.second_detector);
-  const inference::ModelCard::Evidence& evidence = second && second->opinion.evidence.IsMeasured()
-                                                       ? second->opinion.evidence
-                                                       : detector->evidence;
+  const inference::ModelCard::Evidence& evidence = detector->evidence;
   if (verify.evidence == "auto" && evidence.IsMeasured()) verify.evidence = "views";
   Use(evidence.offset, standard.views.offset, &verify.views.offset);
   Use(evidence.slope, standard.views.slope, &verify.views.slope);

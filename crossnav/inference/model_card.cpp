@@ -283,7 +283,6 @@ Result<void> ReadOpinion(Section section, const std::vector<std::string>& labels
   for (std::size_t i = 0; i < labels.size(); ++i)
     of.Number(labels[i].c_str(), opinion.unseen_of[i], -20, 20);
   if (auto ok = of.Finish(); !ok) return ok;
-  if (auto ok = ReadEvidence(section.Inner("evidence"), opinion.evidence); !ok) return ok;
   return section.Finish();
 }
 

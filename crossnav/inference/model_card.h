@@ -96,7 +96,6 @@ struct ModelCard {
     double neutral = 0;             ///< added, so that the mean confidence stays
     double unseen = 0;              ///< of a box that the first detector does not have
     std::vector<double> unseen_of;  ///< likewise, by label
-    Evidence evidence;              ///< of both together
   } opinion;
 
   /// The second file of a network that has two.
