@@ -188,7 +188,7 @@ def test_from_pixels_actions_are_those_of_crossnav_run(
     scene = crossnav.Scene(scenes_dir, config=SMALL)
     simulator = crossnav.Simulator(scene)
     simulator.reset(crossnav.read_episodes(made)[0].start)
-    server = serve()
+    server = serve("--networks", "own")  # `run` never takes a preset by itself
     with server.client(camera_of(simulator)) as client:
         assert "sofa" in client.welcome.goals
         goal = ""
