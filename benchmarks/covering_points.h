@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "crossnav/core/pose.h"
 #include "crossnav/core/rng.h"
 #include "crossnav/sim/navmesh/navmesh.h"
 
@@ -25,6 +26,17 @@ inline std::vector<Vector3d> CoveringPoints(const sim::NavMesh& navmesh, double 
     if (!is_near) kept.push_back(*p);
   }
   return kept;
+}
+
+/// Poses of a robot that looks around at these points: six directions, level and 30 degrees down in
+/// turn.
+inline std::vector<AgentPose> LooksFrom(const std::vector<Vector3d>& points) {
+  constexpr int kYaws = 6;
+  std::vector<AgentPose> poses;
+  for (const Vector3d& p : points)
+    for (int yaw = 0; yaw < kYaws; ++yaw)
+      poses.push_back({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)});
+  return poses;
 }
 
 }  // namespace crossnav

@@ -32,7 +32,7 @@ using namespace crossnav;  // NOLINT: a program, not a header
 namespace fs = std::filesystem;
 
 constexpr double kSpacing_m = 1.6;  // between the places from which a house is seen
-constexpr int kYaws = 6, kSide_px = 320;
+constexpr int kSide_px = 320;
 constexpr double kLeastScore = 0.2;
 constexpr double kHint = 0.5;   // least score of a thing
 constexpr double kClaim = 0.7;  // and of the view that claims it
@@ -127,10 +127,7 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
   sensor.width_px = sensor.height_px = kSide_px;
   sim::Simulator simulator(*scene, *navmesh, caster, sensor, {});
   const double voxel_m = geometry::MapConfig{}.voxel_m;
-  std::vector<AgentPose> poses;
-  for (const Vector3d& p : CoveringPoints(*navmesh, kSpacing_m, kMostPoints))
-    for (int yaw = 0; yaw < kYaws; ++yaw)
-      poses.push_back({p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)});
+  std::vector<AgentPose> poses = LooksFrom(CoveringPoints(*navmesh, kSpacing_m, kMostPoints));
   std::erase_if(poses, [&](const AgentPose& pose) { return !simulator.Reset(pose).has_value(); });
   House house;
   std::array<std::vector<Thing>, kCategories.size()> things;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a second detector adds to the first (crossnav/inference/second_opinion.h): houses are looked
-// at from covering points, and each box of either is held against the objects that are there.
+// Gain of a second detector over the first alone (crossnav/inference/second_opinion.h): houses are
+// looked at from covering points, and each box of either is held against the objects there.
 // Usage:
 //   detector_pair NETWORKS_DIR SECOND HOUSE_FOLDER... -- HOUSE_FOLDER...
 // Fits the section [opinion] of SECOND's card on the first houses and prints it; on the others it
@@ -33,8 +33,8 @@ using inference::FoundBox;
 using perception::Detection;
 using perception::PixelBox;
 
-constexpr double kSpacing_m = 1.6;  // between the places from which a house is seen
-constexpr int kYaws = 6, kSide_px = 320, kMostPoints = 60;
+constexpr double kSpacing_m = 1.6;           // between the places from which a house is seen
+constexpr int kSide_px = 320, kMisses = 60;  // kMisses: see CoveringPoints
 constexpr std::size_t kGoals = kCategories.size();
 constexpr std::size_t kSides = 2 + kGoals;  // of a row: first, difference, unseen by goal
 
@@ -94,16 +94,14 @@ Result<void> Look(const fs::path& folder, Detectors& with, std::vector<Case>& ca
   SensorConfig sensor;
   sensor.width_px = sensor.height_px = kSide_px;
   sim::Simulator simulator(*scene, *navmesh, caster, sensor, {});
-  for (const Vector3d& p : CoveringPoints(*navmesh, kSpacing_m, kMostPoints))
-    for (int yaw = 0; yaw < kYaws; ++yaw) {
-      const AgentPose pose{p, yaw * 2 * M_PI / kYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)};
-      if (!simulator.Reset(pose)) continue;
-      const Observation obs = simulator.Observe();
-      const auto boxes = with.second->DetectAll(obs, inference::kLeastScore);
-      if (!boxes) return tl::unexpected(boxes.error());
-      for (std::size_t goal = 0; goal < kGoals; ++goal)
-        if (auto ok = AddCases(obs, goal, *boxes, *scene, with, cases); !ok) return ok;
-    }
+  for (const AgentPose& pose : LooksFrom(CoveringPoints(*navmesh, kSpacing_m, kMisses))) {
+    if (!simulator.Reset(pose)) continue;
+    const Observation obs = simulator.Observe();
+    const auto boxes = with.second->DetectAll(obs, inference::kLeastScore);
+    if (!boxes) return tl::unexpected(boxes.error());
+    for (std::size_t goal = 0; goal < kGoals; ++goal)
+      if (auto ok = AddCases(obs, goal, *boxes, *scene, with, cases); !ok) return ok;
+  }
   std::fprintf(stderr, "%s: %zu boxes so far\n", folder.c_str(), cases.size());
   return {};
 }

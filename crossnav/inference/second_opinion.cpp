@@ -43,10 +43,12 @@ class Second {
     const std::vector<int> wanted = LabelsOf(goal, labels_);
     const FrameHash hash = HashOf(obs);
     const bool is_known = seen_ == hash;
-    if (wanted.empty() || (!is_known && first.empty() && hash[0] % every_ != 0)) return first;
     if (!is_known) {
       seen_.reset();
       alone_.clear();
+    }
+    if (wanted.empty() || (!is_known && first.empty() && hash[0] % every_ != 0)) return first;
+    if (!is_known) {
       auto boxes = model_->DetectAll(obs, kLeastScore);
       if (!boxes) return tl::unexpected(boxes.error());
       boxes_ = std::move(*boxes);

@@ -18,7 +18,7 @@ inline constexpr double kLeastAlone = 0.1;   // chosen: score of a box that the 
 /// Log-odds of a score between `kLeastScore` and 0.98.
 double BoundedLogOdds(double score);
 
-/// What the second says of a box.
+/// Scores of the second detector for a box of either.
 struct PairScores {
   double goal = 0, rival = 0;       ///< best scores of the goal and of other classes; 0 = no box
   std::optional<std::size_t> best;  ///< index of the box of `goal`
