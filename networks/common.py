@@ -16,18 +16,21 @@ FOCAL_PX = INPUT_PX / 2  # of the network's own pictures, HFOV_DEG wide: their d
 # In the order of kCategories (crossnav/core/categories.h).
 GOALS = ["chair", "bed", "plant", "toilet", "tv_monitor", "sofa"]
 
-# Seeds of generated houses, the generator's edition and their part of the furniture. Held-out seeds begin at
+# Seeds of generated houses, the generator's edition, other options and their part of the furniture. Held-out seeds begin at
 # 5001; held-out furniture appears in sets with `test` in their name only.
+VARIED = ["--varied", "--area", 70]  # small rooms, furniture of uncommon sizes in uncommon places
 SETS = {
     "train": {"seeds": range(2001, 2105), "furniture": "train", "frames": 120},
     "train-2": {"seeds": range(3001, 3105), "furniture": "train", "frames": 120, "edition": 2},
     "train-3": {"seeds": range(3201, 3361), "furniture": "program", "frames": 120, "edition": 2},
+    "train-4": {"seeds": range(3401, 3561), "furniture": "program", "frames": 120, "edition": 2, "options": VARIED},
+    "train-5": {"seeds": range(3601, 3761), "furniture": "train", "frames": 120, "edition": 2, "options": VARIED},
     "dev": {"seeds": range(2901, 2907), "furniture": "train", "frames": 60},
     "dev-2": {"seeds": range(3901, 3907), "furniture": "train", "frames": 60, "edition": 2},
     "test": {"seeds": range(5101, 5111), "furniture": "held", "frames": 60},
     "test-2": {"seeds": range(6101, 6111), "furniture": "held", "frames": 60, "edition": 2},
 }
-TRAIN_SETS, DEV_SETS, TEST_SETS = ["train", "train-2", "train-3"], ["dev", "dev-2"], ["test", "test-2"]
+TRAIN_SETS, DEV_SETS, TEST_SETS = ["train", "train-2", "train-3", "train-4", "train-5"], ["dev", "dev-2"], ["test", "test-2"]
 
 # The archive of the package `sweethome3d`: nine homes that people drew, and the catalogue of furniture that they
 # are furnished from. Two homes are trained on, as is the catalogue (`program` furniture). The other homes, and a
@@ -37,7 +40,7 @@ LOOKED_AT = ["3BedroomHouseWithMezzanine", "4BedroomHouse"]  # their pictures we
 HOMES = ["1BedroomApartmentWithRoundWall", "2BedroomApartment", "2BedroomApartmentWithBowWindow",
          "2BedroomHouseWithBasement", "3BedroomApartment", "3BedroomHouseWithAttic", "Studio"]
 STYLES = {
-    "train-drawn": {"input": HOMES_JAR, "homes": LOOKED_AT, "frames": 800},
+    "train-drawn": {"input": HOMES_JAR, "homes": LOOKED_AT, "frames": 1600},
     "drawn": {"input": HOMES_JAR, "homes": HOMES, "frames": 120},
     "building": {"input": SHARED / "data/ifc/Duplex.ifc", "furnish": [1, 2, 3], "frames": 100},
 }

@@ -70,14 +70,16 @@ class Network(nn.Module):
         a, b, c, d, e = widths
         self.stem = nn.Sequential(conv(7, a, 3, 2), conv(a, b, 3, 2), Plain(b))  # 1/4
         self.eighth = nn.Sequential(conv(b, c, 3, 2), Plain(c), Plain(c))
-        self.sixteenth = nn.Sequential(conv(c, d, 3, 2), *[Narrow(d, 80) for _ in range(3)])
+        self.eighth_more = nn.Sequential(*[Narrow(c, 48) for _ in range(4)])
+        self.sixteenth = nn.Sequential(conv(c, d, 3, 2), *[Narrow(d, 80) for _ in range(8)])
         self.deepest = nn.Sequential(conv(d, e, 3, 2), Narrow(e, 96), Narrow(e, 96), Context(e))
+        self.deepest_more = nn.Sequential(*[Narrow(e, 96) for _ in range(3)])
         self.from_deepest, self.at_sixteenth = conv(e, 96, 1, act=False), conv(d, 96, 1, act=False)
         self.mix_sixteenth = nn.Sequential(nn.ReLU(inplace=True), conv(96, 96))
         self.to_eighth, self.at_eighth = conv(96, 80, 1, act=False), conv(c, 80, 1, act=False)
-        self.mix_eighth = nn.Sequential(nn.ReLU(inplace=True), Plain(80))
+        self.mix_eighth = nn.Sequential(nn.ReLU(inplace=True), Plain(80), Narrow(80, 48), Narrow(80, 48))
         self.to_quarter, self.at_quarter = conv(80, 64, 1, act=False), conv(b, 64, 1, act=False)
-        self.mix_quarter = nn.Sequential(nn.ReLU(inplace=True), conv(64, 64))
+        self.mix_quarter = nn.Sequential(nn.ReLU(inplace=True), conv(64, 64), Narrow(64, 32))
         self.detect = nn.Sequential(conv(64, 64), nn.Conv2d(64, GOALS + 4, 1))
         self.label = nn.Sequential(conv(64, 64), nn.Conv2d(64, GOALS + 2, 1))
         self.name = nn.Sequential(conv(80, 96), nn.Conv2d(96, len(common.CLASS_NAMES), 1))
@@ -89,9 +91,9 @@ class Network(nn.Module):
     def raw(self, image, depth, height):
         """Logits of heat, mask, stairs and names; logarithms of the box edges [input px]."""
         quarter = self.stem(planes(image, depth, height))
-        eighth = self.eighth(quarter)
+        eighth = self.eighth_more(self.eighth(quarter))
         sixteenth = self.sixteenth(eighth)
-        deepest = self.deepest(sixteenth)
+        deepest = self.deepest_more(self.deepest(sixteenth))
         x = up(self.from_deepest(deepest), sixteenth.shape[-1]) + self.at_sixteenth(sixteenth)
         x = self.mix_sixteenth(x)
         x = self.mix_eighth(up(self.to_eighth(x), eighth.shape[-1]) + self.at_eighth(eighth))

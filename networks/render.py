@@ -29,7 +29,7 @@ def house_options(name, seed, parts):
     if furniture == parts["train"] and name in common.TRAIN_SETS and seed % (10 if edition == 1 else 4) == 0:
         furniture = "none"
     scan = ["--scan"] if seed % 5 == 3 else []
-    return ["--furniture", furniture, "--edition", edition, *scan]
+    return ["--furniture", furniture, "--edition", edition, *common.SETS[name].get("options", []), *scan]
 
 
 def generate(name, seed, parts):

@@ -36,10 +36,16 @@ def pairs(network):
 
 
 def load(network, file, prefix=""):
-    """Norms only add the folded bias afterwards; `settle` is still needed before training."""
+    """Norms only add the folded bias afterwards; `settle` is still needed before training. Blocks that the file
+    lacks add nothing to their input at first."""
     stored = weights_of(file, prefix)
     with torch.no_grad():
+        for name, module in network.named_modules():
+            if hasattr(module, "body") and f"{name}.body.0.0.weight" not in stored:
+                module.body[-1][1].weight.zero_()
         for name, convolution, norm in pairs(network):
+            if f"{name}.weight" not in stored:
+                continue
             convolution.weight.copy_(stored.pop(f"{name}.weight"))
             norm.bias.copy_(stored.pop(f"{name}.bias"))
             norm.weight.fill_(1)
@@ -78,5 +84,6 @@ def settle(network, batches):
             variance = (seen.squares / seen.count - mean.square()).clamp(min=0)
             norm.running_mean.copy_(mean)
             norm.running_var.copy_(variance)
-            norm.weight.copy_((norm.running_var + norm.eps).sqrt())
-            norm.bias.add_(norm.running_mean)
+            if norm.weight.any():
+                norm.weight.copy_((norm.running_var + norm.eps).sqrt())
+                norm.bias.add_(norm.running_mean)

@@ -40,6 +40,7 @@ struct WorldOptions {
   std::string furniture;      ///< pack folder, "none", or empty = the default folder
   std::string contact_sheet;  ///< .png; empty = none
   bool embedded = false, scan = false;
+  bool varied = false;
 
   /// Parameters of house `i` of the set.
   world::HouseParams ParamsOf(int i) const {
@@ -50,6 +51,7 @@ struct WorldOptions {
     params.floors = floors;
     params.area_m2 = area_m2;
     params.is_scan = scan;
+    params.is_varied = varied;
     return params;
   }
 };

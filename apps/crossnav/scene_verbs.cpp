@@ -30,6 +30,8 @@ void AddHouses(CLI::App* verb, WorldOptions& world) {
                    "made, where there is one")
       ->type_name("DIR|none");
   verb->add_flag("--scan", world.scan, "With the faults of a real scan, drawn from the seed");
+  verb->add_flag("--varied", world.varied,
+                 "Furniture of uncommon sizes in uncommon places: houses to train networks in");
 }
 
 void AddChange(CLI::App& world, Options& o) {

@@ -232,6 +232,40 @@ def test_a_run_from_an_exported_file_starts_with_its_answers(tmp_path):
         assert (trained[name] - value).abs().max() < 0.02 * scale, name  # the norms are those of the batch
 
 
+def test_blocks_that_an_exported_file_lacks_change_none_of_its_answers(tmp_path):
+    pytest.importorskip("onnx")
+    import export
+    import onnx
+    import warm
+
+    torch.manual_seed(1)
+    narrow = (8, 16, 16, 24, 32)
+    first = model.Network(widths=narrow)
+    inputs, _ = batch()
+    first.raw(*inputs)
+    with torch.no_grad():  # the file of a network without these blocks: they are not in it and added nothing
+        for block in first.deepest_more:
+            block.body[-1][1].weight.zero_()
+            block.body[-1][1].bias.zero_()
+    file = tmp_path / "toy.onnx"
+    export.export(export.fold_norms(first.eval()), file, SIZE)
+    graph = onnx.load(file)
+    kept = [row for row in graph.graph.initializer if not row.name.startswith("deepest_more")]
+    assert len(kept) < len(graph.graph.initializer)
+    del graph.graph.initializer[:]
+    graph.graph.initializer.extend(kept)
+    onnx.save(graph, file)
+    second = model.Network(widths=narrow)
+    warm.load(second, file)
+    warm.settle(second, [{"image": (inputs[0] * 255).round().to(torch.uint8), "depth": inputs[1], "height": inputs[2]}] * 2)
+    with torch.no_grad():
+        mine, theirs = second.raw(*inputs), first.raw(*inputs)
+    for name, value in theirs.items():
+        assert (mine[name] - value).abs().max() < 0.01 * max(1, float(value.abs().max())), name
+    second.train().raw(*inputs)["heat"].mean().backward()
+    assert second.deepest_more[0].body[-1][1].weight.grad.abs().max() > 0  # and it can learn
+
+
 def test_integers_answer_nearly_as_float_does_and_can_be_trained_on(tmp_path):
     pytest.importorskip("onnx")
     ort = pytest.importorskip("onnxruntime")

@@ -276,6 +276,36 @@ TEST(HouseGenerator, RoomsOfAHouseCanBeReadBack) {
   EXPECT_EQ(ReadHouseRooms(house->folder).error().code, ErrorCode::kMalformed);
 }
 
+TEST(HouseGenerator, AVariedHouseHasFurnitureOfOtherSizesInOtherPlaces) {
+  FurnitureSource odd;
+  odd.has_odd_sizes = true;
+  std::size_t plain_pieces = 0, varied_pieces = 0;
+  std::vector<double> plants_m;
+  for (const std::uint64_t seed : {7, 8, 9, 10}) {
+    HouseParams params;
+    params.seed = seed;
+    params.floors = 1;
+    params.area_m2 = 70;
+    const auto plain = DrawFurnishedPlan(params, 0, {});
+    params.is_varied = true;
+    const auto varied = DrawFurnishedPlan(params, 0, odd),
+               again = DrawFurnishedPlan(params, 0, odd);
+    ASSERT_TRUE(plain && varied && again);
+    plain_pieces += plain->furniture.size();
+    varied_pieces += varied->furniture.size();
+    ASSERT_EQ(varied->furniture.size(), again->furniture.size());
+    for (std::size_t i = 0; i < varied->furniture.size(); ++i) {
+      const ObjectModel& model = varied->furniture[i].model;
+      EXPECT_EQ(model.Size(), again->furniture[i].model.Size());
+      if (model.name.find("plant") != std::string::npos) plants_m.push_back(model.Size().z());
+    }
+  }
+  EXPECT_GT(varied_pieces, plain_pieces + 12);
+  ASSERT_GT(plants_m.size(), 2u);
+  const auto [least_m, most_m] = std::minmax_element(plants_m.begin(), plants_m.end());
+  EXPECT_LT(2 * *least_m, *most_m) << "plants from small to large";
+}
+
 TEST(HouseGenerator, RefusesImpossibleWishes) {
   const test::TempFolder dir;
   HouseParams params;

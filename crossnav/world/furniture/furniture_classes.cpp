@@ -156,6 +156,9 @@ constexpr FurnitureClass kClasses[] = {
     {"eTeks#bed", "bed"},
     {"eTeks#bed140x190", "bed"},
     {"eTeks#bed90x190", "bed"},
+    {"eTeks#bunkBed90x190", "bunk bed"},
+    {"eTeks#cornerBunkBed90x190", "bunk bed"},
+    {"eTeks#loftBed140x190", "loft bed"},
     {"eTeks#bedsideTable", "bedside table"},
     {"eTeks#bookcase", "bookcase"},
     {"eTeks#filledBookcase", "bookcase"},
@@ -188,6 +191,7 @@ constexpr FurnitureClass kClasses[] = {
     {"eTeks#workLamp", "table lamp"},
     {"eTeks#toiletUnit", "toilet"},
     {"eTeks#flatTV", "tv"},
+    {"eTeks#tvUnit", "tv unit"},
     {"eTeks#wardrobe", "wardrobe"},
     {"eTeks#washbasin", "washbasin"},
 };

@@ -67,7 +67,58 @@ class Dweller {
     }
   }
 
+  /// Goal objects and their look-alikes, several of a kind, where no rule of a room puts them.
+  void AddOddPieces() {
+    static constexpr std::string_view kPieces[] = {
+        "armchair",     "armchair",     "armchair",     "couch",
+        "couch",        "chair",        "chair",        "dining chair",
+        "dining chair", "office chair", "potted plant", "potted plant",
+        "tv",           "tv unit",      "tv",           "bed",
+        "bunk bed",     "loft bed",     "toilet",       "stool",
+        "stool",        "bench",        "ottoman",      "desk",
+        "bookcase",     "coffee table", "dining table", "computer monitor"};
+    const int count = rng_.Int(3, 4 + static_cast<int>(space_.inner.Area() / 2));
+    for (int i = 0; i < count; ++i) {
+      const std::string_view kind = kPieces[rng_.Below(std::size(kPieces))];
+      const auto model = source_.Make(kind, rng_);
+      if (!model) continue;
+      const bool is_light = kind == "potted plant" || kind == "tv" || kind == "computer monitor";
+      const Pose T = is_light && rng_.Chance(0.5) ? OnWall(*model) : Anywhere();
+      if (TryPut(*model, T) && rng_.Chance(0.3)) AddRow(*model, T);
+    }
+  }
+
  private:
+  Pose Anywhere() {
+    const Rect& in = space_.inner;
+    const Vector3d p(rng_.Uniform(in.x0, in.x1), rng_.Uniform(in.y0, in.y1), space_.floor_m);
+    return StandAt(p, rng_.Uniform(0, 2 * pi));
+  }
+
+  /// As on a sill or a board, the back to one of the four walls.
+  Pose OnWall(const ObjectModel& model) {
+    const Rect& in = space_.inner;
+    const double yaw_rad = 0.5 * pi * rng_.Int(0, 3);
+    const Vector2d front(-std::sin(yaw_rad), std::cos(yaw_rad));
+    const double depth_m = 0.5 * model.Size().y() + 0.005;
+    Vector2d p(rng_.Uniform(in.x0, in.x1), rng_.Uniform(in.y0, in.y1));
+    if (front.x() > 0.5) p.x() = in.x0 + depth_m;
+    if (front.x() < -0.5) p.x() = in.x1 - depth_m;
+    if (front.y() > 0.5) p.y() = in.y0 + depth_m;
+    if (front.y() < -0.5) p.y() = in.y1 - depth_m;
+    return StandAt({p.x(), p.y(), space_.floor_m + rng_.Uniform(0.3, 1.6)}, yaw_rad);
+  }
+
+  /// Up to four more of the same beside the first.
+  void AddRow(const ObjectModel& model, Pose T) {
+    const double step_m = model.Size().x() + rng_.Uniform(0.03, 0.3);
+    const int count = rng_.Int(1, 4);
+    for (int i = 0; i < count; ++i) {
+      T.translate(Vector3d(step_m, 0, 0));
+      if (!TryPut(model, T)) return;
+    }
+  }
+
   static void Scale(ObjectModel& model, double factor) {
     for (auto& v : model.mesh.vertices) v *= static_cast<float>(factor);
     model.top_m = -1;
@@ -128,6 +179,7 @@ void LiveIn(HousePlan& plan, const LivedIn& chances, const FurnitureSource& sour
     dweller.HideGoals(chances.hidden_goal_chance);
     dweller.AddSmallPlants(chances.small_goal_chance);
     if (rng.Chance(chances.clutter_chance)) dweller.Litter();
+    if (chances.has_odd_pieces) dweller.AddOddPieces();
   }
 }
 

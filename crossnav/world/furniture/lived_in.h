@@ -13,6 +13,7 @@ struct LivedIn {
   double clutter_chance = 0;      ///< of a room: objects on its floor
   double small_goal_chance = 0;   ///< of a top: a small plant on it
   double hidden_goal_chance = 0;  ///< of a goal object: an object before it
+  bool has_odd_pieces = false;    ///< more furniture at any angle, in rows, on walls
 };
 
 void LiveIn(HousePlan& plan, const LivedIn& chances, const FurnitureSource& source, Rng& rng);

@@ -72,6 +72,7 @@ std::string HouseText(const HousePlan& plan, const HouseParams& params, const Fu
                 {"rooms", std::move(rooms)},
                 {"credits", pack ? CreditsJson(plan, *pack) : Json::array()}};
   if (params.edition != 1) house["edition"] = params.edition;  // edition 1 keeps its bytes
+  if (params.is_varied) house["varied"] = true;
   return house.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -117,7 +117,9 @@ Result<void> ClearRooms(HousePlan& plan) {
 /// violated requirement.
 Result<HouseReport> Attempt(const HouseParams& params, int attempt, const fs::path& out_dir,
                             const FurniturePack* pack) {
-  auto plan = DrawFurnishedPlan(params, attempt, {pack, params.has_textures});
+  FurnitureSource source{pack, params.has_textures};
+  source.has_odd_sizes = params.is_varied;
+  auto plan = DrawFurnishedPlan(params, attempt, source);
   if (!plan) return tl::unexpected(plan.error());
   if (params.edition > 1) {
     if (auto ok = ClearRooms(*plan); !ok) return tl::unexpected(ok.error());
@@ -163,9 +165,10 @@ Result<HousePlan> DrawFurnishedPlan(const HouseParams& params, int attempt,
   plan->id = SceneIdOf(params);
   Furnish(*plan, source, rng);
   const Edition& edition = EditionOf(params.edition);
-  if (edition.number == 1) return plan;
-  LiveIn(*plan, {edition.clutter_chance, edition.small_goal_chance, edition.hidden_goal_chance},
-         source, rng);
+  if (edition.number == 1 && !params.is_varied) return plan;
+  LivedIn chances{edition.clutter_chance, edition.small_goal_chance, edition.hidden_goal_chance};
+  chances.has_odd_pieces = params.is_varied;
+  LiveIn(*plan, chances, source, rng);
   return plan;
 }
 

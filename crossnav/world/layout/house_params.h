@@ -21,6 +21,7 @@ struct HouseParams {
   bool has_textures = true;
   bool has_lights = true;  ///< light of windows and lamps, baked into vertex colours
   bool is_scan = false;    ///< holes, noise and floating fragments, as in a real scan
+  bool is_varied = false;  ///< furniture of uncommon sizes in uncommon places, to train networks
   int max_attempts = 0;    ///< plans tried; 0 = the edition's default
 };
 
