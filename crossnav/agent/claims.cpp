@@ -61,6 +61,30 @@ policy::ViewSummary SummaryOf(const Situation& now, const policy::ClaimViews* se
                            CanonicalName(now.goal.goal), now.config.verify.views.discount);
 }
 
+std::optional<policy::MemoryOpinion> OpinionOf(const Situation& now, const policy::LivePoi& poi) {
+  const auto others = OthersThan(now.goal.goal, now.world);
+  auto opinion = policy::OpinionOf(now.world.memory, poi.voxels, now.goal.text, others);
+  if (opinion &&
+      IsOfSurroundings(now.world.memory, poi.voxels, now.config.map.voxel_m, *opinion, others))
+    opinion.reset();
+  return opinion;
+}
+
+/// By its views, and half as likely at most where the memory answers better to another name.
+double ProbabilityOf(const Situation& now, const policy::LivePoi& poi) {
+  constexpr double kContradicted = 0.5;  // chosen
+  const auto summary = SummaryOf(now, now.goal.full.claims.ViewsOf(poi.id));
+  const double probability = policy::ProbabilityOf(summary, now.config.verify.views);
+  const auto opinion = OpinionOf(now, poi);
+  const bool is_contradicted = opinion && opinion->Margin() < -now.config.verify.refute_margin;
+  return is_contradicted ? kContradicted * probability : probability;
+}
+
+bool IsSettledFor(const GoalState& goal, int poi_id) {
+  const auto& ids = goal.full.claims.settled_for;
+  return std::find(ids.begin(), ids.end(), poi_id) != ids.end();
+}
+
 }  // namespace
 
 bool DoubtsClaims(const Config& config) {
@@ -95,11 +119,11 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   const policy::VerifyConfig& config = now.config.verify;
   const policy::ClaimViews* seen = goal.full.claims.ViewsOf(poi.id);
   const int views = seen ? static_cast<int>(seen->p_cameras_world.size()) : 0;
-  const auto others = OthersThan(goal.goal, now.world);
-  auto opinion = OpinionOf(now.world.memory, poi.voxels, goal.text, others);
-  if (opinion &&
-      IsOfSurroundings(now.world.memory, poi.voxels, now.config.map.voxel_m, *opinion, others))
-    opinion.reset();
+  if (IsSettledFor(goal, poi.id)) {
+    goal.events.push_back("claim holds: nothing is more likely");
+    return ClaimVerdict::kAgreed;
+  }
+  const auto opinion = OpinionOf(now, poi);
   const policy::ViewSummary summary = SummaryOf(now, seen);
   ClaimVerdict verdict = config.evidence == "views"
                              ? Judge(opinion, summary, config)
@@ -126,7 +150,7 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
 }
 
 bool IsDisproved(const StepState& now, const policy::LivePoi& poi) {
-  return DoubtsClaims(now.config) &&
+  return DoubtsClaims(now.config) && !IsSettledFor(now.goal, poi.id) &&
          IsDisproved(SummaryOf(now, now.goal.full.claims.ViewsOf(poi.id)), now.config.verify);
 }
 
@@ -161,11 +185,52 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
       if (is_same(hint.voxels, hint.p_center_world)) goal.full.hints.Discard(hint.id);
     for (HistoryPoi& place : goal.history)
       place.is_exhausted = place.is_exhausted || is_same(place.voxels, place.p_center_world);
+    const bool by_views = now.config.verify.evidence == "views";
+    const double probability = by_views ? ProbabilityOf(now, poi) : 0;
     goal.full.claims.rejected.push_back(
-        {poi.id, poi.voxels, poi.p_center_world, poi.confidence, views});
+        {poi.id, poi.voxels, poi.p_center_world, poi.confidence, views, probability});
+    std::string event = "rejected: the claim at";
+    for (const double p : poi.p_center_world) event += " " + TwoDigits(p);
+    goal.events.push_back(event + " m" + (by_views ? ", P " + TwoDigits(probability) : ""));
   }
   now.world.objects.Refute(SpacedName(goal.goal), poi.voxels);
   goal.live.Discard(poi.id);
+}
+
+bool SettleForLikeliest(StepState& now) {
+  GoalState& goal = now.goal;
+  policy::ClaimTracker& claims = goal.full.claims;
+  if (!DoubtsClaims(now.config) || now.config.verify.evidence != "views") return false;
+  const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
+  if (!likeliest) return false;
+  const policy::RejectedObject object = claims.rejected[*likeliest];
+  std::erase_if(claims.rejected, [&](const policy::RejectedObject& other) {
+    return policy::IsSameObject(object.voxels, object.p_center_world, other.voxels,
+                                other.p_center_world, now.config.policy.object.merge_distance_m);
+  });
+  claims.settled_for.push_back(object.poi_id);
+  goal.live.Forgive(object.poi_id);
+  std::erase_if(goal.full.failed,
+                [&](const FailedViews& views) { return views.poi_id == object.poi_id; });
+  if (goal.active_live == object.poi_id) {
+    goal.tried_viewpoints.clear();
+    goal.failed_views = 0;
+    goal.full.doubtful_m = 0;
+  }
+  if (claims.second_view_of == object.poi_id) claims.second_view_of = -1;
+  goal.events.push_back("nothing left: back to the likeliest refuted claim, P " +
+                        TwoDigits(object.probability));
+  return true;
+}
+
+std::optional<Vector3d> BestViewIfSettled(const Situation& now, int poi_id) {
+  const policy::ClaimViews* seen = now.goal.full.claims.ViewsOf(poi_id);
+  if (!seen || seen->scores.empty() || !IsSettledFor(now.goal, poi_id)) return std::nullopt;
+  return std::max_element(seen->scores.begin(), seen->scores.end(),
+                          [](const policy::ViewScore& a, const policy::ViewScore& b) {
+                            return a.Mean() < b.Mean();
+                          })
+      ->p_camera_world;
 }
 
 std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& poi) {

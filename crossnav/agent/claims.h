@@ -3,6 +3,7 @@
 // policy/claim.h. World frame, metres.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "crossnav/agent/decision.h"
@@ -39,6 +40,13 @@ bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint);
 /// Gives up a POI: it, hints of it and remembered places on it are not tried again for this goal
 /// until there is new evidence.
 void Reject(StepState& now, const policy::LivePoi& poi);
+
+/// Makes the likeliest rejected object a POI again, which the next frame that confirms it claims.
+/// False without a likely one (verify.settle, verify.evidence = views).
+bool SettleForLikeliest(StepState& now);
+
+/// The camera of the view that supported a POI most, if the agent settled for it.
+std::optional<Vector3d> BestViewIfSettled(const Situation& now, int poi_id);
 
 /// Camera places that another view of this POI must differ from; empty where any view will do.
 std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& poi);

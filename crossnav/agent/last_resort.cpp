@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "crossnav/agent/claims.h"
 #include "crossnav/agent/cut_off.h"
 #include "crossnav/agent/object_search.h"
 #include "crossnav/agent/remembered_places.h"
@@ -104,12 +105,17 @@ bool LeaveOutUnreachable(StepState& now) {
   return true;
 }
 
+/// The goal may still be where no way leads.
+bool SettleIfAllIsReached(StepState& now) {
+  return FindCutOff(now).IsEmpty() && SettleForLikeliest(now);
+}
+
 // A step out may end on another tread that no path leaves: it is tried several times.
 constexpr std::array kResorts = {
-    TakeGuesses,         LookAroundAgain, ForgetBumps, Squeeze, StepOut,
-    LeaveOutUnreachable, SearchClosely,   StepOnSeats, StepOut, StepOut,
-    AskMemoryAgain,      TryAllAgain,     StepOut};
-constexpr std::size_t kOpening = 6;  // the first of them open ways, or leave out what has none
+    TakeGuesses,         SettleIfAllIsReached, LookAroundAgain, ForgetBumps, Squeeze, StepOut,
+    LeaveOutUnreachable, SettleForLikeliest,   SearchClosely,   StepOnSeats, StepOut, StepOut,
+    AskMemoryAgain,      TryAllAgain,          StepOut};
+constexpr std::size_t kOpening = 7;  // the first of them open ways, or leave out what has none
 
 }  // namespace
 

@@ -104,6 +104,9 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
   const auto is_wanted = [&](const VoxelKey& key) {
     const Vector3d p_foot = FootOf(key, voxel_m);
     if (storey && !storey->Has(p_foot)) return false;
+    if (wish.same_side &&
+        IsOtherView(wish.p_center_world, p_foot, *wish.same_side, now.config.verify))
+      return false;
     return IsNewView(wish.p_center_world, p_foot, wish.other_sides, now.config.verify) &&
            view.IsView(key) && !IsNearTried(wish.tried, p_foot);
   };
@@ -142,6 +145,9 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
       nearer.range_m = std::min(wish.range_m, share * failed.doubtful_m);
       if (auto target = NearestView(now, start, nearer)) return target;
     }
+  if ((wish.same_side = BestViewIfSettled(now, poi.id)))
+    if (auto target = NearestView(now, start, wish)) return target;
+  wish.same_side.reset();
   return NearestView(now, start, wish);
 }
 

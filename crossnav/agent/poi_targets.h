@@ -53,7 +53,8 @@ struct ViewWish {
   std::vector<Vector3d> tried{};        ///< places not to offer again
   std::vector<Vector3d> other_sides{};  ///< of `p_center_world` than these cameras', if any
   Vector3d p_center_world = Vector3d::Zero();
-  bool is_on_storey = false;  ///< only from the storey of `p_center_world`
+  bool is_on_storey = false;            ///< only from the storey of `p_center_world`
+  std::optional<Vector3d> same_side{};  ///< only about where this camera saw it from
 };
 
 /// The nearest place that fulfils `wish`.
@@ -61,7 +62,7 @@ std::optional<GroundTarget> NearestView(const Situation& now, const geometry::Vo
                                         const ViewWish& wish);
 
 /// The nearest untried place with a view of `poi`; on another side where a second view is
-/// required.
+/// required, and about the best view where the agent comes back to it.
 std::optional<GroundTarget> ViewOf(const Situation& now, const geometry::VoxelKey& start,
                                    const policy::LivePoi& poi);
 

@@ -249,4 +249,24 @@ bool IsDisproved(const ViewSummary& views, const VerifyConfig& config) {
          ProbabilityOf(views, config.views) < config.views.refused;
 }
 
+std::optional<std::size_t> LikeliestOfRejected(const ClaimTracker& claims,
+                                               const VerifyConfig& config) {
+  constexpr double kMissedOdds = 0.1;  // chosen: a thing in plain sight that no view showed
+  const auto is_settled = [&](int id) {
+    return std::find(claims.settled_for.begin(), claims.settled_for.end(), id) !=
+           claims.settled_for.end();
+  };
+  double all = kMissedOdds, best = 0;
+  std::optional<std::size_t> likeliest;
+  for (std::size_t i = 0; i < claims.rejected.size(); ++i) {
+    if (is_settled(claims.rejected[i].poi_id)) continue;
+    const double odds = std::exp(LogOddsOf(claims.rejected[i].probability));
+    all += odds;
+    if (odds <= best) continue;
+    best = odds;
+    likeliest = i;
+  }
+  return best >= config.settle * all ? likeliest : std::nullopt;
+}
+
 }  // namespace crossnav::policy

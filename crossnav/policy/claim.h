@@ -29,6 +29,8 @@ struct VerifyConfig {
   double view_angle_deg = 40;       // chosen: minimum angle between two views, seen from the object
   double view_baseline_m = 0.5;     // chosen: and so far apart at least
   double new_evidence = 0.05;       // chosen: confidence above that of the refuted claim
+  double settle = 0.35;             // chosen: least share of the odds of a refuted object that is
+                                    // the answer once nothing is left to see; 1 = never
 };
 
 template <class V>
@@ -50,6 +52,7 @@ void Visit(V& visit, VerifyConfig& c) {
   visit("view_angle_deg", c.view_angle_deg, 0.0, 180.0);
   visit("view_baseline_m", c.view_baseline_m, 0.0, 10.0);
   visit("new_evidence", c.new_evidence, 0.0, 1.0);
+  visit("settle", c.settle, 0.0, 1.0);
 }
 
 /// A name and its unit text vector.
@@ -106,6 +109,7 @@ struct RejectedObject {
   Vector3d p_center_world = Vector3d::Zero();
   double confidence = 0;                  ///< the best it was claimed with
   std::vector<Vector3d> p_cameras_world;  ///< views from which it was
+  double probability = 0;                 ///< that it is the goal after all, by its views
 };
 
 /// All claims about one goal.
@@ -114,6 +118,7 @@ struct ClaimTracker {
   std::vector<RejectedObject> rejected;
   int second_view_of = -1;     ///< id of the POI that is to be seen from another side, -1 = none
   int no_second_view_of = -1;  ///< id of the POI whose other sides could not be reached, -1 = none
+  std::vector<int> settled_for;  ///< ids of POIs that were taken for want of better ones
 
   const ClaimViews* ViewsOf(int poi_id) const;
 };
@@ -153,5 +158,11 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummar
 
 /// Whether the views alone refute an object (verify.evidence = views).
 bool IsDisproved(const ViewSummary& views, const VerifyConfig& config);
+
+/// The goal is assumed to be in the house, and everything was looked at: it is one of the rejected
+/// objects, or it was missed by all views. Index of the likeliest object that was not settled for;
+/// nullopt if its share of the odds is less than `settle`.
+std::optional<std::size_t> LikeliestOfRejected(const ClaimTracker& claims,
+                                               const VerifyConfig& config);
 
 }  // namespace crossnav::policy

@@ -10,6 +10,7 @@ namespace crossnav::agent {
 namespace {
 
 using crossnav::testing::BoxOf;
+using policy::VerifyConfig;
 using test::BoxWalker;
 using test::FakeSight;
 using test::FakeSuite;
@@ -130,6 +131,29 @@ TEST(Claims, AHintThatTwoViewsRefuteIsNotGoneToAgain) {
   const int by_frame = visits("frame");
   EXPECT_GE(by_frame, 8);
   EXPECT_LT(visits("views"), by_frame);
+}
+
+TEST(Claims, ARefutedObjectIsTheAnswerOnceNothingElseIsLeft) {
+  const auto search = [](double settle) {
+    Config config = SmallConfig();
+    config.verify.evidence = "views";
+    config.verify.views.offset = -3;
+    config.verify.views.slope = 3.5;
+    config.verify.views.missed = -3;
+    config.verify.settle = settle;
+    Agent agent(config, FakeSuite(Liar(15, false, 0.79F)));
+    EXPECT_TRUE(agent.SetGoal("bed").has_value());
+    BoxWalker walker = SofaAndBed();
+    walker.rooms.solids = {kSofa};
+    return RunAgent(agent, walker, 600);
+  };
+  const Walk never = search(1);
+  EXPECT_TRUE(never.all_explored) << "other sides refute it";
+  EXPECT_EQ(CountEvents(never, "the likeliest refuted claim"), 0);
+  const Walk settled = search(VerifyConfig{}.settle);
+  ASSERT_TRUE(settled.p_claimed_world);
+  EXPECT_LT(kSofa.HorizontalDistance(*settled.p_claimed_world), 0.1);
+  EXPECT_EQ(CountEvents(settled, "the likeliest refuted claim"), 1);
 }
 
 TEST(Claims, TheRightObjectIsClaimedWithOrWithout) {

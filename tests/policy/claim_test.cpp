@@ -251,5 +251,26 @@ TEST(Rejected, AnObjectIsNotTriedAgainWithoutNewEvidence) {
   EXPECT_TRUE(book.rejected.empty());
 }
 
+TEST(Rejected, TheLikeliestIsTheAnswerWhereItOutweighsTheOthers) {
+  VerifyConfig config;
+  ClaimTracker book;
+  const auto reject = [&](int id, double probability) {
+    book.rejected.push_back({id, ColumnAt(10 * id), Vector3d(id, 0, 0.25), 0.75, {}, probability});
+  };
+  EXPECT_EQ(LikeliestOfRejected(book, config), std::nullopt);
+  reject(1, 0.02);
+  EXPECT_EQ(LikeliestOfRejected(book, config), std::nullopt) << "missed by all views, rather";
+  reject(2, 0.3);
+  EXPECT_EQ(LikeliestOfRejected(book, config), 1U);
+  reject(3, 0.28);
+  EXPECT_EQ(LikeliestOfRejected(book, config), 1U);
+  reject(4, 0.29);
+  EXPECT_EQ(LikeliestOfRejected(book, config), std::nullopt) << "three that are as likely";
+  book.settled_for = {3, 4};
+  EXPECT_EQ(LikeliestOfRejected(book, config), 1U);
+  config.settle = 1;
+  EXPECT_EQ(LikeliestOfRejected(book, config), std::nullopt);
+}
+
 }  // namespace
 }  // namespace crossnav::policy
