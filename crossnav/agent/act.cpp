@@ -159,7 +159,8 @@ std::optional<Action> ActOn(StepState& now, Approach& approach,
   goal.events.push_back("view failed: " + verification.failed_check);
   approach.looks = 0;
   if (verification.failed_check == "confidence") goal.full.doubtful_m = verification.distance_m;
-  if (++goal.failed_views >= now.config.policy.approach.max_viewpoints) {
+  if (++goal.failed_views >= now.config.policy.approach.max_viewpoints &&
+      !DecideByViews(now, *poi)) {
     Reject(now, *poi);
     goal.events.push_back("verification failed: " + verification.failed_check);
     End(now, Ending::kRefuted);

@@ -70,14 +70,9 @@ std::optional<policy::MemoryOpinion> OpinionOf(const Situation& now, const polic
   return opinion;
 }
 
-/// By its views, and half as likely at most where the memory answers better to another name.
 double ProbabilityOf(const Situation& now, const policy::LivePoi& poi) {
-  constexpr double kContradicted = 0.5;  // chosen
   const auto summary = SummaryOf(now, now.goal.full.claims.ViewsOf(poi.id));
-  const double probability = policy::ProbabilityOf(summary, now.config.verify.views);
-  const auto opinion = OpinionOf(now, poi);
-  const bool is_contradicted = opinion && opinion->Margin() < -now.config.verify.refute_margin;
-  return is_contradicted ? kContradicted * probability : probability;
+  return policy::ProbabilityOf(summary, OpinionOf(now, poi), now.config.verify);
 }
 
 bool IsSettledFor(const GoalState& goal, int poi_id) {
@@ -119,6 +114,10 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   const policy::VerifyConfig& config = now.config.verify;
   const policy::ClaimViews* seen = goal.full.claims.ViewsOf(poi.id);
   const int views = seen ? static_cast<int>(seen->p_cameras_world.size()) : 0;
+  if (goal.full.claims.decided_by_views == poi.id) {
+    goal.events.push_back("claim holds: by its views, though not by the last frame");
+    return ClaimVerdict::kAgreed;
+  }
   if (IsSettledFor(goal, poi.id)) {
     goal.events.push_back("claim holds: nothing is more likely");
     return ClaimVerdict::kAgreed;
@@ -132,21 +131,37 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   if (verdict == ClaimVerdict::kWeak) {
     goal.full.claims.second_view_of = poi.id;
     if (goal.full.claims.no_second_view_of == poi.id || !HasSecondView(now, poi)) {
-      const bool is_likely = config.evidence == "views"
-                                 ? ProbabilityOf(summary, config.views) >= config.views.refused
-                                 : IsLikelyByMemory(goal, poi, opinion, config);
+      const bool is_likely =
+          config.evidence == "views"
+              ? policy::ProbabilityOf(summary, opinion, config) >= config.views.refused
+              : IsLikelyByMemory(goal, poi, opinion, config);
       verdict = is_likely ? ClaimVerdict::kAgreed : ClaimVerdict::kRefuted;
     }
   }
   std::string facts = Describe(goal.goal, verification, opinion, views);
   if (config.evidence == "views")
-    facts += ", P " + TwoDigits(ProbabilityOf(summary, config.views)) + " of " +
+    facts += ", P " + TwoDigits(policy::ProbabilityOf(summary, opinion, config)) + " of " +
              std::to_string(summary.views) + (summary.shortness > 0 ? ", short" : "");
   if (verdict == ClaimVerdict::kAgreed) goal.events.push_back("claim holds: " + facts);
   if (verdict == ClaimVerdict::kRefuted) goal.events.push_back("claim refuted: " + facts);
   if (verdict == ClaimVerdict::kWeak && !was_asked)
     goal.events.push_back("claim is weak, another view: " + facts);
   return verdict;
+}
+
+bool DecideByViews(StepState& now, const policy::LivePoi& poi) {
+  policy::ClaimTracker& claims = now.goal.full.claims;
+  if (!DoubtsClaims(now.config) || now.config.verify.evidence != "views") return false;
+  const auto summary = SummaryOf(now, claims.ViewsOf(poi.id));
+  if (Judge(OpinionOf(now, poi), summary, now.config.verify) != ClaimVerdict::kAgreed) return false;
+  claims.decided_by_views = poi.id;
+  return true;
+}
+
+bool IsDecidedByViews(const Situation& now, const policy::LivePoi& poi,
+                      const policy::Verification& verification) {
+  return now.goal.full.claims.decided_by_views == poi.id &&
+         verification.distance_m <= now.config.policy.approach.range_m;
 }
 
 bool IsDisproved(const StepState& now, const policy::LivePoi& poi) {

@@ -27,6 +27,13 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
 policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
                                 const policy::Verification& verification);
 
+/// The frames at the last viewpoints failed. True where all views together hold the claim
+/// nevertheless (verify.evidence = views); the next frame claims it.
+bool DecideByViews(StepState& now, const policy::LivePoi& poi);
+/// Whether it was decided so, and the agent is near enough for STOP.
+bool IsDecidedByViews(const Situation& now, const policy::LivePoi& poi,
+                      const policy::Verification& verification);
+
 /// Whether the views of a POI refute it (verify.evidence = views), from wherever they were.
 bool IsDisproved(const StepState& now, const policy::LivePoi& poi);
 

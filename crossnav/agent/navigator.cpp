@@ -41,6 +41,7 @@ ClaimVerdict JudgeClaim(StepState& now, const policy::LivePoi& poi,
 bool TryConfirmGoal(StepState& now, Decision& decision) {
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
     auto verification = VerifyNow(now, *poi);
+    verification.passed = verification.passed || IsDecidedByViews(now, *poi, verification);
     if (verification.passed &&
         !ObjectStorey(now, poi->voxels, poi->p_center_world).Has(now.agent.p_world)) {
       verification.passed = false;

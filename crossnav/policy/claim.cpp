@@ -229,12 +229,21 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidenc
                                                         : ClaimVerdict::kAgreed;
 }
 
+double ProbabilityOf(const ViewSummary& views, const std::optional<MemoryOpinion>& opinion,
+                     const VerifyConfig& config) {
+  const double against = opinion ? std::min(0.0, opinion->Margin()) : 0;
+  EvidenceConfig contradicted = config.views;
+  contradicted.offset += config.contradiction * against;
+  return ProbabilityOf(views, contradicted);
+}
+
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummary& views,
                    const VerifyConfig& config) {
   const double margin = opinion ? opinion->Margin() : 0;
-  if (margin < -config.refute_margin) return ClaimVerdict::kRefuted;
+  const double probability = ProbabilityOf(views, opinion, config);
+  if (margin < -config.refute_margin && probability < config.views.refused)
+    return ClaimVerdict::kRefuted;
   constexpr int kMost = 4;  // chosen: views; each further one is worth an eighth or less
-  const double probability = ProbabilityOf(views, config.views);
   const bool is_weak_memory = margin < config.strong_margin;
   const bool is_enough = !is_weak_memory && probability >= config.views.decided_alone;
   if (probability >= config.views.decided)

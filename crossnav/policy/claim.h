@@ -23,6 +23,8 @@ struct VerifyConfig {
   std::string evidence = "auto";    ///< auto | frame | views: judged by this frame or by all views;
                                     ///< auto: views where the detector's card has their numbers
   EvidenceConfig views;             ///< of evidence = views
+  double contradiction = 6;         // chosen: log-odds against the goal for each unit of cosine by
+                                    // which another name answers better; evidence = views
   double refute_margin = 0.02;      // chosen: cosine by which another name must answer better
   double strong_margin = 0.02;      // chosen: cosine by which the goal must, or the claim is weak
   double strong_confidence = 0.80;  // chosen: of a frame; less is weak
@@ -46,6 +48,7 @@ void Visit(V& visit, VerifyConfig& c) {
   visit("decided", c.views.decided, 0.5, 1.0);
   visit("decided_alone", c.views.decided_alone, 0.5, 1.0);
   visit("refused", c.views.refused, 0.0, 1.0);
+  visit("contradiction", c.contradiction, 0.0, 100.0);
   visit("refute_margin", c.refute_margin, 0.0, 2.0);
   visit("strong_margin", c.strong_margin, -2.0, 2.0);
   visit("strong_confidence", c.strong_confidence, 0.0, 1.0);
@@ -118,6 +121,8 @@ struct ClaimTracker {
   std::vector<RejectedObject> rejected;
   int second_view_of = -1;     ///< id of the POI that is to be seen from another side, -1 = none
   int no_second_view_of = -1;  ///< id of the POI whose other sides could not be reached, -1 = none
+  int decided_by_views =
+      -1;  ///< id of the POI that near frames miss and all views confirm, -1 = none
   std::vector<int> settled_for;  ///< ids of POIs that were taken for want of better ones
 
   const ClaimViews* ViewsOf(int poi_id) const;
@@ -150,7 +155,12 @@ enum class ClaimVerdict { kAgreed, kWeak, kRefuted };
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
                    const VerifyConfig& config);
 
-/// The same by all views (verify.evidence = views). A memory without a preference takes a second
+/// Probability that an object is the goal, from its views and the memory's contradiction.
+double ProbabilityOf(const ViewSummary& views, const std::optional<MemoryOpinion>& opinion,
+                     const VerifyConfig& config);
+
+/// The same by all views (verify.evidence = views). A memory that answers better to another name
+/// refutes what its views do not outweigh. A memory without a preference takes a second
 /// view, and so does a first view that is not sure; views that leave the claim undecided are at
 /// most four.
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummary& views,

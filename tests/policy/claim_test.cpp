@@ -135,7 +135,10 @@ TEST(ViewEvidence, DecidesOnceTheViewsAgree) {
   EXPECT_EQ(Judge(agrees, Summary({View(0.7)}), config), ClaimVerdict::kWeak);
   EXPECT_EQ(Judge(agrees, Summary({View(0.7), View(0)}), config), ClaimVerdict::kRefuted);
   EXPECT_EQ(Judge(agrees, Summary({View(0.8), View(0.5)}), config), ClaimVerdict::kWeak);
-  EXPECT_EQ(Judge(denies, Summary({View(0.99), View(0.99)}), config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(denies, Summary({View(0.9), View(0.5)}), config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(denies, Summary({View(0.9)}), config), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(denies, Summary({View(0.99), View(0.99)}), config), ClaimVerdict::kAgreed)
+      << "views that are sure outweigh it";
   EXPECT_TRUE(IsDisproved(Summary({View(0.7), View(0)}), config));
   EXPECT_FALSE(IsDisproved(Summary({View(0.3)}), config)) << "one view";
   config.evidence = "frame";
