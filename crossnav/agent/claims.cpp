@@ -133,7 +133,7 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
     if (goal.full.claims.no_second_view_of == poi.id || !HasSecondView(now, poi)) {
       const bool is_likely =
           config.evidence == "views"
-              ? policy::ProbabilityOf(summary, opinion, config) >= config.views.refused
+              ? policy::ProbabilityOf(summary, opinion, config) >= config.views.decided
               : IsLikelyByMemory(goal, poi, opinion, config);
       verdict = is_likely ? ClaimVerdict::kAgreed : ClaimVerdict::kRefuted;
     }

@@ -249,8 +249,7 @@ ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummar
   if (probability >= config.views.decided)
     return views.views < 2 && !is_enough ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
   if (IsDisproved(views, config)) return ClaimVerdict::kRefuted;
-  if (views.views < kMost) return ClaimVerdict::kWeak;
-  return is_weak_memory ? ClaimVerdict::kRefuted : ClaimVerdict::kAgreed;
+  return views.views < kMost ? ClaimVerdict::kWeak : ClaimVerdict::kRefuted;
 }
 
 bool IsDisproved(const ViewSummary& views, const VerifyConfig& config) {

@@ -162,7 +162,7 @@ double ProbabilityOf(const ViewSummary& views, const std::optional<MemoryOpinion
 /// The same by all views (verify.evidence = views). A memory that answers better to another name
 /// refutes what its views do not outweigh. A memory without a preference takes a second
 /// view, and so does a first view that is not sure; views that leave the claim undecided are at
-/// most four.
+/// most four: then it is put aside (LikeliestOfRejected).
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, const ViewSummary& views,
                    const VerifyConfig& config);
 
