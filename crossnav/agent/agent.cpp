@@ -92,6 +92,7 @@ struct Agent::Impl {
   std::vector<policy::Sighting> Lift(const std::vector<perception::Detection>& detections,
                                      const Observation& obs);
   std::vector<policy::Sighting> NoteSightings(std::vector<policy::Sighting> sightings,
+                                              const std::vector<policy::Sighting>& all,
                                               const Observation& obs);
   void Record(StepResult& result, const Decision& decision);
 };
@@ -219,24 +220,25 @@ std::span<const objects::ObjectRecord> Agent::records() const {
   return impl_->world.objects.records();
 }
 
-/// The goal in 3D, without objects that were rejected; as weak as a hint may be.
+/// The goal in 3D; as weak as a hint may be.
 std::vector<policy::Sighting> Agent::Impl::Lift(
     const std::vector<perception::Detection>& detections, const Observation& obs) {
   const policy::ObjectConfig& object = config.policy.object;
   const double least =
       std::min(object.secondary_confidence, HintConfig(config.policy).detector_confidence);
-  return WithoutRejected(policy::LiftDetections(detections, obs, config.map, object, least),
-                         obs.T_world_camera.translation(), config, &goal);
+  return policy::LiftDetections(detections, obs, config.map, object, least);
 }
 
 /// Live POIs (sec. "Candidate Navigation Points") and hints of the goal; sightings below the
-/// confidence of a POI become hints and are not returned.
+/// confidence of a POI become hints and are not returned. `all`: those of rejected objects, too,
+/// whose views go on to count.
 std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sighting> sightings,
+                                                         const std::vector<policy::Sighting>& all,
                                                          const Observation& obs) {
   const policy::ObjectConfig& object = config.policy.object;
   const Vector3d p_camera_world = obs.T_world_camera.translation();
   goal.full.hints.Update(sightings, HintConfig(config.policy), config.map.voxel_m, world.step);
-  const std::vector<policy::Sighting> all = sightings;
+  const std::vector<policy::Sighting> kept = sightings;
   std::erase_if(sightings, [&](const policy::Sighting& sighting) {
     return sighting.confidence < object.secondary_confidence;
   });
@@ -245,14 +247,14 @@ std::vector<policy::Sighting> Agent::Impl::NoteSightings(std::vector<policy::Sig
   goal.live.Update(sightings, object, config.map.voxel_m, world.step, approached);
   if (config.policy.profile == "full") {
     goal.live.DropStrays(sightings, obs, object, config.map.voxel_m);
-    goal.full.hints.DropStrays(all, obs, object, config.map.voxel_m);
+    goal.full.hints.DropStrays(kept, obs, object, config.map.voxel_m);
   }
   if (DoubtsClaims(config)) {
     const policy::VerifyConfig& verify = config.verify;
     NoteViews(goal.live.all(), sightings, p_camera_world, object, verify, &goal.full.claims);
     if (verify.evidence == "views") {
       NoteScores(goal.live.all(), all, obs, config.map.voxel_m, object, verify, &goal.full.claims);
-      NoteScores(HintsInSight(goal.full.hints, obs, config), all, obs, config.map.voxel_m, object,
+      NoteScores(HintsInSight(goal.full.hints, obs, config), kept, obs, config.map.voxel_m, object,
                  verify, &goal.full.hint_views);
     }
   }
@@ -295,8 +297,9 @@ Result<Seen> Agent::Impl::See(const Observation& obs, const AgentPose& agent, St
     world.flight_survey.Update(world.stairs, world.levels_m, agent.p_world, config.map.voxel_m,
                                &world.flights);
   }
-  const auto lifted = Lift(percept->detections, obs);
-  auto sightings = NoteSightings(lifted, obs);
+  const auto all = Lift(percept->detections, obs);
+  const auto lifted = WithoutRejected(all, obs.T_world_camera.translation(), world, config, &goal);
+  auto sightings = NoteSightings(lifted, all, obs);
   const Vector3d p_camera_world = obs.T_world_camera.translation();
   FullGoal& full = goal.full;
   const double voxel_m = config.map.voxel_m;

@@ -56,23 +56,45 @@ bool IsLikelyByMemory(const GoalState& goal, const policy::LivePoi& poi,
   return margin >= (has_failed ? config.strong_margin : 0);
 }
 
-policy::ViewSummary SummaryOf(const Situation& now, const policy::ClaimViews* seen) {
+policy::ViewSummary SummaryOf(const GoalState& goal, const Config& config,
+                              const policy::ClaimViews* seen) {
   return policy::SummaryOf(seen ? seen->scores : std::vector<policy::ViewScore>{},
-                           CanonicalName(now.goal.goal), now.config.verify.views.discount);
+                           CanonicalName(goal.goal), config.verify.views.discount);
+}
+policy::ViewSummary SummaryOf(const Situation& now, const policy::ClaimViews* seen) {
+  return SummaryOf(now.goal, now.config, seen);
 }
 
-std::optional<policy::MemoryOpinion> OpinionOf(const Situation& now, const policy::LivePoi& poi) {
-  const auto others = OthersThan(now.goal.goal, now.world);
-  auto opinion = policy::OpinionOf(now.world.memory, poi.voxels, now.goal.text, others);
-  if (opinion &&
-      IsOfSurroundings(now.world.memory, poi.voxels, now.config.map.voxel_m, *opinion, others))
+std::optional<policy::MemoryOpinion> OpinionOf(const World& world, const GoalState& goal,
+                                               const Config& config,
+                                               const std::vector<geometry::VoxelKey>& voxels) {
+  const auto others = OthersThan(goal.goal, world);
+  auto opinion = policy::OpinionOf(world.memory, voxels, goal.text, others);
+  if (opinion && IsOfSurroundings(world.memory, voxels, config.map.voxel_m, *opinion, others))
     opinion.reset();
   return opinion;
+}
+std::optional<policy::MemoryOpinion> OpinionOf(const Situation& now, const policy::LivePoi& poi) {
+  return OpinionOf(now.world, now.goal, now.config, poi.voxels);
 }
 
 double ProbabilityOf(const Situation& now, const policy::LivePoi& poi) {
   const auto summary = SummaryOf(now, now.goal.full.claims.ViewsOf(poi.id));
   return policy::ProbabilityOf(summary, OpinionOf(now, poi), now.config.verify);
+}
+
+/// Views that were noted since a rejection count. The memory is asked only where they are for it.
+void JudgeRejectedAgain(const World& world, const Config& config, GoalState* goal) {
+  const policy::VerifyConfig& verify = config.verify;
+  for (policy::RejectedObject& object : goal->full.claims.rejected) {
+    const policy::ClaimViews* seen = goal->full.claims.ViewsOf(object.poi_id);
+    if (!seen) continue;
+    const auto summary = SummaryOf(*goal, config, seen);
+    object.probability = ProbabilityOf(summary, verify.views);
+    if (object.probability < verify.views.refused) continue;
+    object.probability =
+        policy::ProbabilityOf(summary, OpinionOf(world, *goal, config, object.voxels), verify);
+  }
 }
 
 bool IsSettledFor(const GoalState& goal, int poi_id) {
@@ -94,9 +116,11 @@ void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* 
 }
 
 std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sightings,
-                                              const Vector3d& p_camera_world, const Config& config,
-                                              GoalState* goal) {
+                                              const Vector3d& p_camera_world, const World& world,
+                                              const Config& config, GoalState* goal) {
   if (!DoubtsClaims(config)) return sightings;
+  if (config.verify.evidence == "views" && !sightings.empty())
+    JudgeRejectedAgain(world, config, goal);
   std::vector<int> revived;
   sightings = policy::WithoutRejected(std::move(sightings), p_camera_world, config.policy.object,
                                       config.verify, &goal->full.claims, &revived);

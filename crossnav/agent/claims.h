@@ -20,8 +20,8 @@ void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* 
 
 /// Sightings without rejected objects; POIs with new evidence become live again.
 std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sightings,
-                                              const Vector3d& p_camera_world, const Config& config,
-                                              GoalState* goal);
+                                              const Vector3d& p_camera_world, const World& world,
+                                              const Config& config, GoalState* goal);
 
 /// Final verdict on a POI that this frame confirms; kWeak requests a view from another side.
 policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,

@@ -154,10 +154,12 @@ std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
       return IsOfRejected(sighting, r, object);
     });
     if (it == rejected.end()) return false;
-    const bool is_new =
-        sighting.confidence >= std::min(1.0, it->confidence + config.new_evidence) &&
-        IsNewView(it->p_center_world, p_camera_world, it->p_cameras_world, config);
-    if (!is_new) {
+    const bool is_likelier =
+        config.evidence == "views"
+            ? it->probability >= config.views.decided
+            : sighting.confidence >= std::min(1.0, it->confidence + config.new_evidence);
+    if (!is_likelier ||
+        !IsNewView(it->p_center_world, p_camera_world, it->p_cameras_world, config)) {
       Grow(*it, sighting.voxels);
       return true;
     }

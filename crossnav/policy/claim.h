@@ -128,9 +128,10 @@ struct ClaimTracker {
   const ClaimViews* ViewsOf(int poi_id) const;
 };
 
-/// Drops sightings of rejected objects. A sighting with more confidence than the rejected claim and
-/// from another side is new evidence: it is kept, the rejection is withdrawn, and the POI's id goes
-/// to `revived`.
+/// Drops sightings of rejected objects. A sighting from another side is new evidence if it has more
+/// confidence than the rejected claim (evidence = views: if the object's probability is that of a
+/// decided claim by now): it is kept, the rejection is withdrawn, and the POI's id goes to
+/// `revived`.
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
                                       const VerifyConfig& config, ClaimTracker* tracker,

@@ -254,6 +254,23 @@ TEST(Rejected, AnObjectIsNotTriedAgainWithoutNewEvidence) {
   EXPECT_TRUE(book.rejected.empty());
 }
 
+TEST(Rejected, ViewsThatDecideForAnObjectAreNewEvidence) {
+  VerifyConfig config = kConfig;
+  config.evidence = "views";
+  ClaimTracker book;
+  book.rejected.push_back({3, ColumnAt(0), Vector3d(0, 0, 0.25), 0.75, {Vector3d(2, 0, 0.9)}, 0.8});
+  std::vector<int> revived;
+  const auto is_kept = [&](const Vector3d& p_camera) {
+    return !WithoutRejected({SightingOf(0, 0.7)}, p_camera, kObject, config, &book, &revived)
+                .empty();
+  };
+  EXPECT_FALSE(is_kept({0, 2, 0.9})) << "undecided";
+  book.rejected.front().probability = 0.95;
+  EXPECT_FALSE(is_kept({2, 0, 0.9})) << "from the same side";
+  EXPECT_TRUE(is_kept({0, 2, 0.9}));
+  EXPECT_EQ(revived, std::vector<int>{3});
+}
+
 TEST(Rejected, TheLikeliestIsTheAnswerWhereItOutweighsTheOthers) {
   VerifyConfig config;
   ClaimTracker book;
