@@ -83,15 +83,13 @@ double ProbabilityOf(const Situation& now, const policy::LivePoi& poi) {
   return policy::ProbabilityOf(summary, OpinionOf(now, poi), now.config.verify);
 }
 
-/// Views that were noted since a rejection count. The memory is asked only where they are for it.
-void JudgeRejectedAgain(const World& world, const Config& config, GoalState* goal) {
+/// Views that were noted since a rejection count. Objects below `least` by their views keep their
+/// probability, because the memory's answer takes time.
+void JudgeRejectedAgain(const World& world, const Config& config, double least, GoalState* goal) {
   const policy::VerifyConfig& verify = config.verify;
   for (policy::RejectedObject& object : goal->full.claims.rejected) {
-    const policy::ClaimViews* seen = goal->full.claims.ViewsOf(object.poi_id);
-    if (!seen) continue;
-    const auto summary = SummaryOf(*goal, config, seen);
-    object.probability = ProbabilityOf(summary, verify.views);
-    if (object.probability < verify.views.refused) continue;
+    const auto summary = SummaryOf(*goal, config, goal->full.claims.ViewsOf(object.poi_id));
+    if (ProbabilityOf(summary, verify.views) < least) continue;
     object.probability =
         policy::ProbabilityOf(summary, OpinionOf(world, *goal, config, object.voxels), verify);
   }
@@ -120,7 +118,7 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
                                               const Config& config, GoalState* goal) {
   if (!DoubtsClaims(config)) return sightings;
   if (config.verify.evidence == "views" && !sightings.empty())
-    JudgeRejectedAgain(world, config, goal);
+    JudgeRejectedAgain(world, config, config.verify.views.decided, goal);
   std::vector<int> revived;
   sightings = policy::WithoutRejected(std::move(sightings), p_camera_world, config.policy.object,
                                       config.verify, &goal->full.claims, &revived);
@@ -240,6 +238,7 @@ bool SettleForLikeliest(StepState& now) {
   GoalState& goal = now.goal;
   policy::ClaimTracker& claims = goal.full.claims;
   if (!DoubtsClaims(now.config) || now.config.verify.evidence != "views") return false;
+  JudgeRejectedAgain(now.world, now.config, 0, &goal);
   const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
   if (!likeliest) return false;
   const policy::RejectedObject object = claims.rejected[*likeliest];

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/cli_fixture.h"
+#include "inference/model_files.h"
 #include "support/places.h"
 
 namespace crossnav {
@@ -15,11 +16,11 @@ using test::Outcome;
 class RealFrames : public SensorsCli {
  protected:
   /// Result of `bench sensors` on the real frames; null without these frames.
-  Json Trials() {
+  Json Trials(const std::string& options = "") {
     const std::string data = test::SharedPath("data");
     if (!std::filesystem::exists(data + "/hololens")) return nullptr;
     const Outcome outcome =
-        Run("bench sensors " + data + " --quiet --json --set map.clearing=evidence");
+        Run("bench sensors " + data + " --quiet --json --set map.clearing=evidence" + options);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return Json::parse(outcome.out, nullptr, false);
   }
@@ -45,9 +46,16 @@ TEST_F(RealFrames, AMapOfRealFramesHoldsInFramesThatWereLeftOut) {
       EXPECT_NEAR(flight["riser_m"].get<double>(), 0.101, 0.15 * 0.101) << k;
       EXPECT_NEAR(flight["tread_m"].get<double>(), 0.285, 0.15 * 0.285) << k;
     }
-  if (room["plants"].is_null()) GTEST_SKIP() << "no networks here";
-  ASSERT_EQ(room["known_plants"].size(), 2U);
-  for (const Json& plant : room["known_plants"]) EXPECT_LT(plant["error_m"].get<double>(), 0.3);
+}
+
+TEST_F(RealFrames, OurNetworkFindsTheBigPlantAndTheTreadsThatItSees) {
+  if (!inference::test::HasBackend()) GTEST_SKIP() << "no inference library here";
+  const Json trials = Trials(" --perception networks --networks own");
+  if (trials.is_null()) GTEST_SKIP() << "no real frames: " << test::SharedPath("data/hololens");
+  const Json& plants = trials["hololens"]["known_plants"];
+  ASSERT_EQ(plants.size(), 2U);
+  for (const Json& plant : plants) EXPECT_LT(plant["error_m"].get<double>(), 0.3) << plant;
+  EXPECT_EQ(trials["stairs"][1]["with_mask"]["treads"], 5);
 }
 
 TEST_F(RealFrames, ARobotFindsItselfInAMapOfOtherFrames) {
