@@ -88,14 +88,25 @@ double ExplorationPrices::Doubt(const Vector3d& p_focus_world) const {
 }
 
 /// Price of a flight to where the goal is likelier or less likely to be. The floor prior applies
-/// upward only from the lowest known floor.
+/// upward only from the lowest known floor, and not to what was stood on: seen from a landing, the
+/// floor below would be likelier than it is to those who stand on it, and the agent goes to and
+/// fro.
 double ExplorationPrices::FlightPrice(double rise_m) {
   if (std::abs(rise_m) < now_.config.map.voxel_m) return 0;  // first edge: direction not seen yet
+  if (IsOnKnownLevel(rise_m)) return config_.other_floor_penalty_m;
   if (rise_m < 0) {
     has_found_descent_ = has_found_descent_ || !HasDescent();
     return config_.other_floor_penalty_m + floor_prior_m_;
   }
   return config_.other_floor_penalty_m - (HasDescent() ? 0 : floor_prior_m_);
+}
+
+bool ExplorationPrices::IsOnKnownLevel(double rise_m) const {
+  const World& world = now_.world;
+  const double band_m = now_.config.policy.frontier.level_band_m, z_m = world.level_m + rise_m;
+  return std::any_of(world.levels_m.begin(), world.levels_m.end(), [&](double level_m) {
+    return std::abs(level_m - z_m) < band_m && std::abs(level_m - world.level_m) >= band_m;
+  });
 }
 
 bool ExplorationPrices::HasDescent() const {
@@ -171,6 +182,10 @@ double ExplorationPrices::LeastScore(double path_m, bool has_hints) const {
 double ExplorationPrices::LeastScoreOf(const FlightAhead& flight, double path_m,
                                        bool has_hints) const {
   const bool is_level = std::abs(flight.rise_m) < now_.config.map.voxel_m;
+  if (IsOnKnownLevel(flight.rise_m)) {
+    const double class_m = config_.other_floor_penalty_m + Doubt(flight.p_focus_world);
+    return path_m + config_.start_m + class_m - CommitmentDiscount(flight.p_focus_world, class_m);
+  }
   // The first flight down changes the prices of flights up, even if another candidate wins.
   if (!is_level && flight.rise_m < 0 && !HasDescent()) return LeastScore(path_m, has_hints);
   const double up_m = HasDescent() ? 0 : std::max(0.0, floor_prior_m_);

@@ -59,6 +59,8 @@ class ExplorationPrices {
   };
   Terms TermsOf(const ExplorationCandidate& found, double path_m);
   double FlightPrice(double rise_m);
+  /// Whether a place of that rise is on another level that was stood on.
+  bool IsOnKnownLevel(double rise_m) const;
   double Doubt(const Vector3d& p_focus_world) const;
   bool HasDescent() const;
   double TurningBack(const policy::Candidate& candidate) const;

@@ -56,10 +56,12 @@ struct Chosen {
   bool is_flight = false;
 };
 
-/// Choice of an agent at `start` that looks west, pursues `committed` and saw `hints`.
+/// Choice of an agent at `start` that looks west, pursues `committed`, saw `hints` and stood on
+/// `other_levels_m`. Stairs were seen there.
 Chosen Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey& start = kStart,
               const policy::Candidate* committed = nullptr,
-              const std::vector<policy::Sighting>& hints = {}) {
+              const std::vector<policy::Sighting>& hints = {},
+              const std::vector<double>& other_levels_m = {}) {
   Config config;
   config.policy.explore.uninspected_m = 1000;  // all of it was seen from near
   World world(config);
@@ -67,8 +69,15 @@ Chosen Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
     SetState(world.map, key, voxel.state);
   });
   world.ground.Rebuild(world.map);
+  for (const double level_m : other_levels_m)
+    for (int y = 12; y < 18; ++y)
+      for (int dz = -1; dz <= 1; ++dz) {
+        const int z = static_cast<int>(std::lround(level_m / config.map.voxel_m)) + dz;
+        world.stairs.Import({{{kSide + 2, y, z}, 1, 1}, {{kSide + 3, y, z}, 1, 1}});
+      }
   world.has_level = true;
   world.levels_m = {0.1};
+  world.levels_m.insert(world.levels_m.end(), other_levels_m.begin(), other_levels_m.end());
   world.level_m = 0.1;
   GoalState goal;
   goal.goal = goal_name;
@@ -119,6 +128,15 @@ TEST(Explore, AFlightDownComesFirstForASofaAndLastForABed) {
   EXPECT_TRUE(Choose(map, "sofa").is_flight);
   EXPECT_FALSE(Choose(map, "bed").is_flight);
   EXPECT_FALSE(Choose(map, "chair").is_flight);
+}
+
+// Regression: from a landing the floor below, where stairs were claimed by mistake, was a flight to
+// where a sofa is likelier; from that floor a hint above was nearer. The agent went to and fro.
+TEST(Explore, AFloorThatWasStoodOnIsNoLikelierFloor) {
+  VoxelMap map = Room();
+  AddTreads(map, 2, -2);
+  EXPECT_TRUE(Choose(map, "sofa").is_flight);
+  EXPECT_FALSE(Choose(map, "sofa", kStart, nullptr, {}, {-0.3}).is_flight);
 }
 
 // Regression: the price of the flight is negative there, and the refund of its class cancelled it:
