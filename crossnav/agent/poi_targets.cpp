@@ -145,7 +145,8 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
       nearer.range_m = std::min(wish.range_m, share * failed.doubtful_m);
       if (auto target = NearestView(now, start, nearer)) return target;
     }
-  if ((wish.same_side = BestViewIfSettled(now, poi.id)))
+  wish.same_side = BestViewIfSettled(now, poi.id);
+  if (wish.same_side)
     if (auto target = NearestView(now, start, wish)) return target;
   wish.same_side.reset();
   return NearestView(now, start, wish);

@@ -69,12 +69,17 @@ Chosen Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
     SetState(world.map, key, voxel.state);
   });
   world.ground.Rebuild(world.map);
+  std::vector<geometry::SeenStair> stairs;
   for (const double level_m : other_levels_m)
     for (int y = 12; y < 18; ++y)
-      for (int dz = -1; dz <= 1; ++dz) {
-        const int z = static_cast<int>(std::lround(level_m / config.map.voxel_m)) + dz;
-        world.stairs.Import({{{kSide + 2, y, z}, 1, 1}, {{kSide + 3, y, z}, 1, 1}});
-      }
+      for (int dz = -1; dz <= 1; ++dz)
+        for (int dx = 4; dx < 6; ++dx)
+          stairs.push_back(
+              {{kSide + dx, y, static_cast<int>(std::lround(level_m / config.map.voxel_m)) + dz},
+               1,
+               1,
+               true});
+  world.stairs.Import(stairs);
   world.has_level = true;
   world.levels_m = {0.1};
   world.levels_m.insert(world.levels_m.end(), other_levels_m.begin(), other_levels_m.end());
@@ -134,9 +139,9 @@ TEST(Explore, AFlightDownComesFirstForASofaAndLastForABed) {
 // where a sofa is likelier; from that floor a hint above was nearer. The agent went to and fro.
 TEST(Explore, AFloorThatWasStoodOnIsNoLikelierFloor) {
   VoxelMap map = Room();
-  AddTreads(map, 2, -2);
+  AddTreads(map, 3, -2);
   EXPECT_TRUE(Choose(map, "sofa").is_flight);
-  EXPECT_FALSE(Choose(map, "sofa", kStart, nullptr, {}, {-0.3}).is_flight);
+  EXPECT_FALSE(Choose(map, "sofa", kStart, nullptr, {}, {-0.5}).is_flight);
 }
 
 // Regression: the price of the flight is negative there, and the refund of its class cancelled it:
