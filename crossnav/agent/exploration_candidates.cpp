@@ -81,7 +81,8 @@ std::vector<ExplorationCandidate> ExplorationCandidates::At(const VoxelKey& plac
   if (here) found.push_back(std::move(*here));
   for (Hints::View& hint : hints_.SeenFrom(place)) {
     const auto type = hint.is_nearer ? ExplorationClass::kHint : ExplorationClass::kHintFromAfar;
-    found.push_back({type, std::move(hint.candidate), place, true, false, std::nullopt});
+    const bool is_on_floor = std::abs(RiseOf(now_, place)) < now_.config.policy.explore.storey_m;
+    found.push_back({type, std::move(hint.candidate), place, is_on_floor, false, std::nullopt});
   }
   return found;
 }

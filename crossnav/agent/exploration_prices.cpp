@@ -58,9 +58,9 @@ ExplorationPrices::Terms ExplorationPrices::TermsOf(const ExplorationCandidate& 
     case ExplorationClass::kUninspected:
       return {config_.uninspected_m + level_m};
     case ExplorationClass::kHint:
-      return {config_.hint_bonus_m};
+      return {config_.hint_bonus_m + level_m};
     case ExplorationClass::kHintFromAfar:
-      return {config_.hint_bonus_m + kFromAfar_m};
+      return {config_.hint_bonus_m + kFromAfar_m + level_m};
     case ExplorationClass::kFrontier:
       break;
   }

@@ -109,11 +109,11 @@ Chosen Choose(const VoxelMap& map, const std::string& goal_name, const VoxelKey&
   return {std::move(*target), is_flight};
 }
 
-/// Of something as large as a stool that stands at column `x`, `y`.
-policy::Sighting HintAt(int x, int y) {
+/// Of something as large as a stool that stands at column `x`, `y` on ground at `z`.
+policy::Sighting HintAt(int x, int y, int z = 0) {
   policy::Sighting hint;
-  for (int i = 0; i < 27; ++i) hint.voxels.push_back({x + i / 9, y + i / 3 % 3, 1 + i % 3});
-  hint.p_center_world = geometry::CenterOf({x + 1, y + 1, 2}, 0.1);
+  for (int i = 0; i < 27; ++i) hint.voxels.push_back({x + i / 9, y + i / 3 % 3, z + 1 + i % 3});
+  hint.p_center_world = geometry::CenterOf({x + 1, y + 1, z + 2}, 0.1);
   hint.confidence = 0.5;
   return hint;
 }
@@ -163,6 +163,16 @@ TEST(Explore, AHintIsGoneToPastANearerDoor) {
 
 // The nearest place within reach of it was this side of the wall: nothing was seen from there, and
 // the hint was settled.
+// Regression: weak sightings drew the agent back to a floor that it had left, past open doors.
+TEST(Explore, AHintOnAnotherFloorIsGoneToAfterANearDoor) {
+  VoxelMap map = Room();
+  AddTreads(map, 10, 2);
+  AddGround(map, kSide + 20, 12, kSide + 40, 18, 20);
+  const std::vector<policy::Sighting> above = {HintAt(kSide + 30, 14, 20)};
+  const Chosen choice = Choose(map, "chair", {3, 15, 1}, nullptr, above);
+  EXPECT_FALSE(choice.is_flight) << choice.target.candidate.p_focus_world.transpose();
+}
+
 TEST(Explore, AHintBehindAWallIsGoneToThroughTheDoorThatLeadsThere) {
   const VoxelMap map = Room();
   for (const int x : {kSide + 3, -6}) {
