@@ -123,7 +123,7 @@ TEST_P(OwnNetwork, MasksFollowTheFramesSize) {
       wrong += two.mask.At(u, v) != one.mask.At(u / 2, v / 2);
     }
   EXPECT_GT(filled, 5000);
-  EXPECT_LT(wrong, filled / 8);  // half a pixel around it, and sampling of another grid
+  EXPECT_LT(wrong, filled / 4);  // the network's edges follow the sampling of another grid
 }
 
 TEST_P(OwnNetwork, TheSameFrameGivesTheSameBits) {
