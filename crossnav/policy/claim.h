@@ -121,8 +121,7 @@ struct ClaimTracker {
   std::vector<RejectedObject> rejected;
   int second_view_of = -1;     ///< id of the POI that is to be seen from another side, -1 = none
   int no_second_view_of = -1;  ///< id of the POI whose other sides could not be reached, -1 = none
-  int decided_by_views =
-      -1;  ///< id of the POI that near frames miss and all views confirm, -1 = none
+  int decided_by_views = -1;   ///< id of the POI that all views hold and near frames miss, or -1
   std::vector<int> settled_for;  ///< ids of POIs that were taken for want of better ones
 
   const ClaimViews* ViewsOf(int poi_id) const;

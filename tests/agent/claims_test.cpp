@@ -156,6 +156,26 @@ TEST(Claims, ARefutedObjectIsTheAnswerOnceNothingElseIsLeft) {
   EXPECT_EQ(CountEvents(settled, "the likeliest refuted claim"), 1);
 }
 
+TEST(Claims, WhatAllViewsHoldIsNotLostToFramesFromNear) {
+  Config config = SmallConfig();
+  config.verify.evidence = "views";
+  config.verify.views.offset = 2;
+  config.verify.views.missed = 0;
+  FakeSight sight = Liar(180, false, 0.79F);
+  sight.detect = [far = sight.detect](const Observation& obs, std::string_view goal) {
+    const bool is_near = kSofa.HorizontalDistance(obs.T_world_camera.translation()) < 1.5;
+    return is_near ? std::vector<perception::Detection>() : far(obs, goal);
+  };
+  Agent agent(config, FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker = SofaAndBed();
+  walker.rooms.solids = {kSofa};
+  const Walk walk = RunAgent(agent, walker, 600);
+  ASSERT_TRUE(walk.p_claimed_world) << "four viewpoints without a detection";
+  EXPECT_LT(kSofa.HorizontalDistance(*walk.p_claimed_world), 0.1);
+  EXPECT_EQ(CountEvents(walk, "by its views"), 1);
+}
+
 TEST(Claims, TheRightObjectIsClaimedWithOrWithout) {
   for (const std::string memory : {"on", "off"}) {
     Agent agent(

@@ -139,6 +139,11 @@ TEST(ViewEvidence, DecidesOnceTheViewsAgree) {
   EXPECT_EQ(Judge(denies, Summary({View(0.9)}), config), ClaimVerdict::kRefuted);
   EXPECT_EQ(Judge(denies, Summary({View(0.99), View(0.99)}), config), ClaimVerdict::kAgreed)
       << "views that are sure outweigh it";
+  const double half = 0.6;  // undecided from one side, and from four
+  EXPECT_EQ(Judge(agrees, Summary({View(0.7), View(half)}), config), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(agrees, Summary({View(0.7), View(half), View(half), View(half)}), config),
+            ClaimVerdict::kRefuted)
+      << "put aside";
   EXPECT_TRUE(IsDisproved(Summary({View(0.7), View(0)}), config));
   EXPECT_FALSE(IsDisproved(Summary({View(0.3)}), config)) << "one view";
   config.evidence = "frame";
