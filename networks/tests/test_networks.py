@@ -208,21 +208,36 @@ def test_a_claim_on_a_thing_is_not_false():
     assert train.false_scores(heat, target) == pytest.approx([0, 1], abs=1e-3)
 
 
+def narrow_network():
+    return model.Network(widths=(8, 16, 16, 24, 32))
+
+
+def used_network():
+    """A narrow network whose norms are not those of a new one, and its inputs."""
+    torch.manual_seed(1)
+    network = narrow_network()
+    inputs, _ = batch()
+    network.raw(*inputs)
+    return network, inputs
+
+
+def started_from(file, inputs):
+    import warm
+
+    network = narrow_network()
+    warm.load(network, file)
+    warm.settle(network, [{"image": (inputs[0] * 255).round().to(torch.uint8), "depth": inputs[1], "height": inputs[2]}] * 2)
+    return network
+
+
 def test_a_run_from_an_exported_file_starts_with_its_answers(tmp_path):
     pytest.importorskip("onnx")
     import export
-    import warm
 
-    torch.manual_seed(1)
-    narrow = (8, 16, 16, 24, 32)
-    first = model.Network(widths=narrow)
-    inputs, _ = batch()
-    first.raw(*inputs)  # norms that are not those of a new network
+    first, inputs = used_network()
     file = tmp_path / "toy.onnx"
     export.export(export.fold_norms(first.eval()), file, SIZE)
-    second = model.Network(widths=narrow)
-    warm.load(second, file)
-    warm.settle(second, [{"image": (inputs[0] * 255).round().to(torch.uint8), "depth": inputs[1], "height": inputs[2]}] * 2)
+    second = started_from(file, inputs)
     with torch.no_grad():
         mine, theirs = second.raw(*inputs), first.raw(*inputs)
         trained = second.train().raw(*inputs)
@@ -236,13 +251,8 @@ def test_blocks_that_an_exported_file_lacks_change_none_of_its_answers(tmp_path)
     pytest.importorskip("onnx")
     import export
     import onnx
-    import warm
 
-    torch.manual_seed(1)
-    narrow = (8, 16, 16, 24, 32)
-    first = model.Network(widths=narrow)
-    inputs, _ = batch()
-    first.raw(*inputs)
+    first, inputs = used_network()
     with torch.no_grad():  # the file of a network without these blocks: they are not in it and added nothing
         for block in first.deepest_more:
             block.body[-1][1].weight.zero_()
@@ -255,9 +265,7 @@ def test_blocks_that_an_exported_file_lacks_change_none_of_its_answers(tmp_path)
     del graph.graph.initializer[:]
     graph.graph.initializer.extend(kept)
     onnx.save(graph, file)
-    second = model.Network(widths=narrow)
-    warm.load(second, file)
-    warm.settle(second, [{"image": (inputs[0] * 255).round().to(torch.uint8), "depth": inputs[1], "height": inputs[2]}] * 2)
+    second = started_from(file, inputs)
     with torch.no_grad():
         mine, theirs = second.raw(*inputs), first.raw(*inputs)
     for name, value in theirs.items():
