@@ -66,6 +66,7 @@ ViewTest::ViewTest(const VoxelMap& map, const std::vector<VoxelKey>& object, dou
       range_m_(range_m),
       camera_height_m_(camera_height_m),
       min_visibility_(config.min_visibility),
+      stray_share_(config.stray_share),
       sample_(Sample(object, 24)) {  // chosen: enough to tell a third from a half
   const double voxel_m = map.config().voxel_m;
   lo_ = hi_ = object.front();
@@ -85,7 +86,8 @@ bool ViewTest::IsView(const VoxelKey& key) const {
   const double voxel_m = map_.config().voxel_m;
   Vector3d p_foot = CenterOf(key, voxel_m);
   p_foot.z() = geometry::MinCornerOf(key, voxel_m).z();
-  if (DistanceToObject(object_, p_foot, camera_height_m_, voxel_m) > range_m_) return false;
+  if (DistanceToObject(object_, p_foot, camera_height_m_, voxel_m, stray_share_) > range_m_)
+    return false;
   return VisibleShare(map_, p_foot + Vector3d(0, 0, camera_height_m_), sample_) >= min_visibility_;
 }
 
@@ -125,14 +127,19 @@ std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey
 }
 
 double DistanceToObject(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
-                        double camera_height_m, double voxel_m) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const VoxelKey& key : object) {
+                        double camera_height_m, double voxel_m, double stray_share) {
+  if (object.empty()) return std::numeric_limits<double>::infinity();
+  std::vector<double> squared(object.size());
+  std::transform(object.begin(), object.end(), squared.begin(), [&](const VoxelKey& key) {
     const Vector3d d = CenterOf(key, voxel_m) - p_world_foot;
     const double dz = d.z() < 0 ? -d.z() : std::max(0.0, d.z() - camera_height_m);
-    nearest = std::min(nearest, std::sqrt(d.x() * d.x() + d.y() * d.y() + dz * dz));
-  }
-  return nearest;
+    return d.x() * d.x() + d.y() * d.y() + dz * dz;
+  });
+  const auto nearest =
+      squared.begin() + static_cast<std::ptrdiff_t>(
+                            stray_share * static_cast<double>(squared.size() - 1));
+  std::nth_element(squared.begin(), nearest, squared.end());
+  return std::sqrt(*nearest);
 }
 
 Vector3d AimPoint(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
@@ -188,7 +195,7 @@ Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
   }
   result.distance_m =
       DistanceToObject(best ? WithoutStrays(poi.voxels, *best, obs, voxel_m) : poi.voxels,
-                       p_foot_world, viewer.camera_height_m, voxel_m);
+                       p_foot_world, viewer.camera_height_m, voxel_m, config.approach.stray_share);
   if (!best) {
     result.failed_check = "not detected";
     return result;

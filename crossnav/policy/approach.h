@@ -32,7 +32,7 @@ class ViewTest {
  private:
   const VoxelMap& map_;
   const std::vector<VoxelKey>& object_;
-  double range_m_, camera_height_m_, min_visibility_;
+  double range_m_, camera_height_m_, min_visibility_, stray_share_;
   std::vector<VoxelKey> sample_;
   VoxelKey lo_, hi_;  // box of the object, grown by the range
 };
@@ -43,9 +43,10 @@ std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey
                                  double range_m, const ApproachConfig& config,
                                  double camera_height_m, const std::vector<Vector3d>& tried = {});
 
-/// Distance from the agent's upright axis (foot to camera) to the nearest voxel of the object [m].
+/// Distance from the agent's upright axis (foot to camera) to the object [m]: to its nearest voxel,
+/// after the share `stray_share` of voxels that are nearer. Infinite for an empty object.
 double DistanceToObject(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
-                        double camera_height_m, double voxel_m);
+                        double camera_height_m, double voxel_m, double stray_share = 0);
 
 /// Where to point the camera: the centre of the object's voxels that lie near the agent.
 Vector3d AimPoint(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
@@ -69,8 +70,8 @@ struct Viewer {
 };
 
 /// Checks the current frame: detection confidence, mask quality, visibility, viewing direction and
-/// 3D distance must all pass. The distance is to the nearest voxel of the object that the frame
-/// does not show beside its mask.
+/// 3D distance must all pass. The distance leaves out voxels that the frame shows beside the
+/// object's mask, and the nearest `stray_share` of the others.
 Verification Verify(const LivePoi& poi, const std::vector<Sighting>& sightings,
                     const Viewer& viewer, const PolicyConfig& config, double voxel_m);
 

@@ -53,6 +53,8 @@ struct StairConfig {
 
 struct ApproachConfig {
   double range_m = 1.30;
+  double stray_share = 0.05;       // chosen: nearest voxels that do not count for the distance:
+                                   // depth noise, and a table in a sofa's mask
   double min_visibility = 0.3;     // chosen: share of the object's voxels in line of sight
   double min_mask_quality = 0.5;   // chosen
   double max_view_angle_deg = 35;  // chosen: object within the middle of the image
@@ -161,6 +163,7 @@ void Visit(V& visit, StairConfig& c) {
 template <class V>
 void Visit(V& visit, ApproachConfig& c) {
   visit(CROSSNAV_SETTING(c, range_m), 0.1, 10.0);
+  visit(CROSSNAV_SETTING(c, stray_share), 0.0, 0.9);
   visit(CROSSNAV_SETTING(c, min_visibility), 0.0, 1.0);
   visit(CROSSNAV_SETTING(c, min_mask_quality), 0.0, 1.0);
   visit(CROSSNAV_SETTING(c, max_view_angle_deg), 1.0, 90.0);

@@ -94,6 +94,18 @@ TEST(DistanceToObject, IsMeasuredFromTheUprightAxis) {
               std::hypot(0.3, 0.45), 1e-9);
 }
 
+TEST(DistanceToObject, LeavesOutTheShareOfVoxelsThatMayBeStrays) {
+  std::vector<VoxelKey> sofa;
+  for (int y = 0; y < 19; ++y) sofa.push_back({15, y, 3});
+  sofa.push_back({10, 0, 3});  // the corner of a table before it
+  std::sort(sofa.begin(), sofa.end());
+  const Vector3d p_foot(0.05, 0.05, 0);
+  EXPECT_NEAR(DistanceToObject(sofa, p_foot, kCamera_m, 0.1), 1.0, 1e-9);
+  EXPECT_NEAR(DistanceToObject(sofa, p_foot, kCamera_m, 0.1, 0.1), 1.5, 1e-9);
+  EXPECT_NEAR(DistanceToObject({{10, 0, 5}}, p_foot, kCamera_m, 0.1, 0.9), 1.0, 1e-9);
+  EXPECT_TRUE(std::isinf(DistanceToObject({}, p_foot, kCamera_m, 0.1, 0.1)));
+}
+
 TEST(AimPoint, OfALongObjectIsItsNearEnd) {
   std::vector<VoxelKey> sofa;
   for (int x = 0; x < 30; ++x) sofa.push_back({x, 0, 3});
