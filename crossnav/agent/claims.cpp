@@ -204,7 +204,14 @@ std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const O
 bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint) {
   const policy::VerifyConfig& config = now.config.verify;
   if (!DoubtsClaims(now.config) || config.evidence != "views") return false;
-  const auto summary = SummaryOf(now, now.goal.full.hint_views.ViewsOf(hint.id));
+  const policy::ClaimViews* seen = now.goal.full.hint_views.ViewsOf(hint.id);
+  if (!seen) return false;
+  policy::ClaimViews views = *seen;
+  const bool is_missed = std::none_of(views.scores.begin(), views.scores.end(),
+                                      [](const policy::ViewScore& v) { return v.frames > 0; });
+  // The sighting that made it a hint was from afar or cut off, and is the only one.
+  if (is_missed) views.scores.push_back({Vector3d::Zero(), hint.confidence, 1, 0, 0});
+  const auto summary = SummaryOf(now, &views);
   return summary.views >= 2 &&
          ProbabilityOf(summary, config.views) < kHopelessShare * config.views.refused;
 }

@@ -133,6 +133,27 @@ TEST(Claims, AHintThatTwoViewsRefuteIsNotGoneToAgain) {
   EXPECT_LT(visits("views"), by_frame);
 }
 
+TEST(Claims, AHintSeenFromAfarAloneIsSettledByOneViewThatMissesIt) {
+  Config config = SmallConfig();
+  config.verify.evidence = "views";
+  config.verify.views.offset = -3;
+  config.verify.views.slope = 4;
+  FakeSight sight = Liar(180, false, 0.65F);
+  sight.detect = [all = sight.detect](const Observation& obs, std::string_view goal) {
+    const bool is_far = (obs.T_world_camera.translation() - kSofaCentre).norm() > 4.5;
+    return is_far ? all(obs, goal) : std::vector<perception::Detection>();
+  };
+  Agent agent(config, FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker = SofaAndBed();
+  walker.rooms.solids = {kSofa};
+  walker.pose.p_world = Vector3d(7.75, 2.0, 0);
+  walker.pose.yaw_rad = M_PI;
+  const Walk walk = RunAgent(agent, walker, 600);
+  EXPECT_TRUE(walk.all_explored);
+  EXPECT_EQ(CountEvents(walk, "go_to: undecided") + CountEvents(walk, "go_to: reached"), 0);
+}
+
 TEST(Claims, ARefutedObjectIsTheAnswerOnceNothingElseIsLeft) {
   const auto search = [](double settle) {
     Config config = SmallConfig();
