@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace crossnav {
 
@@ -18,6 +19,7 @@ class Rng {
   double Uniform();                      ///< uniform in [0, 1), 53 bits
   double Uniform(double lo, double hi);  ///< uniform in [lo, hi)
   double Normal();                       ///< standard normal (Box-Muller)
+  std::pair<double, double> Normals();   ///< Normal(), and an independent one for little more time
   bool Chance(double probability) { return Uniform() < probability; }
 
   /// Fisher-Yates, in place.

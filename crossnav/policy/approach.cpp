@@ -135,9 +135,8 @@ double DistanceToObject(const std::vector<VoxelKey>& object, const Vector3d& p_w
     const double dz = d.z() < 0 ? -d.z() : std::max(0.0, d.z() - camera_height_m);
     return d.x() * d.x() + d.y() * d.y() + dz * dz;
   });
-  const auto nearest =
-      squared.begin() + static_cast<std::ptrdiff_t>(
-                            stray_share * static_cast<double>(squared.size() - 1));
+  const auto nearest = squared.begin() + static_cast<std::ptrdiff_t>(
+                                             stray_share * static_cast<double>(squared.size() - 1));
   std::nth_element(squared.begin(), nearest, squared.end());
   return std::sqrt(*nearest);
 }

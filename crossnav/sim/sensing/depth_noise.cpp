@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "crossnav/sim/sensing/sensor_noise.h"
 
@@ -37,9 +39,10 @@ void ForEachPixel(const DepthImage& depth_m, F&& visit) {
 
 DepthImage Shifted(const DepthImage& depth_m, double sigma_px, Rng rng) {
   DepthImage shifted = depth_m;
+  const auto rounded = [](double x) { return static_cast<int>(std::floor(x + 0.5)); };
   ForEachPixel(depth_m, [&](int u, int v) {
-    const int from_u = u + static_cast<int>(std::lround(sigma_px * rng.Normal()));
-    const int from_v = v + static_cast<int>(std::lround(sigma_px * rng.Normal()));
+    const auto [right, down] = rng.Normals();
+    const int from_u = u + rounded(sigma_px * right), from_v = v + rounded(sigma_px * down);
     shifted.At(u, v) = depth_m.At(std::clamp(from_u, 0, depth_m.width - 1),
                                   std::clamp(from_v, 0, depth_m.height - 1));
   });
@@ -59,21 +62,27 @@ float BeyondEdge(const DepthImage& depth_m, int u, int v) {
   return 0;
 }
 
-/// Flying pixels: light from both sides of an edge reaches one pixel, and the sensor reads a depth
-/// between.
-void MixEdges(const DepthImage& perfect_m, double probability, Rng rng, DepthImage& depth_m) {
-  ForEachPixel(perfect_m, [&](int u, int v) {
-    const float there = BeyondEdge(perfect_m, u, v);
-    if (there <= 0 || !rng.Chance(probability)) return;
-    const auto share = static_cast<float>(rng.Uniform());
-    if (depth_m.At(u, v) > 0) depth_m.At(u, v) += share * (there - depth_m.At(u, v));
-  });
+/// BeyondEdge of all pixels.
+DepthImage EdgesOf(const DepthImage& depth_m) {
+  DepthImage edges_m = depth_m;
+  ForEachPixel(depth_m, [&](int u, int v) { edges_m.At(u, v) = BeyondEdge(depth_m, u, v); });
+  return edges_m;
 }
 
-void LoseEdges(const DepthImage& perfect_m, double probability, Rng rng, DepthImage& depth_m) {
-  ForEachPixel(perfect_m, [&](int u, int v) {
-    if (BeyondEdge(perfect_m, u, v) > 0 && rng.Chance(probability)) depth_m.At(u, v) = 0;
-  });
+/// Flying pixels: light from both sides of an edge reaches one pixel, and the sensor reads a depth
+/// between.
+void MixEdges(const DepthImage& edges_m, double probability, Rng rng, DepthImage& depth_m) {
+  for (std::size_t i = 0; i < depth_m.data.size(); ++i) {
+    const float there = edges_m.data[i];
+    if (there <= 0 || !rng.Chance(probability)) continue;
+    const auto share = static_cast<float>(rng.Uniform());
+    if (depth_m.data[i] > 0) depth_m.data[i] += share * (there - depth_m.data[i]);
+  }
+}
+
+void LoseEdges(const DepthImage& edges_m, double probability, Rng rng, DepthImage& depth_m) {
+  for (std::size_t i = 0; i < depth_m.data.size(); ++i)
+    if (edges_m.data[i] > 0 && rng.Chance(probability)) depth_m.data[i] = 0;
 }
 
 void LosePatches(double share, Rng rng, DepthImage& depth_m) {
@@ -89,19 +98,21 @@ void LosePatches(double share, Rng rng, DepthImage& depth_m) {
 }
 
 /// Angle between each pixel's ray and the surface's normal [rad]; 0 beside jumps and borders.
-std::vector<float> AnglesOf(const DepthImage& depth_m, const CameraIntrinsics& camera) {
+std::vector<float> AnglesOf(const DepthImage& depth_m, const DepthImage& edges_m,
+                            const CameraIntrinsics& camera) {
   std::vector<float> angles(depth_m.data.size(), 0.0F);
   ForEachPixel(depth_m, [&](int u, int v) {
     if (u == 0 || v == 0 || u + 1 >= depth_m.width || v + 1 >= depth_m.height) return;
-    if (!(depth_m.At(u, v) > 0) || BeyondEdge(depth_m, u, v) > 0) return;
+    if (!(depth_m.At(u, v) > 0) || edges_m.At(u, v) > 0) return;
     const auto at = [&](int nu, int nv) {
       return BackProjectPixel(camera, nu, nv, depth_m.At(nu, nv));
     };
     const Vector3d n = (at(u + 1, v) - at(u - 1, v)).cross(at(u, v + 1) - at(u, v - 1));
     const Vector3d p = at(u, v);
-    const double cosine = std::abs(n.dot(p)) / std::max(1e-12, n.norm() * p.norm());
+    const double cosine =
+        std::abs(n.dot(p)) / std::max(1e-12, std::sqrt(n.squaredNorm() * p.squaredNorm()));
     angles[static_cast<std::size_t>(v) * depth_m.width + u] =
-        static_cast<float>(std::acos(std::min(1.0, cosine)));
+        std::acos(std::min(1.0F, static_cast<float>(cosine)));
   });
   return angles;
 }
@@ -136,8 +147,9 @@ double AngleSigma(const NoiseConfig& noise, double z_m, double angle_rad) {
   return noise.depth_angle_sigma_m * share * share / std::sqrt(z_m);
 }
 
-float Reading(const NoiseConfig& noise, double z_m, double sigma_m, Rng& rng) {
-  double read_m = sigma_m > 0 ? z_m + sigma_m * rng.Normal() : z_m;
+/// `normal`: standard normal of this pixel.
+float Reading(const NoiseConfig& noise, double z_m, double sigma_m, double normal) {
+  double read_m = z_m + sigma_m * normal;
   if (read_m <= 0) return 0;
   const double step_m = noise.depth_step_per_m2 * z_m * z_m;
   if (step_m > 0) read_m = std::round(read_m / step_m) * step_m;
@@ -158,24 +170,29 @@ DepthImage NoisyDepth(const NoiseConfig& noise, const DepthImage& depth_m, std::
   DepthImage noisy = noise.depth_shift_px > 0
                          ? Shifted(depth_m, noise.depth_shift_px, Rng(seed, kShifts))
                          : depth_m;
-  if (noise.depth_flying > 0) MixEdges(depth_m, noise.depth_flying, Rng(seed, kFlying), noisy);
-  if (noise.depth_edge_hole > 0) {
-    LoseEdges(depth_m, noise.depth_edge_hole, Rng(seed, kEdges), noisy);
-  }
-  if (noise.depth_hole_share > 0) LosePatches(noise.depth_hole_share, Rng(seed, kPatches), noisy);
   const bool has_angles = scenery.camera.width_px > 0 &&
                           (noise.depth_angle_sigma_m > 0 || noise.depth_grazing_hole > 0);
-  const auto angles = has_angles ? AnglesOf(depth_m, scenery.camera) : std::vector<float>{};
+  const bool has_edges = has_angles || noise.depth_flying > 0 || noise.depth_edge_hole > 0;
+  const DepthImage edges_m = has_edges ? EdgesOf(depth_m) : DepthImage{};
+  if (noise.depth_flying > 0) MixEdges(edges_m, noise.depth_flying, Rng(seed, kFlying), noisy);
+  if (noise.depth_edge_hole > 0)
+    LoseEdges(edges_m, noise.depth_edge_hole, Rng(seed, kEdges), noisy);
+  if (noise.depth_hole_share > 0) LosePatches(noise.depth_hole_share, Rng(seed, kPatches), noisy);
+  const auto angles =
+      has_angles ? AnglesOf(depth_m, edges_m, scenery.camera) : std::vector<float>{};
   if (noise.depth_grazing_hole > 0 || noise.depth_dark_hole > 0)
     LoseDim(noise, scenery, angles, Rng(seed, kDim), noisy);
   if (noise.depth_glass_hole > 0)
     LoseGlass(noise.depth_glass_hole, scenery, Rng(seed, kPanes), noisy);
   Rng rng(seed, kReadings);
+  std::pair<double, double> normals;
   for (std::size_t i = 0; i < noisy.data.size(); ++i) {
+    if (i % 2 == 0) normals = rng.Normals();
     const double z_m = noisy.data[i];
     if (!(z_m > 0)) continue;
     const double more_m = angles.empty() ? 0 : AngleSigma(noise, z_m, angles[i]);
-    noisy.data[i] = Reading(noise, z_m, DepthSigma(noise, z_m) + more_m, rng);
+    noisy.data[i] = Reading(noise, z_m, DepthSigma(noise, z_m) + more_m,
+                            i % 2 == 0 ? normals.first : normals.second);
   }
   return noisy;
 }

@@ -2,6 +2,7 @@
 #include "crossnav/sim/sensing/sensor_noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace crossnav::sim {
@@ -27,11 +28,12 @@ bool HasActionNoise(const NoiseConfig& n) {
   return n.forward_sigma > 0 || n.turn_sigma_deg > 0 || n.slip > 0;
 }
 
-Rgb8 Exposed(Rgb8 colour, double gain) {
-  const auto channel = [&](std::uint8_t c) {
-    return static_cast<std::uint8_t>(std::clamp(std::lround(c * gain), 0L, 255L));
-  };
-  return {channel(colour.r), channel(colour.g), channel(colour.b)};
+void Expose(double gain, RgbImage& rgb) {
+  std::array<std::uint8_t, 256> exposed{};
+  for (std::size_t c = 0; c < exposed.size(); ++c)
+    exposed[c] =
+        static_cast<std::uint8_t>(std::clamp(std::lround(static_cast<double>(c) * gain), 0L, 255L));
+  for (Rgb8& colour : rgb.data) colour = {exposed[colour.r], exposed[colour.g], exposed[colour.b]};
 }
 
 /// Rolling exposure while the camera turns: each row is shifted sideways by its share of `last_px`.
@@ -77,9 +79,7 @@ RgbImage NoisyColour(const NoiseConfig& noise, const RgbImage& rgb, std::uint64_
   const double stops = noise.exposure_stops * rng.Normal();
   const int length_px = 1 + static_cast<int>(std::floor(rng.Uniform() * noise.blur_px));
   RgbImage noisy = rgb;
-  if (noise.exposure_stops > 0) {
-    for (Rgb8& colour : noisy.data) colour = Exposed(colour, std::exp2(stops));
-  }
+  if (noise.exposure_stops > 0) Expose(std::exp2(stops), noisy);
   if (noise.rolling_px > 0) Roll(noise.rolling_px * (2 * rng.Uniform() - 1), noisy);
   if (length_px > 1) BlurRows(length_px, noisy);
   return noisy;
