@@ -48,6 +48,10 @@ struct Backend {
 /// All known backends, the default first.
 const std::vector<Backend>& Backends();
 
+/// Whether a backend that the options name is available and has their provider. Errors begin with
+/// `where` and name the remedy.
+Result<void> CheckBackend(const SessionOptions& options, const std::string& where);
+
 /// Opens an ONNX file's content with the backend that the options name. Errors begin with `where`.
 Result<std::unique_ptr<Session>> OpenSession(const std::string& onnx, const SessionOptions& options,
                                              const std::string& where);

@@ -39,6 +39,15 @@ bool HasProvider(const Backend& backend, const std::string& provider) {
   return std::find(all.begin(), all.end(), provider) != all.end();
 }
 
+/// The first backend that will do; null without any.
+const Backend* Find(const SessionOptions& options) {
+  for (const Backend& backend : Backends()) {
+    const bool is_meant = options.backend == "auto" || options.backend == backend.name;
+    if (is_meant && backend.is_available && HasProvider(backend, options.provider)) return &backend;
+  }
+  return nullptr;
+}
+
 /// Error with the reason for each backend that was tried.
 tl::unexpected<Error> NoBackend(const SessionOptions& options, const std::string& where) {
   const auto& all = Backends();
@@ -76,14 +85,16 @@ const std::vector<Backend>& Backends() {
   return backends;
 }
 
+Result<void> CheckBackend(const SessionOptions& options, const std::string& where) {
+  if (!Find(options)) return NoBackend(options, where);
+  return {};
+}
+
 Result<std::unique_ptr<Session>> OpenSession(const std::string& onnx, const SessionOptions& options,
                                              const std::string& where) {
-  for (const Backend& backend : Backends()) {
-    const bool is_meant = options.backend == "auto" || options.backend == backend.name;
-    if (is_meant && backend.is_available && HasProvider(backend, options.provider))
-      return backend.open(onnx, options, where);
-  }
-  return NoBackend(options, where);
+  const Backend* backend = Find(options);
+  if (!backend) return NoBackend(options, where);
+  return backend->open(onnx, options, where);
 }
 
 std::string ShapeText(const Shape& shape) {

@@ -62,6 +62,14 @@ Result<void> HasHash(const ModelCard& card, const char* key, const std::string& 
               card.path.string());
 }
 
+SessionOptions SessionOptionsOf(const NetworksConfig& config) {
+  SessionOptions options;
+  options.backend = config.backend;
+  options.provider = config.provider;
+  options.threads = config.threads;
+  return options;
+}
+
 }  // namespace
 
 std::filesystem::path CardPath(const std::filesystem::path& dir, const std::string& name) {
@@ -175,9 +183,7 @@ Result<Model*> NetworkSet::ModelOf(const std::string& name, const ModelOptions& 
 
 Result<perception::PerceptionSuite> NetworkSet::MakeSuite(double camera_height_m) {
   ModelOptions options;
-  options.session.backend = config_.backend;
-  options.session.provider = config_.provider;
-  options.session.threads = config_.threads;
+  options.session = SessionOptionsOf(config_);
   if (config_.batch > 1) {
     if (!shared_) shared_ = std::make_shared<SharedNetworks>(BatchOptions{config_.batch});
     options.session.shared = shared_;
@@ -214,7 +220,7 @@ Result<void> NetworkSet::IsComplete() const {
     if (name.empty())
       return Fail(ErrorCode::kInvalid, "names no network, and the agent needs one",
                   std::string("networks.") + part);
-  return {};
+  return CheckBackend(SessionOptionsOf(config_), "networks.backend");
 }
 
 }  // namespace crossnav::inference

@@ -46,7 +46,7 @@ class NetworkSet {
   /// thread-safe itself. Omitted parts are null, and an agent needs all: see IsComplete.
   Result<perception::PerceptionSuite> MakeSuite(double camera_height_m);
 
-  /// Error that names the first omitted part.
+  /// Whether an agent can use it. Errors: the first omitted part, or no inference library.
   Result<void> IsComplete() const;
 
   /// SHA-256 of each file in use, by name of its card.

@@ -108,6 +108,20 @@ TEST_F(NetworksCli, AFolderWithoutOpenVinoIsNamed) {
       << check.out << check.err;
 }
 
+TEST_F(NetworksCli, AMissingLibraryIsNamedOnceBeforeAnythingRuns) {
+  const auto all = inference::test::BuiltBackends();
+  if (std::find(all.begin(), all.end(), "openvino") == all.end()) GTEST_SKIP() << "no OpenVINO";
+  const Outcome eval =
+      RunIn(folder_,
+            "eval --quiet --scenes scenes --episodes e.json --out run --perception networks"
+            " --set networks.backend=openvino" +
+                std::string(kSmall) + use_,
+            "CROSSNAV_OPENVINO=/nowhere");
+  EXPECT_EQ(eval.exit_code, 1);
+  EXPECT_NE(eval.err.find("CROSSNAV_OPENVINO names /nowhere"), std::string::npos) << eval.err;
+  EXPECT_FALSE(fs::exists(At("run")));
+}
+
 TEST_F(NetworksCli, AMissingNetworkIsNamedBeforeAnythingRuns) {
   fs::remove(At("nets/small.onnx"));
   ExpectFailure("eval --quiet --scenes scenes --episodes e.json --out run --perception networks" +
