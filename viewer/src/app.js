@@ -107,7 +107,7 @@ export class ReplayApp {
     } catch (error) {
       this.renderer = null;
       const box = byId("view-message");
-      box.textContent = `The voxel map cannot be drawn here: ${error.message}. ` +
+      box.textContent = `The voxel map cannot be drawn here: ${error.message.replace(/\.$/, "")}. ` +
         "Paths and candidates are shown without it; all other panels work.";
       box.hidden = false;
     }
