@@ -95,6 +95,25 @@ void JudgeRejectedAgain(const World& world, const Config& config, double least, 
   }
 }
 
+bool HasViews(const Config& config) {
+  return DoubtsClaims(config) && config.verify.evidence == "views";
+}
+
+/// Views of a hint in plain sight. Where all of them missed it, the sighting that made it a hint is
+/// the only one: from afar, or cut off.
+policy::ViewSummary SummaryOfHint(const Situation& now, const policy::LivePoi& hint) {
+  const policy::ClaimViews* seen = now.goal.full.hint_views.ViewsOf(hint.id);
+  policy::ClaimViews views = seen ? *seen : policy::ClaimViews{};
+  const bool is_missed = std::none_of(views.scores.begin(), views.scores.end(),
+                                      [](const policy::ViewScore& v) { return v.frames > 0; });
+  if (is_missed) views.scores.push_back({Vector3d::Zero(), hint.confidence, 1, 0, 0});
+  return SummaryOf(now, &views);
+}
+
+bool IsHopeless(const policy::ViewSummary& summary, const policy::VerifyConfig& config) {
+  return ProbabilityOf(summary, config.views) < kHopelessShare * config.views.refused;
+}
+
 bool IsSettledFor(const GoalState& goal, int poi_id) {
   const auto& ids = goal.full.claims.settled_for;
   return std::find(ids.begin(), ids.end(), poi_id) != ids.end();
@@ -202,18 +221,13 @@ std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const O
 }
 
 bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint) {
-  const policy::VerifyConfig& config = now.config.verify;
-  if (!DoubtsClaims(now.config) || config.evidence != "views") return false;
-  const policy::ClaimViews* seen = now.goal.full.hint_views.ViewsOf(hint.id);
-  if (!seen) return false;
-  policy::ClaimViews views = *seen;
-  const bool is_missed = std::none_of(views.scores.begin(), views.scores.end(),
-                                      [](const policy::ViewScore& v) { return v.frames > 0; });
-  // The sighting that made it a hint was from afar or cut off, and is the only one.
-  if (is_missed) views.scores.push_back({Vector3d::Zero(), hint.confidence, 1, 0, 0});
-  const auto summary = SummaryOf(now, &views);
-  return summary.views >= 2 &&
-         ProbabilityOf(summary, config.views) < kHopelessShare * config.views.refused;
+  if (!HasViews(now.config) || !now.goal.full.hint_views.ViewsOf(hint.id)) return false;
+  const auto summary = SummaryOfHint(now, hint);
+  return summary.views >= 2 && IsHopeless(summary, now.config.verify);
+}
+
+bool IsUnlikelyHint(const Situation& now, const policy::LivePoi& hint) {
+  return HasViews(now.config) && IsHopeless(SummaryOfHint(now, hint), now.config.verify);
 }
 
 void Reject(StepState& now, const policy::LivePoi& poi) {

@@ -44,6 +44,10 @@ std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const O
 /// Whether views in plain sight say that a hint will never be claimed (verify.evidence = views).
 bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint);
 
+/// Whether its sightings so far make it improbable: one more view that raises no confidence settles
+/// it (verify.evidence = views).
+bool IsUnlikelyHint(const Situation& now, const policy::LivePoi& hint);
+
 /// Gives up a POI: it, hints of it and remembered places on it are not tried again for this goal
 /// until there is new evidence.
 void Reject(StepState& now, const policy::LivePoi& poi);

@@ -54,7 +54,8 @@ bool NoteLook(StepState& now, int poi_id) {
   if (has_risen)
     looks.distance_m = policy::DistanceToObject(
         poi->voxels, now.agent.p_world, now.config.sensor.camera_height_m, now.config.map.voxel_m);
-  return looks.without_rise >= now.config.policy.approach.max_viewpoints;
+  const int enough = IsUnlikelyHint(now, *poi) ? 1 : now.config.policy.approach.max_viewpoints;
+  return looks.without_rise >= enough;
 }
 
 Hints::Hints(const Situation& now) : now_(now) {
