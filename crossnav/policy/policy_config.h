@@ -53,7 +53,7 @@ struct StairConfig {
 
 struct ApproachConfig {
   double range_m = 1.30;
-  double stray_share = 0.05;       // chosen: nearest voxels that do not count for the distance:
+  double stray_share = 0.15;       // chosen: nearest voxels that do not count for the distance:
                                    // depth noise, and a table in a sofa's mask
   double min_visibility = 0.3;     // chosen: share of the object's voxels in line of sight
   double min_mask_quality = 0.5;   // chosen
