@@ -6,35 +6,26 @@ is whole however fast the machine is. Every few minutes the state goes to `check
 weights is what counts. Frames in which the network claims a goal that is not there are drawn more often.
 
 With --from-onnx a new run starts from the weights of an exported file instead of from nothing. On a GPU the frames
-are kept in its memory and batches are made there (batches.py).
+are kept in its memory and batches are made there (sources.py).
 """
 
 import argparse
-import concurrent.futures
 import copy
 import math
 import os
 import pathlib
 import time
 
-import augment
-import batches
 import common
 import cv2
-import frames
 import losses
-import numpy as np
-import targets
 import torch
 import warm
 from model import Network
+from sources import FromDisk, InMemory
 
 SAVE_EVERY_S = 180
 TELL_EVERY_S = 30
-DRAWN = 4.0  # chosen: two homes among seven hundred houses are a seventh of what is drawn
-LOOKALIKE = 2.0  # chosen: an armchair is told from a sofa by its width alone, if both are of one series
-HARD = 3.0  # chosen: a frame with a sure false claim is drawn four times as often as one without
-UNSEEN = 0.3  # chosen: score of the false claims of frames not yet drawn
 SETTLE_FRAMES = 384  # chosen: for the norms of a run that starts from a file
 
 
@@ -65,180 +56,14 @@ def autocast(device):
     return torch.autocast(device.type, dtype=torch.bfloat16, enabled=fast)
 
 
-def frame_weights(houses):
-    """Frames with goals that few frames show are drawn more often, and frames of homes that people drew or of seats
-    that look like another goal; frames without goals less. Also which frame shows which goal, stairs last."""
-    places, goals, alike = [], [], []
-    for house in houses:
-        for index in range(len(house.frames)):
-            seen = np.zeros(len(common.GOALS) + 1)
-            ids, count = np.unique(house.instance[index][::4, ::4], return_counts=True)
-            big = ids[count > 20]  # half a percent of the picture
-            for goal in house.goal_of[big]:
-                seen[goal] = seen[goal] or goal >= 0
-            seen[-1] = house.is_stairs[big].any()
-            alike.append(house.is_lookalike[big].any())
-            places.append((house, index))
-            goals.append(seen)
-    goals = np.array(goals)
-    rarity = 1 / np.maximum(goals.mean(0), 0.01) ** 0.5
-    weights = 1.0 + (goals * rarity).max(1)
-    weights *= [DRAWN if house.name in common.LOOKED_AT else 1.0 for house, _ in places]
-    weights *= np.where(alike, LOOKALIKE, 1.0)
-    return places, weights / weights.sum(), goals
-
-
-def dense_weights(houses, size=64):
-    """Of the names, for the houses on disk."""
-    count = np.ones(len(common.CLASS_NAMES))
-    step = common.STORED_PX // size
-    for house in houses:
-        names = house.class_of[house.instance[::6, ::step, ::step]]
-        count += np.bincount(names[names >= 0], minlength=len(count))
-    return class_weights(torch.from_numpy(count))
-
-
-def class_weights(count):
-    """Rare names count more, common ones less: by the square root of how often they are seen."""
-    weights = (count / count.sum()) ** -0.5
-    return (weights / weights.median()).clamp(0.2, 5).float()
-
-
-class Draw:
-    """Frames of the training houses, of which the hard ones come more often."""
-
-    def __init__(self, places, weights, before=None):
-        """`before`: the draw of fewer houses, whose scores are kept."""
-        self.places, self.weights = places, weights
-        known = before.scores() if before else {}
-        self.false = np.array([known.get((house.name, index), UNSEEN) for house, index in places])
-
-    def scores(self):
-        return {(house.name, index): score for (house, index), score in zip(self.places, self.false, strict=True)}
-
-    def choose(self, batch, rng):
-        chance = self.weights * (1 + HARD * self.false)
-        return rng.choice(len(self.places), batch, p=chance / chance.sum())
-
-    def learn(self, chosen, false):
-        """Scores of the highest false claims of the chosen frames."""
-        self.false[chosen] = 0.5 * (self.false[chosen] + false)
-
-
 def false_scores(heat, answers):
     """Of each picture, the highest score of a claim away from all goal objects."""
     away = (answers["heat"] < 0.05) & (answers["asked"] > 0)
     return (torch.sigmoid(heat.detach().float()) * away).amax((1, 2, 3))
 
 
-def batch_of(places, size, rng):
-    inputs, answers = [], []
-    for place in places:
-        sample = frames.Sample(*place)
-        augment.augment(sample, size, rng)
-        inputs.append(sample.inputs())
-        answers.append(targets.all_of(sample, size))
-    stack = lambda rows: {key: torch.from_numpy(np.stack([row[key] for row in rows])) for key in rows[0]}
-    return stack(inputs), stack(answers)
-
-
 def to_device(arrays, device):
     return {key: value.to(device) for key, value in arrays.items()}
-
-
-class FromDisk:
-    """Batches made on the CPU, each during the step before."""
-
-    grows_every_s = 180
-
-    def __init__(self, args, seed):
-        self.args, self.rng = args, np.random.default_rng(seed)
-        self.frames_of, self.pool, self.coming, self.at = None, concurrent.futures.ThreadPoolExecutor(1), None, None
-        self.read()
-
-    def read(self):
-        self.houses, self.places, weights = read_places(self.args.data, self.args.sets)
-        self.frames_of = Draw(self.places, weights, self.frames_of)
-        self.class_weight = dense_weights(self.houses)
-
-    def prepare(self, size):
-        at = self.frames_of.choose(self.args.batch, self.rng)
-        chosen = [self.frames_of.places[index] for index in at]
-        return self.frames_of, at, self.pool.submit(batch_of, chosen, size, self.rng)
-
-    def take(self, size):
-        """Inputs and answers."""
-        self.drawn_of, self.at, batch = self.coming or self.prepare(size)
-        made = batch.result()
-        self.coming = self.prepare(size)
-        return made
-
-    def learn(self, false):
-        self.drawn_of.learn(self.at, false.cpu().numpy())
-
-    def grow(self):
-        if is_grown(self.args.data, self.args.sets, self.houses):
-            self.read()
-
-    def close(self):
-        self.pool.shutdown(cancel_futures=True)
-
-
-class InMemory:
-    """Batches made on a GPU from frames in its memory."""
-
-    grows_every_s = 20
-
-    def __init__(self, args, device, seed):
-        self.args, self.device, self.rng = args, device, batches.Random(device, seed)
-        self.store = batches.Store(args.most_frames, device)
-        self.false, self.known = torch.full((args.most_frames,), UNSEEN, device=device), set()
-        self.goals = torch.zeros((args.most_frames, len(common.GOALS) + 1), device=device)
-        self.extra = torch.ones(args.most_frames, device=device)
-        self.grow()
-        if not self.known:
-            raise SystemExit(f"no frames in {args.data} of {', '.join(args.sets)}: run networks/render.py first")
-
-    @property
-    def houses(self):
-        return self.store.houses
-
-    @property
-    def places(self):
-        return range(self.store.count)
-
-    def grow(self):
-        """Adds the houses that were rendered since, as far as they fit."""
-        new = [folder for folder in folders_of(self.args.data, self.args.sets) if folder not in self.known]
-        for folder in new:
-            house = frames.House(folder)
-            if self.store.is_full(house):
-                print(f"{folder.name} and later houses do not fit --most-frames {self.args.most_frames}", flush=True)
-                break
-            self.known.add(folder)
-            at = self.store.add(house)
-            self.goals[at], alike = self.store.shown(at)
-            self.extra[at] = torch.where(alike, LOOKALIKE, 1.0) * (DRAWN if house.name in common.LOOKED_AT else 1.0)
-        if new:
-            self.store.close()
-            goals = self.goals[: self.store.count]
-            rarity = 1 / goals.mean(0).clamp(min=0.01).sqrt()
-            self.weights = (1 + (goals * rarity).amax(1)) * self.extra[: self.store.count]
-            self.class_weight = class_weights(self.store.name_counts())
-            print(f"{len(self.known)} houses, {self.store.count} frames", flush=True)
-
-    def take(self, size):
-        chance = self.weights * (1 + HARD * self.false[: len(self.weights)])
-        self.at = torch.multinomial(chance, self.args.batch, replacement=True, generator=self.rng.generator)
-        with torch.no_grad():
-            batch = batches.augmented(self.store, self.at, size, self.rng)
-            return batch.inputs(), batches.targets_of(batch)
-
-    def learn(self, false):
-        self.false[self.at] = 0.5 * (self.false[self.at] + false)
-
-    def close(self):
-        pass
 
 
 class Average:
@@ -309,23 +134,6 @@ def step(run, inputs, answers, class_weight, device):
     run.optimizer.step()
     run.average.update(run.network)
     return {name: value.detach() for name, value in parts.items()}, false_scores(raw["heat"], answers)
-
-
-def read_places(data, sets):
-    houses = frames.read_set(data, *sets)
-    places, weights, goals = frame_weights(houses)
-    print(f"{len(houses)} houses, {len(places)} frames with",
-          ", ".join(f"{n} {goal}" for n, goal in zip(goals.sum(0).astype(int), [*common.GOALS, "stairs"], strict=True)), flush=True)
-    return houses, places, weights
-
-
-def folders_of(data, sets):
-    """Of the scenes that are rendered: training may begin before all of them are there."""
-    return [path.parent for name in sets for path in sorted((data / name).glob("*/models.json"))]
-
-
-def is_grown(data, sets, houses):
-    return len(folders_of(data, sets)) > len(houses)
 
 
 def share_of(run, args):

@@ -13,6 +13,7 @@ import time
 import augment
 import common
 import cv2
+import draws
 import frames
 import losses
 import masks
@@ -86,7 +87,7 @@ def collect(network, places, weights, count, rng):
 
 
 def frames_with_goals(data):
-    places, weights, goals = train.frame_weights(frames.read_set(data, *common.TRAIN_SETS, *common.TRAIN_STYLES))
+    places, weights, goals = draws.frame_weights(frames.read_set(data, *common.TRAIN_SETS, *common.TRAIN_STYLES))
     weights = weights * goals[:, :-1].any(1)
     return places, weights / weights.sum()
 

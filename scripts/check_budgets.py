@@ -12,7 +12,7 @@ import re
 import sys
 
 FOLDERS = ("crossnav", "apps", "tests", "benchmarks", "cmake", "scripts", "tools", "viewer",
-           "python", "examples", ".ci")
+           "python", "examples", "networks", ".ci")
 SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake", ".js", ".mjs", ".proto"}
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
