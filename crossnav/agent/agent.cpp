@@ -77,7 +77,7 @@ trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_
 
 struct Agent::Impl {
   const Config given;
-  Config config;  // of this step: as given, with the height of the camera as it is mounted
+  Config config;  // of this step: of the profile, with the height of the camera as it is mounted
   perception::PerceptionSuite perception;
   Hooks* hooks;
   World world;
@@ -85,7 +85,7 @@ struct Agent::Impl {
   std::vector<geometry::StairFlight> traced_flights;  // as in the last record that has them
 
   Impl(const Config& c, perception::PerceptionSuite p, Hooks* h)
-      : given(c), config(c), perception(std::move(p)), hooks(h), world(c) {}
+      : given(c), config(OfProfile(c)), perception(std::move(p)), hooks(h), world(c) {}
 
   Result<void> Begin(GoalState fresh);
   Result<Seen> See(const Observation& obs, const AgentPose& agent, StageClock& clock);

@@ -15,7 +15,11 @@ using policy::ClaimVerdict;
 
 namespace {
 
-constexpr double kHopelessShare = 0.5;  // chosen: a hint costs a walk, a claim the episode
+constexpr double kHintShare = 0.5;  // chosen: a hint costs a walk, a claim the episode
+
+bool JudgesByViews(const Config& config) {
+  return DoubtsClaims(config) && config.verify.evidence == "views";
+}
 
 std::string TwoDigits(double value) {
   char text[16];
@@ -95,10 +99,6 @@ void JudgeRejectedAgain(const World& world, const Config& config, double least, 
   }
 }
 
-bool HasViews(const Config& config) {
-  return DoubtsClaims(config) && config.verify.evidence == "views";
-}
-
 /// Views of a hint in plain sight. Where all of them missed it, the sighting that made it a hint is
 /// the only one: from afar, or cut off.
 policy::ViewSummary SummaryOfHint(const Situation& now, const policy::LivePoi& hint) {
@@ -110,8 +110,9 @@ policy::ViewSummary SummaryOfHint(const Situation& now, const policy::LivePoi& h
   return SummaryOf(now, &views);
 }
 
-bool IsHopeless(const policy::ViewSummary& summary, const policy::VerifyConfig& config) {
-  return ProbabilityOf(summary, config.views) < kHopelessShare * config.views.refused;
+/// Too improbable for a walk: `refused` is for a claim.
+bool IsImprobable(const policy::ViewSummary& summary, const policy::VerifyConfig& config) {
+  return ProbabilityOf(summary, config.views) < kHintShare * config.views.refused;
 }
 
 bool IsSettledFor(const GoalState& goal, int poi_id) {
@@ -136,7 +137,7 @@ std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sigh
                                               const Vector3d& p_camera_world, const World& world,
                                               const Config& config, GoalState* goal) {
   if (!DoubtsClaims(config)) return sightings;
-  if (config.verify.evidence == "views" && !sightings.empty())
+  if (JudgesByViews(config) && !sightings.empty())
     JudgeRejectedAgain(world, config, config.verify.views.decided, goal);
   std::vector<int> revived;
   sightings = policy::WithoutRejected(std::move(sightings), p_camera_world, config.policy.object,
@@ -192,7 +193,7 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
 
 bool DecideByViews(StepState& now, const policy::LivePoi& poi) {
   policy::ClaimTracker& claims = now.goal.full.claims;
-  if (!DoubtsClaims(now.config) || now.config.verify.evidence != "views") return false;
+  if (!JudgesByViews(now.config)) return false;
   const auto summary = SummaryOf(now, claims.ViewsOf(poi.id));
   if (Judge(OpinionOf(now, poi), summary, now.config.verify) != ClaimVerdict::kAgreed) return false;
   claims.decided_by_views = poi.id;
@@ -221,13 +222,13 @@ std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const O
 }
 
 bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint) {
-  if (!HasViews(now.config) || !now.goal.full.hint_views.ViewsOf(hint.id)) return false;
+  if (!JudgesByViews(now.config) || !now.goal.full.hint_views.ViewsOf(hint.id)) return false;
   const auto summary = SummaryOfHint(now, hint);
-  return summary.views >= 2 && IsHopeless(summary, now.config.verify);
+  return summary.views >= 2 && IsImprobable(summary, now.config.verify);
 }
 
 bool IsUnlikelyHint(const Situation& now, const policy::LivePoi& hint) {
-  return HasViews(now.config) && IsHopeless(SummaryOfHint(now, hint), now.config.verify);
+  return JudgesByViews(now.config) && IsImprobable(SummaryOfHint(now, hint), now.config.verify);
 }
 
 void Reject(StepState& now, const policy::LivePoi& poi) {
@@ -243,7 +244,7 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
       if (is_same(hint.voxels, hint.p_center_world)) goal.full.hints.Discard(hint.id);
     for (HistoryPoi& place : goal.history)
       place.is_exhausted = place.is_exhausted || is_same(place.voxels, place.p_center_world);
-    const bool by_views = now.config.verify.evidence == "views";
+    const bool by_views = JudgesByViews(now.config);
     const double probability = by_views ? ProbabilityOf(now, poi) : 0;
     goal.full.claims.rejected.push_back(
         {poi.id, poi.voxels, poi.p_center_world, poi.confidence, views, probability});
@@ -258,7 +259,7 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
 bool SettleForLikeliest(StepState& now) {
   GoalState& goal = now.goal;
   policy::ClaimTracker& claims = goal.full.claims;
-  if (!DoubtsClaims(now.config) || now.config.verify.evidence != "views") return false;
+  if (!JudgesByViews(now.config)) return false;
   JudgeRejectedAgain(now.world, now.config, 0, &goal);
   const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
   if (!likeliest) return false;

@@ -52,8 +52,9 @@ bool NoteLook(StepState& now, int poi_id) {
   looks.confidence = poi->confidence;
   looks.p_from_world.push_back(now.agent.p_world);
   if (has_risen)
-    looks.distance_m = policy::DistanceToObject(
-        poi->voxels, now.agent.p_world, now.config.sensor.camera_height_m, now.config.map.voxel_m);
+    looks.distance_m =
+        policy::DistanceToObject(poi->voxels, now.agent.p_world, now.config.sensor.camera_height_m,
+                                 now.config.map.voxel_m, /*stray_share=*/0);
   const int enough = IsUnlikelyHint(now, *poi) ? 1 : now.config.policy.approach.max_viewpoints;
   return looks.without_rise >= enough;
 }

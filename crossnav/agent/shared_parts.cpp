@@ -36,6 +36,11 @@ Candidate CandidateOf(const HistoryPoi& poi) {
   return candidate;
 }
 
+Config OfProfile(Config config) {
+  if (config.policy.profile != "full") config.policy.approach.stray_share = 0;
+  return config;
+}
+
 policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi) {
   return policy::Verify(poi, now.sightings, {now.obs, now.agent, now.config.sensor.camera_height_m},
                         now.config.policy, now.config.map.voxel_m);

@@ -14,6 +14,9 @@ namespace crossnav::agent {
 policy::Candidate CandidateOf(const policy::LivePoi& poi);
 policy::Candidate CandidateOf(const HistoryPoi& poi);
 
+/// Settings as a profile uses them: published methods measure to the nearest voxel of an object.
+Config OfProfile(Config config);
+
 /// Verification of `poi` by the frame of this step.
 policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi);
 

@@ -48,8 +48,8 @@ struct Backend {
 /// All known backends, the default first.
 const std::vector<Backend>& Backends();
 
-/// Whether a backend that the options name is available and has their provider. Errors begin with
-/// `where` and name the remedy.
+/// Error of OpenSession where no backend that the options name is available with their provider;
+/// it begins with `where` and names the remedy.
 Result<void> CheckBackend(const SessionOptions& options, const std::string& where);
 
 /// Opens an ONNX file's content with the backend that the options name. Errors begin with `where`.

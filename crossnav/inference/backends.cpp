@@ -39,8 +39,8 @@ bool HasProvider(const Backend& backend, const std::string& provider) {
   return std::find(all.begin(), all.end(), provider) != all.end();
 }
 
-/// The first backend that will do; null without any.
-const Backend* Find(const SessionOptions& options) {
+/// The first backend that the options allow and that has their provider; null without any.
+const Backend* BackendFor(const SessionOptions& options) {
   for (const Backend& backend : Backends()) {
     const bool is_meant = options.backend == "auto" || options.backend == backend.name;
     if (is_meant && backend.is_available && HasProvider(backend, options.provider)) return &backend;
@@ -86,13 +86,13 @@ const std::vector<Backend>& Backends() {
 }
 
 Result<void> CheckBackend(const SessionOptions& options, const std::string& where) {
-  if (!Find(options)) return NoBackend(options, where);
+  if (!BackendFor(options)) return NoBackend(options, where);
   return {};
 }
 
 Result<std::unique_ptr<Session>> OpenSession(const std::string& onnx, const SessionOptions& options,
                                              const std::string& where) {
-  const Backend* backend = Find(options);
+  const Backend* backend = BackendFor(options);
   if (!backend) return NoBackend(options, where);
   return backend->open(onnx, options, where);
 }

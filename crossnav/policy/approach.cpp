@@ -57,6 +57,19 @@ double FrameVisibility(const std::vector<VoxelKey>& object, const Observation& o
   return object.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(object.size());
 }
 
+/// From the agent's upright axis to a voxel [m2].
+double SquaredDistance(const VoxelKey& key, const Vector3d& p_world_foot, double camera_height_m,
+                       double voxel_m) {
+  const Vector3d d = CenterOf(key, voxel_m) - p_world_foot;
+  const double dz = d.z() < 0 ? -d.z() : std::max(0.0, d.z() - camera_height_m);
+  return d.x() * d.x() + d.y() * d.y() + dz * dz;
+}
+
+/// Voxels that do not count for a distance; never all of them. `object` is not empty.
+std::size_t StraysOf(const std::vector<VoxelKey>& object, double stray_share) {
+  return static_cast<std::size_t>(stray_share * static_cast<double>(object.size() - 1));
+}
+
 }  // namespace
 
 ViewTest::ViewTest(const VoxelMap& map, const std::vector<VoxelKey>& object, double range_m,
@@ -86,8 +99,7 @@ bool ViewTest::IsView(const VoxelKey& key) const {
   const double voxel_m = map_.config().voxel_m;
   Vector3d p_foot = CenterOf(key, voxel_m);
   p_foot.z() = geometry::MinCornerOf(key, voxel_m).z();
-  if (DistanceToObject(object_, p_foot, camera_height_m_, voxel_m, stray_share_) > range_m_)
-    return false;
+  if (!IsWithin(range_m_, object_, p_foot, camera_height_m_, voxel_m, stray_share_)) return false;
   return VisibleShare(map_, p_foot + Vector3d(0, 0, camera_height_m_), sample_) >= min_visibility_;
 }
 
@@ -129,16 +141,23 @@ std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey
 double DistanceToObject(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
                         double camera_height_m, double voxel_m, double stray_share) {
   if (object.empty()) return std::numeric_limits<double>::infinity();
-  std::vector<double> squared(object.size());
-  std::transform(object.begin(), object.end(), squared.begin(), [&](const VoxelKey& key) {
-    const Vector3d d = CenterOf(key, voxel_m) - p_world_foot;
-    const double dz = d.z() < 0 ? -d.z() : std::max(0.0, d.z() - camera_height_m);
-    return d.x() * d.x() + d.y() * d.y() + dz * dz;
-  });
-  const auto nearest = squared.begin() + static_cast<std::ptrdiff_t>(
-                                             stray_share * static_cast<double>(squared.size() - 1));
-  std::nth_element(squared.begin(), nearest, squared.end());
+  std::vector<double> squared_m2;
+  for (const VoxelKey& key : object)
+    squared_m2.push_back(SquaredDistance(key, p_world_foot, camera_height_m, voxel_m));
+  const auto nearest =
+      squared_m2.begin() + static_cast<std::ptrdiff_t>(StraysOf(object, stray_share));
+  std::nth_element(squared_m2.begin(), nearest, squared_m2.end());
   return std::sqrt(*nearest);
+}
+
+bool IsWithin(double range_m, const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
+              double camera_height_m, double voxel_m, double stray_share) {
+  std::size_t near = 0;
+  for (const VoxelKey& key : object)
+    if (SquaredDistance(key, p_world_foot, camera_height_m, voxel_m) <= range_m * range_m &&
+        ++near > StraysOf(object, stray_share))
+      return true;
+  return false;
 }
 
 Vector3d AimPoint(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,

@@ -46,7 +46,10 @@ std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey
 /// Distance from the agent's upright axis (foot to camera) to the object [m]: to its nearest voxel,
 /// after the share `stray_share` of voxels that are nearer. Infinite for an empty object.
 double DistanceToObject(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
-                        double camera_height_m, double voxel_m, double stray_share = 0);
+                        double camera_height_m, double voxel_m, double stray_share);
+/// Whether that distance is at most `range_m`; faster.
+bool IsWithin(double range_m, const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,
+              double camera_height_m, double voxel_m, double stray_share);
 
 /// Where to point the camera: the centre of the object's voxels that lie near the agent.
 Vector3d AimPoint(const std::vector<VoxelKey>& object, const Vector3d& p_world_foot,

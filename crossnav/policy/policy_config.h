@@ -53,8 +53,8 @@ struct StairConfig {
 
 struct ApproachConfig {
   double range_m = 1.30;
-  double stray_share = 0.15;       // chosen: nearest voxels that do not count for the distance:
-                                   // depth noise, and a table in a sofa's mask
+  double stray_share = 0.15;       // chosen: of profile full; nearest voxels that do not count
+                                   // for a distance: noise, and a table in a sofa's mask
   double min_visibility = 0.3;     // chosen: share of the object's voxels in line of sight
   double min_mask_quality = 0.5;   // chosen
   double max_view_angle_deg = 35;  // chosen: object within the middle of the image

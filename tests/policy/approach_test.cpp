@@ -89,9 +89,10 @@ TEST(Viewpoints, PlacesThatWereTriedAreNotOfferedAgain) {
 }
 
 TEST(DistanceToObject, IsMeasuredFromTheUprightAxis) {
-  EXPECT_NEAR(DistanceToObject({{10, 0, 5}}, {0.05, 0.05, 0}, kCamera_m, 0.1), 1.0, 1e-9);
-  EXPECT_NEAR(DistanceToObject({{0, 0, 18}}, {0.05, 0.05, 0}, kCamera_m, 0.1), 1.85 - 0.88, 1e-9);
-  EXPECT_NEAR(DistanceToObject({{3, 0, -5}}, {0.05, 0.05, 0}, kCamera_m, 0.1),
+  EXPECT_NEAR(DistanceToObject({{10, 0, 5}}, {0.05, 0.05, 0}, kCamera_m, 0.1, 0), 1.0, 1e-9);
+  EXPECT_NEAR(DistanceToObject({{0, 0, 18}}, {0.05, 0.05, 0}, kCamera_m, 0.1, 0), 1.85 - 0.88,
+              1e-9);
+  EXPECT_NEAR(DistanceToObject({{3, 0, -5}}, {0.05, 0.05, 0}, kCamera_m, 0.1, 0),
               std::hypot(0.3, 0.45), 1e-9);
 }
 
@@ -101,10 +102,23 @@ TEST(DistanceToObject, LeavesOutTheShareOfVoxelsThatMayBeStrays) {
   sofa.push_back({10, 0, 3});  // the corner of a table before it
   std::sort(sofa.begin(), sofa.end());
   const Vector3d p_foot(0.05, 0.05, 0);
-  EXPECT_NEAR(DistanceToObject(sofa, p_foot, kCamera_m, 0.1), 1.0, 1e-9);
+  EXPECT_NEAR(DistanceToObject(sofa, p_foot, kCamera_m, 0.1, 0), 1.0, 1e-9);
   EXPECT_NEAR(DistanceToObject(sofa, p_foot, kCamera_m, 0.1, 0.1), 1.5, 1e-9);
   EXPECT_NEAR(DistanceToObject({{10, 0, 5}}, p_foot, kCamera_m, 0.1, 0.9), 1.0, 1e-9);
   EXPECT_TRUE(std::isinf(DistanceToObject({}, p_foot, kCamera_m, 0.1, 0.1)));
+}
+
+TEST(DistanceToObject, IsWithinAgreesWithIt) {
+  Rng rng(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<VoxelKey> object;
+    for (int i = rng.Int(1, 40); i > 0; --i)
+      object.push_back({rng.Int(-20, 20), rng.Int(-20, 20), rng.Int(-5, 20)});
+    const Vector3d p_foot(rng.Uniform(-2, 2), rng.Uniform(-2, 2), 0);
+    const double share = rng.Uniform(0, 0.9), range_m = rng.Uniform(0.1, 3);
+    EXPECT_EQ(IsWithin(range_m, object, p_foot, kCamera_m, 0.1, share),
+              DistanceToObject(object, p_foot, kCamera_m, 0.1, share) <= range_m);
+  }
 }
 
 TEST(AimPoint, OfALongObjectIsItsNearEnd) {

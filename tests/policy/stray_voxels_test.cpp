@@ -62,7 +62,7 @@ class Strays : public ::testing::Test {
   }
   /// From a foot at `x_m` to the object as it is known.
   double DistanceFrom(double x_m) const {
-    return DistanceToObject(pois_.all().front().voxels, {x_m, 0, 0}, kCamera_m, kVoxel_m);
+    return DistanceToObject(pois_.all().front().voxels, {x_m, 0, 0}, kCamera_m, kVoxel_m, 0);
   }
   const ObjectConfig kObject;
   LivePois pois_;
