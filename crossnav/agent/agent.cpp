@@ -60,19 +60,6 @@ policy::ObjectConfig HintConfig(const policy::PolicyConfig& policy) {
   return config;
 }
 
-trace::CandidateTrace Describe(const policy::Candidate& candidate, double voxel_m) {
-  trace::CandidateTrace t;
-  t.kind = NameOf(candidate.kind);
-  t.p_focus_world = candidate.p_focus_world;
-  // A claimed object is no target any more.
-  t.p_nav_world = candidate.standing.empty()
-                      ? candidate.p_focus_world
-                      : CenterOf(candidate.standing[candidate.standing.size() / 2], voxel_m);
-  t.score = candidate.score;
-  t.size = candidate.size;
-  return t;
-}
-
 }  // namespace
 
 struct Agent::Impl {
@@ -369,7 +356,7 @@ void Agent::Impl::Record(StepResult& result, const Decision& decision) {
   t.level_m = world.level_m;
   t.all_explored = result.all_explored;
   for (const policy::Candidate& candidate : decision.shown) {
-    auto described = Describe(candidate, config.map.voxel_m);
+    auto described = TraceOf(candidate, config.map.voxel_m);
     if (decision.target && candidate.kind == decision.target->kind &&
         candidate.p_focus_world == decision.target->p_focus_world) {
       described.is_target = true;

@@ -8,6 +8,7 @@
 
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/core/category_table.h"
+#include "crossnav/core/check.h"
 
 namespace crossnav::agent {
 
@@ -116,8 +117,7 @@ bool IsImprobable(const policy::ViewSummary& summary, const policy::VerifyConfig
 }
 
 bool IsSettledFor(const GoalState& goal, int poi_id) {
-  const auto& ids = goal.full.claims.settled_for;
-  return std::find(ids.begin(), ids.end(), poi_id) != ids.end();
+  return goal.full.claims.SettledFor(poi_id) != nullptr;
 }
 
 }  // namespace
@@ -246,8 +246,8 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
       place.is_exhausted = place.is_exhausted || is_same(place.voxels, place.p_center_world);
     const bool by_views = JudgesByViews(now.config);
     const double probability = by_views ? ProbabilityOf(now, poi) : 0;
-    goal.full.claims.rejected.push_back(
-        {poi.id, poi.voxels, poi.p_center_world, poi.confidence, views, probability});
+    goal.full.claims.rejected.push_back({poi.id, poi.voxels, poi.p_center_world, poi.confidence,
+                                         views, probability, now.agent.p_world, now.world.step});
     std::string event = "rejected: the claim at";
     for (const double p : poi.p_center_world) event += " " + TwoDigits(p);
     goal.events.push_back(event + " m" + (by_views ? ", P " + TwoDigits(probability) : ""));
@@ -256,19 +256,29 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
   goal.live.Discard(poi.id);
 }
 
-bool SettleForLikeliest(StepState& now) {
+const policy::RejectedObject* LikeliestRefuted(const Situation& now, double least_probability) {
+  if (!JudgesByViews(now.config)) return nullptr;
+  const policy::RejectedObject* likeliest = nullptr;
+  for (const policy::RejectedObject& object : now.goal.full.claims.rejected)
+    if (object.probability >= (likeliest ? likeliest->probability : least_probability) &&
+        !IsSettledFor(now.goal, object.poi_id))
+      likeliest = &object;
+  return likeliest;
+}
+
+void SettleFor(StepState& now, int poi_id) {
   GoalState& goal = now.goal;
   policy::ClaimTracker& claims = goal.full.claims;
-  if (!JudgesByViews(now.config)) return false;
-  JudgeRejectedAgain(now.world, now.config, 0, &goal);
-  const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
-  if (!likeliest) return false;
-  const policy::RejectedObject object = claims.rejected[*likeliest];
+  const auto rejected =
+      std::find_if(claims.rejected.begin(), claims.rejected.end(),
+                   [&](const policy::RejectedObject& object) { return object.poi_id == poi_id; });
+  CROSSNAV_CHECK(rejected != claims.rejected.end(), "only a rejected object is settled for");
+  const policy::RejectedObject object = *rejected;
   std::erase_if(claims.rejected, [&](const policy::RejectedObject& other) {
     return policy::IsSameObject(object.voxels, object.p_center_world, other.voxels,
                                 other.p_center_world, now.config.policy.object.merge_distance_m);
   });
-  claims.settled_for.push_back(object.poi_id);
+  claims.settled_for.push_back({object.poi_id, object.p_foot_world});
   goal.live.Forgive(object.poi_id);
   std::erase_if(goal.full.failed,
                 [&](const FailedViews& views) { return views.poi_id == object.poi_id; });
@@ -278,8 +288,17 @@ bool SettleForLikeliest(StepState& now) {
     goal.full.doubtful_m = 0;
   }
   if (claims.second_view_of == object.poi_id) claims.second_view_of = -1;
-  goal.events.push_back("nothing left: back to the likeliest refuted claim, P " +
-                        TwoDigits(object.probability));
+  goal.events.push_back("back to the likeliest refuted claim, P " + TwoDigits(object.probability));
+}
+
+bool SettleForLikeliest(StepState& now) {
+  const policy::ClaimTracker& claims = now.goal.full.claims;
+  if (!JudgesByViews(now.config)) return false;
+  JudgeRejectedAgain(now.world, now.config, 0, &now.goal);
+  const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
+  if (!likeliest) return false;
+  now.goal.events.push_back("nothing left");
+  SettleFor(now, claims.rejected[*likeliest].poi_id);
   return true;
 }
 

@@ -52,8 +52,15 @@ bool IsUnlikelyHint(const Situation& now, const policy::LivePoi& hint);
 /// until there is new evidence.
 void Reject(StepState& now, const policy::LivePoi& poi);
 
-/// Makes the likeliest rejected object a POI again, which the next frame that confirms it claims.
-/// False without a likely one (verify.settle, verify.evidence = views).
+/// The likeliest rejected object, by the views so far; null if none has at least this probability
+/// (verify.evidence = views). Objects that the agent settled for before are left out.
+const policy::RejectedObject* LikeliestRefuted(const Situation& now, double least_probability);
+
+/// Makes a rejected object a POI again, which the next frame that confirms it claims.
+void SettleFor(StepState& now, int poi_id);
+
+/// Settles for the likeliest rejected object. False without a likely one (verify.settle,
+/// verify.evidence = views).
 bool SettleForLikeliest(StepState& now);
 
 /// The camera of the view that supported a POI most, if the agent settled for it.

@@ -11,6 +11,7 @@
 #include "crossnav/agent/hooks.h"
 #include "crossnav/agent/last_resort.h"
 #include "crossnav/agent/object_search.h"
+#include "crossnav/agent/patience.h"
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
@@ -147,6 +148,7 @@ Decision Navigate(StepState& now) {
   MeasureProgress(now);
   UpdateSearch(now);
   JudgeInstances(now);
+  LosePatience(now);
   if (!TryConfirmGoal(now, decision)) ChooseAndAct(now, &decision);
   if (decision.action == Action::kMoveForward) now.world.full.before_forward = now.agent;
   decision.activity = NameOf(now.goal.full.activity);

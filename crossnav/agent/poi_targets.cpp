@@ -40,6 +40,29 @@ bool IsAnyStanding(const planner::GroundMap& ground, const VoxelKey& lo, const V
   return false;
 }
 
+template <class Test>
+std::optional<GroundTarget> NearestPlace(const Situation& now, const VoxelKey& start,
+                                         const Test& is_wanted) {
+  GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
+  while (const auto key = search.Next()) {
+    if (!is_wanted(*key)) continue;
+    GroundTarget target;
+    target.path = search.PathTo(*key);
+    target.cost_m = search.cost() * now.config.map.voxel_m;
+    target.candidate.standing = {*key};
+    return target;
+  }
+  return std::nullopt;
+}
+
+/// To about where the agent stood before.
+std::optional<GroundTarget> WayBackTo(const Situation& now, const VoxelKey& start,
+                                      const Vector3d& p_foot_world) {
+  return NearestPlace(now, start, [&](const VoxelKey& key) {
+    return (FootOf(key, now.config.map.voxel_m) - p_foot_world).norm() < policy::kSameView_m;
+  });
+}
+
 }  // namespace
 
 Vector3d FootOf(const VoxelKey& key, double voxel_m) {
@@ -112,16 +135,7 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
   };
   // A search that finds nothing visits the whole house.
   if (!IsAnyStanding(ground, view.lo(), view.hi(), is_wanted)) return std::nullopt;
-  GroundSearch search(ground, now.config.planner, start, RulesOf(now));
-  while (const auto key = search.Next()) {
-    if (!is_wanted(*key)) continue;
-    GroundTarget target;
-    target.path = search.PathTo(*key);
-    target.cost_m = search.cost() * voxel_m;
-    target.candidate.standing = {*key};
-    return target;
-  }
-  return std::nullopt;
+  return NearestPlace(now, start, is_wanted);
 }
 
 FailedViews FailedViewsOf(const GoalState& goal, int poi_id) {
@@ -149,7 +163,10 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
   if (wish.same_side)
     if (auto target = NearestView(now, start, wish)) return target;
   wish.same_side.reset();
-  return NearestView(now, start, wish);
+  if (auto target = NearestView(now, start, wish)) return target;
+  const policy::SettledObject* settled = now.goal.full.claims.SettledFor(poi.id);
+  if (!settled || IsNearTried(wish.tried, settled->p_foot_world)) return std::nullopt;
+  return WayBackTo(now, start, settled->p_foot_world);
 }
 
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& start) {

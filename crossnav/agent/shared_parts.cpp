@@ -36,6 +36,19 @@ Candidate CandidateOf(const HistoryPoi& poi) {
   return candidate;
 }
 
+trace::CandidateTrace TraceOf(const policy::Candidate& candidate, double voxel_m) {
+  trace::CandidateTrace t;
+  t.kind = NameOf(candidate.kind);
+  t.p_focus_world = candidate.p_focus_world;
+  // A claimed object is no target any more.
+  t.p_nav_world = candidate.standing.empty()
+                      ? candidate.p_focus_world
+                      : CenterOf(candidate.standing[candidate.standing.size() / 2], voxel_m);
+  t.score = candidate.score;
+  t.size = candidate.size;
+  return t;
+}
+
 Config OfProfile(Config config) {
   if (config.policy.profile != "full") config.policy.approach.stray_share = 0;
   return config;

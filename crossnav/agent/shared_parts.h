@@ -7,12 +7,15 @@
 #include <vector>
 
 #include "crossnav/agent/decision.h"
+#include "crossnav/trace/step_trace.h"
 
 namespace crossnav::agent {
 
 /// Candidate of a POI without places to stand.
 policy::Candidate CandidateOf(const policy::LivePoi& poi);
 policy::Candidate CandidateOf(const HistoryPoi& poi);
+
+trace::CandidateTrace TraceOf(const policy::Candidate& candidate, double voxel_m);
 
 /// Settings as a profile uses them: published methods measure to the nearest voxel of an object.
 Config OfProfile(Config config);

@@ -144,6 +144,12 @@ const ClaimViews* ClaimTracker::ViewsOf(int poi_id) const {
   return it == views.end() ? nullptr : &*it;
 }
 
+const SettledObject* ClaimTracker::SettledFor(int poi_id) const {
+  const auto it = std::find_if(settled_for.begin(), settled_for.end(),
+                               [&](const SettledObject& s) { return s.poi_id == poi_id; });
+  return it == settled_for.end() ? nullptr : &*it;
+}
+
 std::vector<Sighting> WithoutRejected(std::vector<Sighting> sightings,
                                       const Vector3d& p_camera_world, const ObjectConfig& object,
                                       const VerifyConfig& config, ClaimTracker* tracker,
@@ -262,14 +268,10 @@ bool IsDisproved(const ViewSummary& views, const VerifyConfig& config) {
 std::optional<std::size_t> LikeliestOfRejected(const ClaimTracker& claims,
                                                const VerifyConfig& config) {
   constexpr double kMissedOdds = 0.1;  // chosen: a thing in plain sight that no view showed
-  const auto is_settled = [&](int id) {
-    return std::find(claims.settled_for.begin(), claims.settled_for.end(), id) !=
-           claims.settled_for.end();
-  };
   double all = kMissedOdds, best = 0;
   std::optional<std::size_t> likeliest;
   for (std::size_t i = 0; i < claims.rejected.size(); ++i) {
-    if (is_settled(claims.rejected[i].poi_id)) continue;
+    if (claims.SettledFor(claims.rejected[i].poi_id)) continue;
     const double odds = std::exp(LogOddsOf(claims.rejected[i].probability));
     all += odds;
     if (odds <= best) continue;

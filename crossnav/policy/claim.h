@@ -31,6 +31,8 @@ struct VerifyConfig {
   double view_angle_deg = 40;       // chosen: minimum angle between two views, seen from the object
   double view_baseline_m = 0.5;     // chosen: and so far apart at least
   double new_evidence = 0.05;       // chosen: confidence above that of the refuted claim
+  double patience = 400;            // chosen: actions of search after a refuted claim, times the
+                                    // probability that it is wrong, before it is the answer
   double settle = 0.35;             // chosen: least share of the odds of a refuted object that is
                                     // the answer once nothing is left to see; 1 = never
 };
@@ -55,6 +57,7 @@ void Visit(V& visit, VerifyConfig& c) {
   visit("view_angle_deg", c.view_angle_deg, 0.0, 180.0);
   visit("view_baseline_m", c.view_baseline_m, 0.0, 10.0);
   visit("new_evidence", c.new_evidence, 0.0, 1.0);
+  visit("patience", c.patience, 0.0, 1e6);
   visit("settle", c.settle, 0.0, 1.0);
 }
 
@@ -110,9 +113,17 @@ struct RejectedObject {
   int poi_id = 0;
   std::vector<VoxelKey> voxels;  ///< not empty; sorted; grows with each view
   Vector3d p_center_world = Vector3d::Zero();
-  double confidence = 0;                  ///< the best it was claimed with
-  std::vector<Vector3d> p_cameras_world;  ///< views from which it was
-  double probability = 0;                 ///< that it is the goal after all, by its views
+  double confidence = 0;                     ///< the best it was claimed with
+  std::vector<Vector3d> p_cameras_world;     ///< views from which it was
+  double probability = 0;                    ///< that it is the goal after all, by its views
+  Vector3d p_foot_world = Vector3d::Zero();  ///< of the agent at the rejection
+  int step = 0;                              ///< of the rejection
+};
+
+/// A rejected object that was taken for want of better ones.
+struct SettledObject {
+  int poi_id = 0;
+  Vector3d p_foot_world = Vector3d::Zero();  ///< as above
 };
 
 /// All claims about one goal.
@@ -122,9 +133,11 @@ struct ClaimTracker {
   int second_view_of = -1;     ///< id of the POI that is to be seen from another side, -1 = none
   int no_second_view_of = -1;  ///< id of the POI whose other sides could not be reached, -1 = none
   int decided_by_views = -1;   ///< id of the POI that all views hold and near frames miss, or -1
-  std::vector<int> settled_for;  ///< ids of POIs that were taken for want of better ones
+  std::vector<SettledObject> settled_for;
 
   const ClaimViews* ViewsOf(int poi_id) const;
+  /// Null if it was not settled for.
+  const SettledObject* SettledFor(int poi_id) const;
 };
 
 /// Drops sightings of rejected objects. A sighting from another side is new evidence if it has more

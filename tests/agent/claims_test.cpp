@@ -177,6 +177,51 @@ TEST(Claims, ARefutedObjectIsTheAnswerOnceNothingElseIsLeft) {
   EXPECT_EQ(CountEvents(settled, "the likeliest refuted claim"), 1);
 }
 
+/// A couch at the end of a passage, which shows one side alone and is a bed with 0.75 from there;
+/// the bench before it keeps the agent `bench_m` away.
+Walk SearchPassage(double patience, double bench_m) {
+  const Box3 couch = BoxOf(6.6, 1.6, 0, 7.4, 2.4, 0.7);
+  FakeSight sight, couch_sight;
+  test::SeeBox(couch, "bed", &couch_sight);
+  sight.detect = [=](const Observation& obs, std::string_view goal) {
+    auto found = couch_sight.detect(obs, goal);
+    for (auto& detection : found) detection.confidence = 0.75F;
+    return found;
+  };
+  sight.segment = couch_sight.segment;
+  Config config = SmallConfig();
+  config.verify.evidence = "views";
+  config.verify.views.offset = -3;
+  config.verify.views.slope = 4;
+  config.verify.settle = 1;
+  config.verify.patience = patience;
+  Agent agent(config, FakeSuite(sight));
+  EXPECT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker;
+  walker.sensor = config.sensor;
+  walker.rooms.shell = BoxOf(0, 0, 0, 8, 4, 2.6);
+  walker.rooms.solids = {couch, BoxOf(4, 0, 0, 8, 1.5, 2.6), BoxOf(4, 2.5, 0, 8, 4, 2.6)};
+  if (bench_m > 0) walker.rooms.solids.push_back(BoxOf(6.6 - bench_m, 1.5, 0, 6.5, 2.5, 0.45));
+  walker.pose.p_world = Vector3d(5.0 - bench_m, 2.0, 0);
+  Walk walk = RunAgent(agent, walker, 900);
+  EXPECT_GE(CountEvents(walk, "claim refuted"), 1);
+  return walk;
+}
+
+TEST(Claims, ASearchWithoutABetterClaimEndsAtTheRefutedClaim) {
+  const Walk endless = SearchPassage(1e6, 0);
+  EXPECT_TRUE(endless.all_explored);
+  const Walk search = SearchPassage(20, 0);
+  ASSERT_TRUE(search.p_claimed_world);
+  EXPECT_EQ(CountEvents(search, "no better claim in time"), 1);
+}
+
+TEST(Claims, ARefutedObjectWithoutViewpointsIsTakenFromWhereItWasRefuted) {
+  const Walk search = SearchPassage(20, 1.1);
+  ASSERT_TRUE(search.p_claimed_world);
+  EXPECT_EQ(CountEvents(search, "no better claim in time"), 1);
+}
+
 TEST(Claims, WhatAllViewsHoldIsNotLostToFramesFromNear) {
   Config config = SmallConfig();
   config.verify.evidence = "views";

@@ -15,9 +15,9 @@ namespace {
 constexpr int kPatch_px = 16;
 // chosen: neighbours whose depths differ by this share are on both sides of an edge
 constexpr double kEdgeShare = 0.05;
-constexpr double kFullAngle_rad = 1.48;    // chosen: 85 degrees; Nguyen's law has a pole at 90
-constexpr double kGrazing_rad = M_PI / 3;  // chosen: no loss up to 60 degrees
-constexpr double kDark = 255.0 / 8;        // chosen: brighter surfaces return enough light
+constexpr double kFullAngle_rad = 1.48;  // chosen: 85 degrees; Nguyen's law has a pole at 90
+constexpr float kGrazing = 0.5F;         // chosen: cosine of 60 degrees; no loss up to there
+constexpr double kDark = 255.0 / 8;      // chosen: brighter surfaces return enough light
 constexpr std::array<std::string_view, 3> kGlass = {"window", "glass", "mirror"};
 constexpr std::array<std::string_view, 5> kOpaque = {"curtain", "frame", "blind", "sill", "seat"};
 
@@ -31,6 +31,37 @@ enum DepthStream : std::uint64_t {
   kPanes
 };
 
+/// Standard normal numbers, two from one number of 32 bits: the quantiles in the middle of 4,096
+/// equal shares, which end at 3.7.
+class QuickNormals {
+ public:
+  std::pair<float, float> Next(Rng& rng) const {
+    const std::uint32_t bits = rng.Next();
+    return {quantiles_[bits >> 20], quantiles_[bits & 4095]};
+  }
+
+ private:
+  static float Quantile(double share) {
+    double x = 0;
+    for (int i = 0; i < 60; ++i) {  // bounded steps of Newton's method: the tails are flat
+      const double density = std::exp(-0.5 * x * x) / std::sqrt(2 * M_PI);
+      const double error = 0.5 * std::erfc(-x / M_SQRT2) - share;
+      x -= std::clamp(error / density, -0.5, 0.5);
+    }
+    return static_cast<float>(x);
+  }
+  static std::array<float, 4096> All() {
+    std::array<float, 4096> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = Quantile((i + 0.5) / 4096);
+    return all;
+  }
+  const std::array<float, 4096> quantiles_ = All();
+};
+const QuickNormals& Normals() {
+  static const QuickNormals normals;
+  return normals;
+}
+
 template <class F>
 void ForEachPixel(const DepthImage& depth_m, F&& visit) {
   for (int v = 0; v < depth_m.height; ++v)
@@ -40,8 +71,9 @@ void ForEachPixel(const DepthImage& depth_m, F&& visit) {
 DepthImage Shifted(const DepthImage& depth_m, double sigma_px, Rng rng) {
   DepthImage shifted = depth_m;
   const auto rounded = [](double x) { return static_cast<int>(std::floor(x + 0.5)); };
+  const QuickNormals& normals = Normals();
   ForEachPixel(depth_m, [&](int u, int v) {
-    const auto [right, down] = rng.Normals();
+    const auto [right, down] = normals.Next(rng);
     const int from_u = u + rounded(sigma_px * right), from_v = v + rounded(sigma_px * down);
     shifted.At(u, v) = depth_m.At(std::clamp(from_u, 0, depth_m.width - 1),
                                   std::clamp(from_v, 0, depth_m.height - 1));
@@ -97,10 +129,11 @@ void LosePatches(double share, Rng rng, DepthImage& depth_m) {
   }
 }
 
-/// Angle between each pixel's ray and the surface's normal [rad]; 0 beside jumps and borders.
-std::vector<float> AnglesOf(const DepthImage& depth_m, const DepthImage& edges_m,
-                            const CameraIntrinsics& camera) {
-  std::vector<float> angles(depth_m.data.size(), 0.0F);
+/// Cosine of the angle between each pixel's ray and the surface's normal; 1 beside jumps and
+/// borders.
+std::vector<float> CosinesOf(const DepthImage& depth_m, const DepthImage& edges_m,
+                             const CameraIntrinsics& camera) {
+  std::vector<float> cosines(depth_m.data.size(), 1.0F);
   ForEachPixel(depth_m, [&](int u, int v) {
     if (u == 0 || v == 0 || u + 1 >= depth_m.width || v + 1 >= depth_m.height) return;
     if (!(depth_m.At(u, v) > 0) || edges_m.At(u, v) > 0) return;
@@ -111,19 +144,20 @@ std::vector<float> AnglesOf(const DepthImage& depth_m, const DepthImage& edges_m
     const Vector3d p = at(u, v);
     const double cosine =
         std::abs(n.dot(p)) / std::max(1e-12, std::sqrt(n.squaredNorm() * p.squaredNorm()));
-    angles[static_cast<std::size_t>(v) * depth_m.width + u] =
-        std::acos(std::min(1.0F, static_cast<float>(cosine)));
+    cosines[static_cast<std::size_t>(v) * depth_m.width + u] =
+        std::min(1.0F, static_cast<float>(cosine));
   });
-  return angles;
+  return cosines;
 }
 
 /// Loses pixels with too little returned light: dark surfaces, and grazing angles.
-void LoseDim(const NoiseConfig& noise, const Scenery& scenery, const std::vector<float>& angles,
+void LoseDim(const NoiseConfig& noise, const Scenery& scenery, const std::vector<float>& cosines,
              Rng rng, DepthImage& depth_m) {
   for (std::size_t i = 0; i < depth_m.data.size(); ++i) {
     double keep = 1;
-    if (!angles.empty() && angles[i] > kGrazing_rad)
-      keep *= 1 - noise.depth_grazing_hole * (angles[i] - kGrazing_rad) / (M_PI_2 - kGrazing_rad);
+    if (!cosines.empty() && cosines[i] < kGrazing)
+      keep *= 1 - noise.depth_grazing_hole * (std::acos(cosines[i]) - std::acos(kGrazing)) /
+                      (M_PI_2 - std::acos(kGrazing));
     if (scenery.rgb != nullptr && scenery.rgb->data.size() == depth_m.data.size()) {
       const Rgb8& c = scenery.rgb->data[i];
       const double light = 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;
@@ -141,10 +175,26 @@ void LoseGlass(double probability, const Scenery& scenery, Rng rng, DepthImage& 
       depth_m.data[i] = 0;
 }
 
-/// Nguyen et al. 2012, eq. 3: term of sigma that depends on the angle.
-double AngleSigma(const NoiseConfig& noise, double z_m, double angle_rad) {
-  const double a = std::min(angle_rad, kFullAngle_rad), share = a / (M_PI_2 - a);
-  return noise.depth_angle_sigma_m * share * share / std::sqrt(z_m);
+/// Nguyen et al. 2012, eq. 3: how the term of sigma that depends on the angle grows, by the cosine
+/// of the angle, at 1,024 values.
+class AngleTerm {
+ public:
+  double At(float cosine) const { return terms_[static_cast<std::size_t>(cosine * 1023)]; }
+
+ private:
+  static std::array<double, 1024> All() {
+    std::array<double, 1024> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double a = std::min(std::acos(std::min(1.0, (i + 0.5) / 1023)), kFullAngle_rad);
+      all[i] = std::pow(a / (M_PI_2 - a), 2);
+    }
+    return all;
+  }
+  const std::array<double, 1024> terms_ = All();
+};
+double AngleSigma(const NoiseConfig& noise, double z_m, float cosine) {
+  static const AngleTerm term;
+  return noise.depth_angle_sigma_m * term.At(cosine) / std::sqrt(z_m);
 }
 
 /// `normal`: standard normal of this pixel.
@@ -178,19 +228,20 @@ DepthImage NoisyDepth(const NoiseConfig& noise, const DepthImage& depth_m, std::
   if (noise.depth_edge_hole > 0)
     LoseEdges(edges_m, noise.depth_edge_hole, Rng(seed, kEdges), noisy);
   if (noise.depth_hole_share > 0) LosePatches(noise.depth_hole_share, Rng(seed, kPatches), noisy);
-  const auto angles =
-      has_angles ? AnglesOf(depth_m, edges_m, scenery.camera) : std::vector<float>{};
+  const auto cosines =
+      has_angles ? CosinesOf(depth_m, edges_m, scenery.camera) : std::vector<float>{};
   if (noise.depth_grazing_hole > 0 || noise.depth_dark_hole > 0)
-    LoseDim(noise, scenery, angles, Rng(seed, kDim), noisy);
+    LoseDim(noise, scenery, cosines, Rng(seed, kDim), noisy);
   if (noise.depth_glass_hole > 0)
     LoseGlass(noise.depth_glass_hole, scenery, Rng(seed, kPanes), noisy);
   Rng rng(seed, kReadings);
-  std::pair<double, double> normals;
+  const QuickNormals& all = Normals();
+  std::pair<float, float> normals;
   for (std::size_t i = 0; i < noisy.data.size(); ++i) {
-    if (i % 2 == 0) normals = rng.Normals();
+    if (i % 2 == 0) normals = all.Next(rng);
     const double z_m = noisy.data[i];
     if (!(z_m > 0)) continue;
-    const double more_m = angles.empty() ? 0 : AngleSigma(noise, z_m, angles[i]);
+    const double more_m = cosines.empty() ? 0 : AngleSigma(noise, z_m, cosines[i]);
     noisy.data[i] = Reading(noise, z_m, DepthSigma(noise, z_m) + more_m,
                             i % 2 == 0 ? normals.first : normals.second);
   }
