@@ -107,13 +107,24 @@ policy::ViewSummary SummaryOfHint(const Situation& now, const policy::LivePoi& h
   policy::ClaimViews views = seen ? *seen : policy::ClaimViews{};
   const bool is_missed = std::none_of(views.scores.begin(), views.scores.end(),
                                       [](const policy::ViewScore& v) { return v.frames > 0; });
-  if (is_missed) views.scores.push_back({Vector3d::Zero(), hint.confidence, 1, 0, 0});
+  if (is_missed) views.scores.push_back({.sum = hint.confidence, .frames = 1});
   return SummaryOf(now, &views);
 }
 
 /// Too improbable for a walk: `refused` is for a claim.
 bool IsImprobable(const policy::ViewSummary& summary, const policy::VerifyConfig& config) {
   return ProbabilityOf(summary, config.views) < kHintShare * config.views.refused;
+}
+
+/// A noisy sensor makes the detector see things in single frames, which the frames after deny.
+bool IsFlicker(const policy::ClaimViews& hint) {
+  constexpr int kDenials = 3;  // chosen: for each frame with a detection
+  int seen = 0, missed = 0;
+  for (const policy::ViewScore& view : hint.scores) {
+    seen += view.frames;
+    missed += view.missed_frames;
+  }
+  return missed >= kDenials * std::max(1, seen);
 }
 
 bool IsSettledFor(const GoalState& goal, int poi_id) {
@@ -223,6 +234,7 @@ std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const O
 
 bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint) {
   if (!JudgesByViews(now.config) || !now.goal.full.hint_views.ViewsOf(hint.id)) return false;
+  if (IsFlicker(*now.goal.full.hint_views.ViewsOf(hint.id))) return true;
   const auto summary = SummaryOfHint(now, hint);
   return summary.views >= 2 && IsImprobable(summary, now.config.verify);
 }

@@ -213,8 +213,11 @@ void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& s
       return !IsOtherView(poi.p_center_world, p_camera_world, score.p_camera_world, config);
     });
     if (view == it->scores.end())
-      view = it->scores.insert(view, ViewScore{p_camera_world, 0, 0, 0, 0});
-    if (best <= 0) continue;
+      view = it->scores.insert(view, ViewScore{.p_camera_world = p_camera_world});
+    if (best <= 0) {
+      ++view->missed_frames;
+      continue;
+    }
     view->sum_length_m += length_m;
     view->uncut_frames += length_m > 0 ? 1 : 0;
     view->sum += best;

@@ -32,6 +32,7 @@ struct ViewScore {
   Vector3d p_camera_world = Vector3d::Zero();
   double sum = 0;           ///< of scores
   int frames = 0;           ///< with a detection; 0 = it was missed from here
+  int missed_frames = 0;    ///< in plain sight without a detection
   double sum_length_m = 0;  ///< over frames in which no side of the image cuts it
   int uncut_frames = 0;
   double Length_m() const { return uncut_frames > 0 ? sum_length_m / uncut_frames : 0; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A detector that mistakes a couch for a bed, and the agent's verification of its claims.
 #include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -152,6 +153,27 @@ TEST(Claims, AHintSeenFromAfarAloneIsSettledByOneViewThatMissesIt) {
   const Walk walk = RunAgent(agent, walker, 600);
   EXPECT_TRUE(walk.all_explored);
   EXPECT_EQ(CountEvents(walk, "go_to: undecided") + CountEvents(walk, "go_to: reached"), 0);
+}
+
+TEST(Claims, ASightingOfASingleFrameIsDroppedWhenTheNextFramesDenyIt) {
+  const auto steps_to_hint = [](int seen_frames) {
+    Config config = SmallConfig();
+    config.verify.evidence = "views";
+    config.verify.views.offset = -3;
+    config.verify.views.slope = 4;
+    FakeSight sight = Liar(180, false, 0.65F);
+    auto frame = std::make_shared<int>(0);
+    sight.detect = [=, all = sight.detect](const Observation& obs, std::string_view goal) {
+      return ++*frame <= seen_frames ? all(obs, goal) : std::vector<perception::Detection>();
+    };
+    Agent agent(config, FakeSuite(sight));
+    EXPECT_TRUE(agent.SetGoal("bed").has_value());
+    BoxWalker walker = SofaAndBed();
+    walker.rooms.solids = {kSofa};
+    walker.pose.p_world = Vector3d(0.3, 2.0, 0);
+    return CountEvents(RunAgent(agent, walker, 60), "\"sighting\"");
+  };
+  EXPECT_LE(steps_to_hint(1), 5) << "22 where only views from other sides count";
 }
 
 TEST(Claims, ARefutedObjectIsTheAnswerOnceNothingElseIsLeft) {

@@ -96,7 +96,10 @@ TEST(Judge, ASecondViewAloneDoesNotSaveWhatFrameAndMemoryDoubt) {
 }
 
 ViewScore View(double score, int frames = 1, double length_m = 0) {
-  return {Vector3d::Zero(), frames * score, frames, length_m, length_m > 0 ? 1 : 0};
+  return {.sum = frames * score,
+          .frames = frames,
+          .sum_length_m = length_m,
+          .uncut_frames = length_m > 0 ? 1 : 0};
 }
 
 ViewSummary Summary(const std::vector<ViewScore>& views, const char* goal = "sofa") {
