@@ -16,6 +16,7 @@
 #include "crossnav/agent/passing_sights.h"
 #include "crossnav/agent/planar.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/shared_parts.h"
 #include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/check.h"
 #include "crossnav/core/colour_grid.h"

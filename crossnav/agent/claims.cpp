@@ -285,7 +285,7 @@ void SettleFor(StepState& now, int poi_id) {
       std::find_if(claims.rejected.begin(), claims.rejected.end(),
                    [&](const policy::RejectedObject& object) { return object.poi_id == poi_id; });
   CROSSNAV_CHECK(rejected != claims.rejected.end(), "only a rejected object is settled for");
-  const policy::RejectedObject object = *rejected;
+  const auto object = policy::RejectedObject(*rejected);  // the list loses it
   std::erase_if(claims.rejected, [&](const policy::RejectedObject& other) {
     return policy::IsSameObject(object.voxels, object.p_center_world, other.voxels,
                                 other.p_center_world, now.config.policy.object.merge_distance_m);
