@@ -7,6 +7,7 @@
 #include "crossnav/core/cells.h"
 #include "crossnav/core/check.h"
 #include "crossnav/geometry/classify.h"
+#include "crossnav/geometry/flying_pixels.h"
 #include "crossnav/geometry/frame.h"
 #include "crossnav/geometry/grazing_surface.h"
 #include "crossnav/geometry/integrate.h"
@@ -61,7 +62,9 @@ const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntr
                  "the pose must be finite and within voxel indices");
   CROSSNAV_CHECK(depth_m.width == camera.width_px && depth_m.height == camera.height_px,
                  "depth image and camera differ in size");
-  const DepthFrame frame{depth_m, camera, T_world_camera};
+  const bool is_real = data_->config.clearing == "evidence";  // a sensor with noise
+  const DepthImage confirmed_m = is_real ? WithoutFlyingPixels(depth_m) : DepthImage{};
+  const DepthFrame frame{is_real ? confirmed_m : depth_m, camera, T_world_camera};
   if (!data_->center) data_->center = KeyOf(T_world_camera.translation(), config().voxel_m);
   data_->view.Resize(depth_m.width, depth_m.height);
   const KeyBounds bounds = CollectEnds(*data_, frame);
@@ -69,7 +72,7 @@ const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntr
     CollectFreeByProjection(*data_, frame, bounds);
   else
     CollectFreeByWalking(*data_, frame);
-  if (data_->config.clearing == "evidence") SpareSurfacesInGaps(*data_, frame);
+  if (is_real) SpareSurfacesInGaps(*data_, frame);
   MergeFrame(*data_);
   return data_->ends;
 }

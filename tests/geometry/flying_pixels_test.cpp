@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/geometry/flying_pixels.h"
+
+#include <gtest/gtest.h>
+
+#include "crossnav/core/rng.h"
+#include "crossnav/geometry/voxel_map.h"
+
+namespace crossnav::geometry {
+namespace {
+
+constexpr int kSide_px = 64;
+
+/// A post of 2 m before a wall at 5 m.
+DepthImage PostBeforeWall(int post_px = 8) {
+  DepthImage depth_m(kSide_px, kSide_px, 5.0F);
+  for (int v = 0; v < kSide_px; ++v)
+    for (int u = 20; u < 20 + post_px; ++u) depth_m.At(u, v) = 2.0F;
+  return depth_m;
+}
+
+TEST(FlyingPixels, ReadingsBetweenTwoSurfacesAreDropped) {
+  DepthImage depth_m = PostBeforeWall();
+  for (int v = 4; v < kSide_px; v += 6) depth_m.At(28, v) = 3.2F;
+  const DepthImage kept = WithoutFlyingPixels(depth_m);
+  for (int v = 0; v < kSide_px; ++v)
+    for (int u = 0; u < kSide_px; ++u)
+      EXPECT_EQ(kept.At(u, v), depth_m.At(u, v) == 3.2F ? 0.0F : depth_m.At(u, v)) << u << " " << v;
+}
+
+TEST(FlyingPixels, PerfectDepthIsKeptDownToALineOfOnePixel) {
+  const DepthImage depth_m = PostBeforeWall(1), kept = WithoutFlyingPixels(depth_m);
+  for (int v = 1; v + 1 < kSide_px; ++v)  // the ends of a line have one neighbour
+    for (int u = 0; u < kSide_px; ++u) EXPECT_EQ(kept.At(u, v), depth_m.At(u, v)) << u << " " << v;
+}
+
+TEST(FlyingPixels, TheNoiseOfASurfaceIsKept) {
+  Rng rng(1);
+  DepthImage depth_m(kSide_px, kSide_px, 0.0F);
+  int kept = 0;
+  for (float& z_m : depth_m.data) z_m = static_cast<float>(4 + 0.0037 * 16 * rng.Normal());
+  for (const float z_m : WithoutFlyingPixels(depth_m).data) kept += z_m > 0 ? 1 : 0;
+  EXPECT_GE(kept, 0.999 * kSide_px * kSide_px);
+}
+
+TEST(FlyingPixels, AreNoSurfacesOfAMapOfARealSensor) {
+  const auto surfaces_between = [](const std::string& clearing) {
+    MapConfig config;
+    config.clearing = clearing;
+    config.min_hits = 1;
+    VoxelMap map(config);
+    DepthImage depth_m = PostBeforeWall();
+    for (int v = 4; v < kSide_px; v += 6) depth_m.At(28, v) = 3.2F;
+    const CameraIntrinsics camera{kSide_px, kSide_px, 32, 32, 31.5, 31.5};
+    Pose T_world_camera = Pose::Identity();
+    map.Integrate(depth_m, camera, T_world_camera);
+    map.UpdateStates();
+    int between = 0;
+    map.ForEach([&](const VoxelKey& key, const Voxel& voxel) {
+      const double z_m = CenterOf(key, config.voxel_m).z();
+      between += voxel.state == VoxelState::kOccupied && z_m > 2.5 && z_m < 4.5 ? 1 : 0;
+    });
+    return between;
+  };
+  EXPECT_GT(surfaces_between("never"), 5) << "a perfect sensor has none";
+  EXPECT_EQ(surfaces_between("evidence"), 0);
+}
+
+}  // namespace
+}  // namespace crossnav::geometry
