@@ -2,11 +2,12 @@
 // How often a detector's score is right, and what several views of one thing say together
 // (crossnav/policy/view_evidence.h): houses are looked at from covering points, each sighting is
 // held against the objects that are there. Usage:
-//   detector_calibration NETWORKS_DIR [--second CARD] HOUSE_FOLDER...
-// --second: of the pair with networks.second_detector.
+//   detector_calibration NETWORKS_DIR [--second CARD] [--noise PROFILE] HOUSE_FOLDER...
+// --second: of the pair with networks.second_detector. --noise: depth and colour of that profile.
 // Prints a reliability diagram of the score, the section [evidence] of a card (EvidenceConfig), and
 // diagrams of things after one and after several views. The first half of the houses fits, the
-// second half is judged; the last line is the fit of all.
+// second half is judged; the last lines are the fit of all, and verify.contradiction: what the
+// memory's better answer to another name says beside the views.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,15 +15,20 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "covering_points.h"
 #include "crossnav/core/categories.h"
+#include "crossnav/core/category_table.h"
+#include "crossnav/geometry/voxel_map.h"
 #include "crossnav/inference/suite.h"
+#include "crossnav/memory/semantic_memory.h"
 #include "crossnav/policy/claim.h"
 #include "crossnav/policy/live_poi.h"
 #include "crossnav/sim/render/ray_caster.h"
 #include "crossnav/sim/scene/scene.h"
+#include "crossnav/sim/sensing/sensor_noise.h"
 #include "crossnav/sim/sensing/simulator.h"
 #include "sighting_truth.h"
 
@@ -48,12 +54,14 @@ struct Scored {
 struct Thing {
   policy::LivePoi poi;
   policy::ClaimTracker book;
+  double margin = 0;  ///< cosine of the memory by which the goal answers better than other names
   bool is_true = false;
 };
 
 /// Evidence for a thing after some views of it.
 struct Case {
   policy::ViewSummary views;
+  double margin = 0;
   bool is_true = false;
 };
 
@@ -95,8 +103,8 @@ std::vector<Case> CasesOf(const Thing& thing, std::string_view goal) {
     for (std::size_t n = 1; n <= std::min(kMostViews, views.size()); ++n) {
       std::vector<policy::ViewScore> some;
       for (std::size_t i = 0; i < n; ++i) some.push_back(views[(first + i) % views.size()]);
-      cases.push_back(
-          {policy::SummaryOf(some, goal, policy::EvidenceConfig{}.discount), thing.is_true});
+      cases.push_back({policy::SummaryOf(some, goal, policy::EvidenceConfig{}.discount),
+                       thing.margin, thing.is_true});
     }
   }
   return cases;
@@ -117,7 +125,51 @@ Result<Sights> SightsOf(const Observation& obs, perception::PerceptionSuite& sui
   return sights;
 }
 
-Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
+/// The semantic memory after all frames of a house.
+struct Memory {
+  geometry::VoxelMap map{geometry::MapConfig{}};
+  memory::SemanticMemory features{memory::FusionConfig{}, geometry::MapConfig{}.voxel_m};
+
+  Result<void> Add(const Observation& obs, perception::DenseEncoder& encoder) {
+    const auto grid = encoder.EncodeImage(obs);
+    if (!grid) return tl::unexpected(grid.error());
+    const auto& ends = map.Integrate(obs.depth_m, obs.camera, obs.T_world_camera);
+    features.FuseRuns(ends.runs(), obs.depth_m, obs.camera, obs.T_world_camera,
+                      {grid->rows, grid->cols, grid->dim, grid->data});
+    return {};
+  }
+};
+
+/// As the agent asks it (agent/claims.cpp); 0 where it has no opinion.
+double MarginOf(const Memory& memory, const Thing& thing, std::string_view goal,
+                const std::vector<policy::NamedText>& names) {
+  std::vector<float> text;
+  std::vector<policy::NamedText> others;
+  for (const policy::NamedText& name : names)
+    if (CanonicalName(name.name) == CanonicalName(goal))
+      text = name.vector;
+    else
+      others.push_back(name);
+  const auto opinion = policy::OpinionOf(memory.features, thing.poi.voxels, text, others);
+  const bool is_of_thing =
+      opinion && !policy::IsOfSurroundings(memory.features, thing.poi.voxels,
+                                           geometry::MapConfig{}.voxel_m, *opinion, others);
+  return is_of_thing ? opinion->Margin() : 0;
+}
+
+/// The frame from a pose, the same each time.
+Observation ObserveFrom(sim::Simulator& simulator, const sim::NoiseConfig& noise,
+                        std::uint64_t seed) {
+  Observation obs = simulator.Observe();
+  if (noise.profile == "none") return obs;
+  const DepthImage perfect_m = obs.depth_m;
+  obs.depth_m = sim::NoisyDepth(noise, perfect_m, seed, {obs.camera, &obs.rgb, nullptr, nullptr});
+  obs.rgb = sim::NoisyColour(noise, obs.rgb, seed);
+  return obs;
+}
+
+Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite,
+                   const sim::NoiseConfig& noise) {
   const auto scene = sim::LoadScene(folder);
   if (!scene) return tl::unexpected(scene.error());
   const auto navmesh = sim::NavMesh::Build(*scene, {});
@@ -132,10 +184,13 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
   House house;
   std::array<std::vector<Thing>, kCategories.size()> things;
   std::vector<Sights> seen;
-  for (const AgentPose& pose : poses) {
-    if (!simulator.Reset(pose)) continue;
-    auto sights = SightsOf(simulator.Observe(), suite);
+  Memory memory;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!simulator.Reset(poses[i])) continue;
+    const Observation obs = ObserveFrom(simulator, noise, i);
+    auto sights = SightsOf(obs, suite);
     if (!sights) return tl::unexpected(sights.error());
+    if (auto ok = memory.Add(obs, *suite.encoder); !ok) return tl::unexpected(ok.error());
     for (std::size_t g = 0; g < kCategories.size(); ++g)
       for (const policy::Sighting& sighting : (*sights)[g]) {
         const bool is_true = IsThere(sighting, kCategories[g], *scene, voxel_m);
@@ -146,13 +201,17 @@ Result<House> Look(const fs::path& folder, perception::PerceptionSuite& suite) {
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (!simulator.Reset(poses[i])) continue;
-    const Observation obs = simulator.Observe();
+    const Observation obs = ObserveFrom(simulator, noise, i);
     for (std::size_t g = 0; g < kCategories.size(); ++g)
       for (Thing& thing : things[g])
         policy::NoteScores({thing.poi}, seen[i][g], obs, voxel_m, {}, Separate(), &thing.book);
   }
+  std::vector<policy::NamedText> names;
+  for (const char* name : policy::RivalNames())
+    if (auto text = suite.encoder->EncodeText(name)) names.push_back({name, std::move(*text)});
   for (std::size_t g = 0; g < kCategories.size(); ++g)
-    for (const Thing& thing : things[g]) {
+    for (Thing& thing : things[g]) {
+      thing.margin = MarginOf(memory, thing, kCategories[g], names);
       const auto cases = CasesOf(thing, kCategories[g]);
       house.cases.insert(house.cases.end(), cases.begin(), cases.end());
     }
@@ -191,6 +250,42 @@ policy::EvidenceConfig Fit(const std::vector<Case>& all) {
   return config;
 }
 
+/// `verify.contradiction`, and its standard error: by Newton's method, with the evidence of the
+/// views as it was fitted.
+std::pair<double, double> FitContradiction(const std::vector<Case>& all,
+                                           const policy::EvidenceConfig& views) {
+  double weight = 0, curve = 0;
+  for (int i = 0; i < 50; ++i) {
+    double slope = 0;
+    curve = 1e-3;
+    for (const Case& c : all) {
+      const double x = std::min(0.0, c.margin);
+      const double log_odds = policy::LogOddsOf(policy::ProbabilityOf(c.views, views)) + weight * x;
+      const double p = 1 / (1 + std::exp(-log_odds));
+      slope += ((c.is_true ? 1 : 0) - p) * x;
+      curve += p * (1 - p) * x * x;
+    }
+    weight += std::clamp(slope / curve, -2.0, 2.0);
+  }
+  return {weight, 1 / std::sqrt(curve)};
+}
+
+/// Share of true things by the memory's margin, beside the share that their views expect.
+void PrintMargins(const std::vector<Case>& all, const policy::EvidenceConfig& views) {
+  std::printf("things by the memory's margin\n  margin            n   by views   true\n");
+  constexpr std::array kEdges = {-2.0, -0.8, -0.6, -0.4, -0.2, -0.1, 0.0, 2.0};
+  for (std::size_t i = 0; i + 1 < kEdges.size(); ++i) {
+    double n = 0, said = 0, hits = 0;
+    for (const Case& c : all) {
+      if (c.margin < kEdges[i] || c.margin >= kEdges[i + 1]) continue;
+      n += 1, said += policy::ProbabilityOf(c.views, views), hits += c.is_true ? 1 : 0;
+    }
+    if (n > 0)
+      std::printf("  %4.1f to %4.1f %6.0f   %8.2f   %.2f\n", kEdges[i], kEdges[i + 1], n, said / n,
+                  hits / n);
+  }
+}
+
 /// Probabilities of the cases after one view, or of the others.
 std::vector<Scored> Said(const std::vector<Case>& all, const policy::EvidenceConfig& fit,
                          bool is_single) {
@@ -227,11 +322,17 @@ void PrintDiagram(const char* title, const std::vector<Scored>& all) {
 
 int main(int argc, char** argv) {
   inference::NetworksConfig config;
+  sim::NoiseConfig noise;
   int first = 2;
-  if (argc > 3 && std::string_view(argv[2]) == "--second") {
-    config.second_detector = argv[3];
-    config.second_every = 1;
-    first = 4;
+  for (; first + 1 < argc && std::string_view(argv[first]).starts_with("--"); first += 2) {
+    if (std::string_view(argv[first]) == "--second") {
+      config.second_detector = argv[first + 1];
+      config.second_every = 1;
+    } else if (std::string_view(argv[first]) == "--noise") {
+      noise = sim::NoiseOfProfile(argv[first + 1]);
+    } else {
+      return std::fprintf(stderr, "%s is unknown\n", argv[first]), 2;
+    }
   }
   if (argc < first + 2)
     return std::fprintf(stderr, "NETWORKS_DIR [--second CARD] and two HOUSE_FOLDERs or more\n"), 2;
@@ -241,7 +342,7 @@ int main(int argc, char** argv) {
   if (!suite) return std::fprintf(stderr, "%s\n", suite.error().Message().c_str()), 1;
   std::array<House, 2> halves;
   for (int i = first; i < argc; ++i) {
-    auto house = Look(argv[i], *suite);
+    auto house = Look(argv[i], *suite, noise);
     if (!house) return std::fprintf(stderr, "%s\n", house.error().Message().c_str()), 1;
     House& half = halves[i - first < (argc - first) / 2 ? 0 : 1];
     std::fprintf(stderr, "%s: %zu sightings\n", argv[i], house->sightings.size());
@@ -261,5 +362,9 @@ int main(int argc, char** argv) {
   std::printf(
       "all houses: offset = %.2f, slope = %.2f, missed = %.2f, found = %.2f, too_short = %.2f\n",
       all.offset, all.slope, all.missed, all.found, all.too_short);
+  PrintMargins(both, all);
+  const auto [weight, error] = FitContradiction(both, all);
+  std::printf("contradiction = %.1f, standard error %.1f (cases of one thing repeat each other)\n",
+              weight, error);
   return 0;
 }
