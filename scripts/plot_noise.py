@@ -12,7 +12,7 @@ import json
 import pathlib
 import sys
 
-UNITS = {"depth": "sigma at 1 m [m]", "edges": "shift [px]", "holes": "share lost", "range": "m",
+UNITS = {"depth": "sigma at 1 m [m]", "edges": "shift [px]", "flying": "share of edge pixels", "holes": "share lost", "range": "m",
          "drift": "m a move", "height": "m a move", "yaw": "degrees a step", "turns": "degrees",
          "moves": "share of a move", "slip": "probability", "drops": "probability"}
 

@@ -34,6 +34,7 @@ const std::vector<Kind>& Kinds() {
       {"profile", "noise.profile", {"realsense", "kinect", "spot"}},
       {"depth", "noise.depth_sigma_per_m2", {"0.002", "0.005", "0.015"}},
       {"edges", "noise.depth_shift_px", {"0.5", "1", "3"}},
+      {"flying", "noise.depth_flying", {"0.05", "0.15", "0.4"}},
       {"holes", "noise.depth_hole_share", {"0.02", "0.1", "0.4"}},
       {"range", "noise.depth_max_m", {"6", "4", "2.5"}},
       {"drift", "noise.drift_xy_m", {"0.002", "0.006", "0.02"}},

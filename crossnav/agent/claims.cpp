@@ -233,8 +233,9 @@ std::vector<policy::LivePoi> HintsInSight(const policy::LivePois& hints, const O
 }
 
 bool IsHopelessHint(const Situation& now, const policy::LivePoi& hint) {
-  if (!JudgesByViews(now.config) || !now.goal.full.hint_views.ViewsOf(hint.id)) return false;
-  if (IsFlicker(*now.goal.full.hint_views.ViewsOf(hint.id))) return true;
+  const policy::ClaimViews* seen = now.goal.full.hint_views.ViewsOf(hint.id);
+  if (!JudgesByViews(now.config) || !seen) return false;
+  if (IsFlicker(*seen)) return true;
   const auto summary = SummaryOfHint(now, hint);
   return summary.views >= 2 && IsImprobable(summary, now.config.verify);
 }

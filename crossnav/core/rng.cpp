@@ -54,13 +54,8 @@ double Rng::Uniform(double lo, double hi) {
 }
 
 double Rng::Normal() {
-  return Normals().first;
-}
-
-std::pair<double, double> Rng::Normals() {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
-  const double angle_rad = 6.283185307179586 * Uniform();
-  return {radius * std::cos(angle_rad), radius * std::sin(angle_rad)};
+  return radius * std::cos(6.283185307179586 * Uniform());
 }
 
 std::uint64_t MixSeed(std::uint64_t a, std::uint64_t b) {

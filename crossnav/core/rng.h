@@ -19,7 +19,6 @@ class Rng {
   double Uniform();                      ///< uniform in [0, 1), 53 bits
   double Uniform(double lo, double hi);  ///< uniform in [lo, hi)
   double Normal();                       ///< standard normal (Box-Muller)
-  std::pair<double, double> Normals();   ///< Normal(), and an independent one for little more time
   bool Chance(double probability) { return Uniform() < probability; }
 
   /// Fisher-Yates, in place.

@@ -8,9 +8,9 @@
 
 namespace crossnav::geometry {
 
-/// The image with 0 in place of each reading that fewer than two of its eight neighbours confirm.
-/// A neighbour confirms within 3 % and 0.01 z^2 of the depth z [m]: the slope of a surface, and the
-/// noise of a stereo camera.
-DepthImage WithoutFlyingPixels(const DepthImage& depth_m);
+/// The image with 0 in place of each reading that fewer than `min_neighbours` of its eight
+/// neighbours confirm. A neighbour confirms a depth that it has to within the slope of a surface
+/// and the noise of a stereo camera.
+DepthImage WithoutFlyingPixels(const DepthImage& depth_m, int min_neighbours);
 
 }  // namespace crossnav::geometry

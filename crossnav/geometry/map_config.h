@@ -26,6 +26,8 @@ struct MapConfig {
   int min_hits = 2;                // chosen: a single stray return is not a wall
   double hit_ratio = 0.25;         // chosen: occupied while hits >= ratio x passes
   int max_hits = 6;                // chosen: five frames that look through an object remove it
+  int min_neighbours = 2;          // chosen: of a reading that confirm it, or it is a flying pixel;
+                                   // clearing = evidence
 };
 
 template <class V>
@@ -46,6 +48,7 @@ void Visit(V& visit, MapConfig& c) {
   visit(CROSSNAV_SETTING(c, min_hits), 1, 1000);
   visit(CROSSNAV_SETTING(c, hit_ratio), 0.0, 1.0);
   visit(CROSSNAV_SETTING(c, max_hits), 1, 1000);
+  visit(CROSSNAV_SETTING(c, min_neighbours), 0, 8);
 }
 
 }  // namespace crossnav::geometry

@@ -63,7 +63,8 @@ const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntr
   CROSSNAV_CHECK(depth_m.width == camera.width_px && depth_m.height == camera.height_px,
                  "depth image and camera differ in size");
   const bool is_real = data_->config.clearing == "evidence";  // a sensor with noise
-  const DepthImage confirmed_m = is_real ? WithoutFlyingPixels(depth_m) : DepthImage{};
+  const DepthImage confirmed_m =
+      is_real ? WithoutFlyingPixels(depth_m, config().min_neighbours) : DepthImage{};
   const DepthFrame frame{is_real ? confirmed_m : depth_m, camera, T_world_camera};
   if (!data_->center) data_->center = KeyOf(T_world_camera.translation(), config().voxel_m);
   data_->view.Resize(depth_m.width, depth_m.height);

@@ -75,22 +75,6 @@ TEST(Rng, NormalNumbersHaveMeanZeroAndVarianceOne) {
   EXPECT_NEAR(squares / kCount, 1, 0.05);
 }
 
-TEST(Rng, PairsOfNormalNumbersAreIndependentAndBeginWithTheSingleOne) {
-  Rng rng(11), single(11);
-  double sum = 0, squares = 0, products = 0;
-  constexpr int kCount = 40000;
-  for (int i = 0; i < kCount; ++i) {
-    const auto [x, y] = rng.Normals();
-    ASSERT_EQ(x, single.Normal());
-    sum += y;
-    squares += y * y;
-    products += x * y;
-  }
-  EXPECT_NEAR(sum / kCount, 0, 0.03);
-  EXPECT_NEAR(squares / kCount, 1, 0.05);
-  EXPECT_NEAR(products / kCount, 0, 0.03);
-}
-
 TEST(Rng, ShuffleKeepsTheElements) {
   Rng rng(13);
   std::vector<int> numbers(50);

@@ -22,14 +22,14 @@ DepthImage PostBeforeWall(int post_px = 8) {
 TEST(FlyingPixels, ReadingsBetweenTwoSurfacesAreDropped) {
   DepthImage depth_m = PostBeforeWall();
   for (int v = 4; v < kSide_px; v += 6) depth_m.At(28, v) = 3.2F;
-  const DepthImage kept = WithoutFlyingPixels(depth_m);
+  const DepthImage kept = WithoutFlyingPixels(depth_m, 2);
   for (int v = 0; v < kSide_px; ++v)
     for (int u = 0; u < kSide_px; ++u)
       EXPECT_EQ(kept.At(u, v), depth_m.At(u, v) == 3.2F ? 0.0F : depth_m.At(u, v)) << u << " " << v;
 }
 
 TEST(FlyingPixels, PerfectDepthIsKeptDownToALineOfOnePixel) {
-  const DepthImage depth_m = PostBeforeWall(1), kept = WithoutFlyingPixels(depth_m);
+  const DepthImage depth_m = PostBeforeWall(1), kept = WithoutFlyingPixels(depth_m, 2);
   for (int v = 1; v + 1 < kSide_px; ++v)  // the ends of a line have one neighbour
     for (int u = 0; u < kSide_px; ++u) EXPECT_EQ(kept.At(u, v), depth_m.At(u, v)) << u << " " << v;
 }
@@ -39,20 +39,27 @@ TEST(FlyingPixels, TheNoiseOfASurfaceIsKept) {
   DepthImage depth_m(kSide_px, kSide_px, 0.0F);
   int kept = 0;
   for (float& z_m : depth_m.data) z_m = static_cast<float>(4 + 0.0037 * 16 * rng.Normal());
-  for (const float z_m : WithoutFlyingPixels(depth_m).data) kept += z_m > 0 ? 1 : 0;
+  for (const float z_m : WithoutFlyingPixels(depth_m, 2).data) kept += z_m > 0 ? 1 : 0;
   EXPECT_GE(kept, 0.999 * kSide_px * kSide_px);
 }
 
+TEST(FlyingPixels, WithoutANumberOfNeighboursEveryReadingIsKept) {
+  DepthImage depth_m(3, 3, 0.0F);
+  depth_m.At(1, 1) = 2;
+  EXPECT_EQ(WithoutFlyingPixels(depth_m, 0).data, depth_m.data);
+}
+
 TEST(FlyingPixels, AreNoSurfacesOfAMapOfARealSensor) {
-  const auto surfaces_between = [](const std::string& clearing) {
+  const auto surfaces_between = [](const std::string& clearing, int min_neighbours) {
     MapConfig config;
     config.clearing = clearing;
+    config.min_neighbours = min_neighbours;
     config.min_hits = 1;
     VoxelMap map(config);
     DepthImage depth_m = PostBeforeWall();
     for (int v = 4; v < kSide_px; v += 6) depth_m.At(28, v) = 3.2F;
     const CameraIntrinsics camera{kSide_px, kSide_px, 32, 32, 31.5, 31.5};
-    Pose T_world_camera = Pose::Identity();
+    const Pose T_world_camera = Pose::Identity();
     map.Integrate(depth_m, camera, T_world_camera);
     map.UpdateStates();
     int between = 0;
@@ -62,8 +69,10 @@ TEST(FlyingPixels, AreNoSurfacesOfAMapOfARealSensor) {
     });
     return between;
   };
-  EXPECT_GT(surfaces_between("never"), 5) << "a perfect sensor has none";
-  EXPECT_EQ(surfaces_between("evidence"), 0);
+  const int fallback = MapConfig{}.min_neighbours;
+  EXPECT_GT(surfaces_between("never", fallback), 5) << "a perfect sensor has none";
+  EXPECT_GT(surfaces_between("evidence", 0), 5);
+  EXPECT_EQ(surfaces_between("evidence", fallback), 0);
 }
 
 }  // namespace
