@@ -52,7 +52,7 @@ evaluation::MakeEncoder MakerOf(const Options& options) {
 void PrintTable(const std::vector<RetrievalQuery>& queries) {
   const auto count = [&](bool is_there, double from, double to) {
     return std::count_if(queries.begin(), queries.end(), [&](const RetrievalQuery& q) {
-      return q.is_there == is_there && q.match >= from && q.match < to;
+      return q.is_there == is_there && q.match[0] >= from && q.match[0] < to;
     });
   };
   std::printf("match        there  not there\n");
@@ -80,9 +80,11 @@ int main(int argc, char** argv) {
     words.merge(evaluation::WordsOf(*scene));
     scenes.push_back(std::move(*scene));
   }
+  const std::vector<evaluation::RetrievalChoice> defaults = {
+      evaluation::RetrievalChoices().front()};
   std::vector<RetrievalQuery> all;
   for (const sim::Scene& scene : scenes) {
-    const auto trial = evaluation::TryRetrieval(scene, words, {}, MakerOf(options), {});
+    const auto trial = evaluation::TryRetrieval(scene, words, defaults, MakerOf(options), {});
     if (!trial) {
       std::fprintf(stderr, "%s\n", trial.error().Message().c_str());
       return 1;
@@ -90,7 +92,7 @@ int main(int argc, char** argv) {
     for (const RetrievalQuery& q : trial->queries) {
       all.push_back(q);
       if (options.has_lines)
-        std::printf("%s\t%s\t%d\t%.3f\n", q.house.c_str(), q.word.c_str(), q.is_there, q.match);
+        std::printf("%s\t%s\t%d\t%.3f\n", q.house.c_str(), q.word.c_str(), q.is_there, q.match[0]);
     }
     std::fprintf(stderr, "%s: %zu queries so far\n", scene.id.c_str(), all.size());
   }

@@ -73,7 +73,7 @@ Result<KnownHome> HomeIn(const AskOptions& options, const language::Question& qu
   }
   auto known = language::HomeOf(
       {loaded.map, loaded.memory, loaded.flights, loaded.objects,
-       PresentFrom(loaded.header.encoder_name, config)},
+       ThresholdsOf(loaded.header.encoder_name, config)},
       language::NamesFor(question),
       [&](const std::string& text) { return encoder->EncodeText(text); }, config.agent.query);
   if (!known) return known;

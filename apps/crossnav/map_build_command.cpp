@@ -148,13 +148,12 @@ std::string GoalText(const GoalSightings& sightings, const std::string& goal,
   return fmt::format("\"{}\": {} found by {}\n{}", goal, count, detector, sightings.PlacesText());
 }
 
-/// Whether the goal is there: by the memory where its encoder's matches tell, else by the detector.
+/// Whether the goal is there: by the detector where it has the class, else by the memory.
 struct GoalVerdict {
   std::string verdict, by;
 };
 
 GoalVerdict VerdictOf(const GoalSightings& sightings, const std::string& by_memory) {
-  if (by_memory != memory::NameOf(memory::Verdict::kUnknown)) return {by_memory, "memory"};
   if (!sightings.is_known()) return {by_memory, "memory"};
   const auto verdict =
       sightings.Places().empty() ? memory::Verdict::kAbsent : memory::Verdict::kPresent;
@@ -252,7 +251,8 @@ Result<void> MapBuild(const MapBuildOptions& options, const CommonOptions& commo
     if (verdict.by == "detector")
       console.Print(fmt::format("\"{}\" is {}, says the detector {}\n", options.goal,
                                 verdict.verdict, config->networks.detector));
-    console.Print(GoalText(*sightings, options.goal, config->networks.detector) + answer->text);
+    console.Print(GoalText(*sightings, options.goal, config->networks.detector) +
+                  "by the memory, " + answer->text);
   }
   console.Document(document);
   return {};

@@ -100,13 +100,18 @@ Json FlightsJson(const std::vector<geometry::StairFlight>& flights) {
 
 /// The first line of an answer.
 std::string VerdictText(const std::string& text, const memory::QueryMatch& match,
-                        const std::string& encoder, std::optional<double> from, bool is_nowhere) {
-  switch (memory::Judge(match, from)) {
+                        const std::string& encoder,
+                        const std::optional<memory::MatchThresholds>& thresholds, bool is_nowhere) {
+  switch (memory::Judge(match, thresholds)) {
     case memory::Verdict::kAbsent:
       return fmt::format(
           "\"{}\" is absent: nothing matches better than {:.2f}, present is {:.2f}\n", text,
-          match.best, *from);
+          match.best, thresholds->present_from);
     case memory::Verdict::kUnknown:
+      if (thresholds)
+        return fmt::format(
+            "\"{}\" may be there: it matches {:.2f}; absent is below {:.2f}, present from {:.2f}\n",
+            text, match.best, thresholds->absent_below, thresholds->present_from);
       return fmt::format(
           "\"{}\" matches {:.2f}; features of {} do not tell what is there from what is not\n",
           text, match.best, encoder.empty() ? "an unknown encoder" : encoder);
@@ -199,11 +204,11 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
   const auto found = memory::Query(loaded->memory, vectors->text, query, vectors->background);
   const auto match = memory::MatchOf(loaded->memory, vectors->text, found);
   const std::string& encoder = loaded->header.encoder_name;
-  const auto from = PresentFrom(encoder, config);
-  const memory::Verdict verdict = memory::Judge(match, from);
+  const auto thresholds = ThresholdsOf(encoder, config);
+  const memory::Verdict verdict = memory::Judge(match, thresholds);
   Json places = Json::array();
   MapAnswer answer;
-  answer.text = VerdictText(asked, match, encoder, from, found.empty());
+  answer.text = VerdictText(asked, match, encoder, thresholds, found.empty());
   for (std::size_t i = 0; verdict != memory::Verdict::kAbsent && i < found.size(); ++i) {
     const memory::MemoryCluster& cluster = found[i];
     const Vector3d& p = cluster.p_center_world;
@@ -221,7 +226,8 @@ Result<MapAnswer> AnswerQuery(const MapOptions& options, const evaluation::RunCo
   answer.json = Json({{"text", asked},
                       {"verdict", memory::NameOf(verdict)},
                       {"match", match.best},
-                      {"present_from", from ? Json(*from) : Json()},
+                      {"absent_below", thresholds ? Json(thresholds->absent_below) : Json()},
+                      {"present_from", thresholds ? Json(thresholds->present_from) : Json()},
                       {"places", std::move(places)}})
                     .dump(1);
   return answer;

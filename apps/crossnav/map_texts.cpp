@@ -72,9 +72,13 @@ Result<PictureQuery> EncodePicture(const std::string& file, const std::string& p
   return PictureQuery{std::move(*vectors), std::move(pictured->category)};
 }
 
-std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config) {
-  const auto from = memory::PresentFrom(encoder);
-  return from ? from : RetrievalOf(config).present_from;
+std::optional<memory::MatchThresholds> ThresholdsOf(const std::string& encoder,
+                                                    const evaluation::RunConfig& config) {
+  if (const auto thresholds = memory::ThresholdsOf(encoder)) return thresholds;
+  const auto card = RetrievalOf(config);
+  if (!card.present_from) return std::nullopt;
+  return memory::MatchThresholds{card.absent_below.value_or(*card.present_from),
+                                 *card.present_from};
 }
 
 Result<store::LoadedMemory> LoadMap(const std::string& file, bool skip_damaged,
@@ -127,7 +131,7 @@ Result<void> FindObjects(const std::string& file, const std::vector<std::string>
     const auto vectors = EncodeWith(**encoder, category, config);
     if (!vectors) return tl::unexpected(vectors.error());
     scenegraph::FindObjects(graph, loaded.memory, {category, vectors->text, vectors->background},
-                            config.agent.query, PresentFrom(loaded.header.encoder_name, config));
+                            config.agent.query, ThresholdsOf(loaded.header.encoder_name, config));
   }
   return {};
 }

@@ -44,7 +44,8 @@ Result<PictureQuery> EncodePicture(const std::string& file, const std::string& p
                                    const evaluation::RunConfig& config);
 
 /// From which match on a text is present in a map with features of `encoder`.
-std::optional<double> PresentFrom(const std::string& encoder, const evaluation::RunConfig& config);
+std::optional<memory::MatchThresholds> ThresholdsOf(const std::string& encoder,
+                                                    const evaluation::RunConfig& config);
 
 /// Queries the map's memory for each of `categories` and adds the found objects to the graph.
 Result<void> FindObjects(const std::string& file, const std::vector<std::string>& categories,

@@ -94,7 +94,7 @@ void LookAtHome(const World& world, const Config& config, GoalState* goal) {
   auto graph = scenegraph::BuildGraph(world.map, world.memory, world.flights);
   for (const policy::NamedText& name : described.names)
     scenegraph::FindObjects(graph, world.memory, {name.name, name.vector, goal->background},
-                            config.query, memory::PresentFrom(described.encoder_name));
+                            config.query, memory::ThresholdsOf(described.encoder_name));
   described.home = language::HomeOf(graph, world.objects.Confirmed());
   described.home.p_robot_world = described.p_start_world;
   described.home.may_have_more_floors |= described.home.floors.size() < 2;

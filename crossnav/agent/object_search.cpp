@@ -39,10 +39,12 @@ constexpr double kAround_m = 6;  // chosen: patches about the agent, a view and 
 constexpr int kRefresh_steps = 6;    // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;  // chosen: of a search without a view left
 constexpr double kWorth_m = 1000;    // chosen: for the probability; a corner two rooms off
+constexpr double kCheap_m = 100;  // chosen: likewise, of an object that is gone with near certainty
 constexpr double kBeside_m = 0.5;  // chosen: the middle of a remembered place and the record's box
 constexpr double kCutOff = 0.05;   // chosen: a room or a floor, not corners
 constexpr double kClose = 0.6;     // chosen: of the range, near enough for small things
-constexpr double kLeftOver = 0.2;  // chosen: of what earlier days left unseen; the rest is in walls
+constexpr double kLeftOver = 0.2;  // chosen: of a room's area that earlier days left unseen; the
+                                   // rest is in walls
 constexpr double kOffLevel_m = 0.3;  // chosen: a frontier this far off a floor is on furniture
 
 void UpdateAllFloors(World* world) {
@@ -93,6 +95,12 @@ bool IsOnFloor(const World& world, double z_m) {
   return world.revision &&
          std::any_of(world.revision->graph.floors.begin(), world.revision->graph.floors.end(),
                      [&](const auto& floor) { return is_at(floor.height_m); });
+}
+
+/// Ground in an area that earlier days left unseen. Walls explain no more than a room's area.
+double LeftOver(double unseen_m2) {
+  const double in_walls_m2 = std::min(unseen_m2, kRoom_m2);
+  return kLeftOver * in_walls_m2 + (unseen_m2 - in_walls_m2);
 }
 
 /// Probability of what lies behind an explored candidate; 0 = not worth going to.
@@ -160,13 +168,13 @@ class SearchPrices {
       if (gain <= 0 || (is_over_ && is_pocket)) continue;
       const bool is_old = found.type == ExplorationClass::kFrontier && now_.world.revision;
       Add(std::move(found.candidate), search.PathTo(place), path_m,
-          is_old ? kLeftOver * gain : gain, {});
+          is_old ? LeftOver(gain * known_m2_) / known_m2_ : gain, {});
     }
   }
 
   /// The best view from the first place of each coarse cell.
   void AddView(const planner::GroundSearch& search, const VoxelKey& place, double path_m) {
-    if (is_absent_ || !asked_.insert(ViewCellOf(place)).second) return;
+    if (!asked_.insert(ViewCellOf(place)).second) return;
     const double bound = views_.Bound(place);
     if (bound < kLeastGain) return;
     const auto room = tours_.RoomOf(place);
@@ -174,6 +182,7 @@ class SearchPrices {
     std::vector<VoxelKey> path = search.PathTo(place);
     auto view = views_.From(place, path_m, ArrivalHeading(now_, path));
     if (!view) return;
+    if (is_absent_ && (view->cost_m + start_m_) / view->gain > kCheap_m) return;
     Candidate candidate;
     candidate.kind = CandidateKind::kSearchView;
     candidate.p_focus_world = FocusOf(now_, place, view->heading_rad);

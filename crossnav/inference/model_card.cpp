@@ -259,7 +259,10 @@ Result<void> ReadRetrieval(Section section, ModelCard::Retrieval& retrieval) {
   section.Number("min_similarity", retrieval.min_similarity, -1, 1);
   section.Number("min_z_score", retrieval.min_z_score, 0, 100);
   section.Number("min_peak_share", retrieval.min_peak_share, 0, 1);
+  section.Number("absent_below", retrieval.absent_below, 0, 1);
   section.Number("present_from", retrieval.present_from, 0, 1);
+  if (retrieval.absent_below && retrieval.absent_below > retrieval.present_from)
+    section.Complain("absent_below", "must come with a present_from that is not smaller");
   section.Number("margin", retrieval.margin, 0, 2);
   return section.Finish();
 }

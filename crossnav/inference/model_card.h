@@ -78,8 +78,8 @@ struct ModelCard {
   /// Of an encoder, as `crossnav networks calibrate` measured it; nullopt = never measured.
   struct Retrieval {
     std::optional<double> min_similarity, min_z_score, min_peak_share;  ///< as in QueryConfig
-    std::optional<double> present_from;  ///< match from which a text is present
-    std::optional<double> margin;        ///< as VerifyConfig's refute_margin and strong_margin
+    std::optional<double> absent_below, present_from;  ///< matches (memory/query_match.h)
+    std::optional<double> margin;  ///< as VerifyConfig's refute_margin and strong_margin
   } retrieval;
 
   /// Of a detector, as benchmarks/detector_calibration measured it (EvidenceConfig); nullopt =

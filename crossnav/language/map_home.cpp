@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/language/map_home.h"
 
-#include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
 #include "crossnav/scenegraph/find_objects.h"
 
@@ -21,7 +20,7 @@ Result<KnownHome> HomeOf(const MapParts& parts, std::span<const std::string> nam
     const auto vector = encode(name);
     if (!vector) return tl::unexpected(vector.error());
     scenegraph::FindObjects(graph, parts.memory, {name, *vector, background}, query,
-                            parts.present_from);
+                            parts.thresholds);
   }
   return HomeOf(graph, parts.records);
 }

@@ -14,6 +14,7 @@
 #include "crossnav/geometry/voxel_map.h"
 #include "crossnav/language/known_home.h"
 #include "crossnav/memory/history_poi.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/memory/semantic_memory.h"
 
 namespace crossnav::language {
@@ -26,7 +27,7 @@ struct MapParts {
   const memory::SemanticMemory& memory;
   const std::vector<geometry::StairFlight>& flights;
   const std::vector<objects::ObjectRecord>& records;
-  std::optional<double> present_from;  ///< least match (memory/query_match.h); empty = not measured
+  std::optional<memory::MatchThresholds> thresholds;  ///< empty = not measured
 };
 
 /// Queries the memory for each of `names`; skips a memory without features. Errors: of the encoder.

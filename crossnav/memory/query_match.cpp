@@ -59,16 +59,17 @@ std::string_view NameOf(Verdict verdict) {
   return {};
 }
 
-std::optional<double> PresentFrom(std::string_view encoder) {
+std::optional<MatchThresholds> ThresholdsOf(std::string_view encoder) {
   for (const auto& [name, from] : kPresentFrom) {
-    if (name == encoder) return from;
+    if (name == encoder) return MatchThresholds{from, from};
   }
   return std::nullopt;
 }
 
-Verdict Judge(const QueryMatch& match, std::optional<double> present_from) {
-  if (!present_from) return Verdict::kUnknown;
-  return match.best >= *present_from ? Verdict::kPresent : Verdict::kAbsent;
+Verdict Judge(const QueryMatch& match, const std::optional<MatchThresholds>& thresholds) {
+  if (!thresholds) return Verdict::kUnknown;
+  if (match.best >= thresholds->present_from) return Verdict::kPresent;
+  return match.best < thresholds->absent_below ? Verdict::kAbsent : Verdict::kUnknown;
 }
 
 }  // namespace crossnav::memory

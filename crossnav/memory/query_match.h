@@ -26,11 +26,16 @@ QueryMatch MatchOf(const SemanticMemory& memory, std::span<const float> text,
 enum class Verdict { kPresent, kAbsent, kUnknown };
 std::string_view NameOf(Verdict verdict);
 
-/// From which match on a text counts as present among features of `encoder` (by the name in map
-/// files); nullopt where that was never measured. Of networks the card says it.
-std::optional<double> PresentFrom(std::string_view encoder);
+/// Matches that decide; a match between both decides nothing.
+struct MatchThresholds {
+  double absent_below = 0, present_from = 0;
+};
 
-/// kUnknown where no threshold was measured.
-Verdict Judge(const QueryMatch& match, std::optional<double> present_from);
+/// Thresholds for features of `encoder` (by the name in map files); nullopt where they were never
+/// measured. Of networks the card has them.
+std::optional<MatchThresholds> ThresholdsOf(std::string_view encoder);
+
+/// kUnknown between the thresholds, and where none were measured.
+Verdict Judge(const QueryMatch& match, const std::optional<MatchThresholds>& thresholds);
 
 }  // namespace crossnav::memory

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "crossnav/core/category_table.h"
-#include "crossnav/memory/query_match.h"
 #include "crossnav/scenegraph/build_graph.h"
 
 namespace crossnav::scenegraph {
@@ -23,20 +22,20 @@ bool IsRecorded(const SceneGraph& graph, const std::string& category, const Box3
 
 void FindObjects(SceneGraph& graph, const memory::SemanticMemory& memory,
                  const AskedCategory& category, memory::QueryConfig query,
-                 std::optional<double> present_from) {
+                 const std::optional<memory::MatchThresholds>& thresholds) {
   query.top_k = 1000;  // every match
   const auto found = memory::Query(memory, category.text, query, category.background);
   const auto match = memory::MatchOf(memory, category.text, found);
   graph.asked.push_back(category.name);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (present_from && match.places[i] < *present_from) continue;
+    if (thresholds && match.places[i] < thresholds->absent_below) continue;
     if (IsRecorded(graph, category.name, found[i].box)) continue;
     GraphObject object;
     object.category = category.name;
     object.p_center_world = found[i].p_center_world;
     object.box = found[i].box;
     object.match = match.places[i];
-    object.is_certain = present_from.has_value();
+    object.is_certain = thresholds && match.places[i] >= thresholds->present_from;
     AddObject(graph, std::move(object));
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crossnav/memory/history_poi.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/memory/semantic_memory.h"
 #include "crossnav/scenegraph/scene_graph.h"
 
@@ -20,10 +21,10 @@ struct AskedCategory {
   std::span<const std::vector<float>> background;  ///< for query.relevancy = contrastive
 };
 
-/// Adds the places with a match of `present_from` or more (memory/query_match.h), or every place if
-/// it is empty. A place on a record of the category adds no second object. Computes no relations.
+/// Adds the places that are not absent by `thresholds`; those that are present are certain. A place
+/// on a record of the category adds no second object. Computes no relations.
 void FindObjects(SceneGraph& graph, const memory::SemanticMemory& memory,
                  const AskedCategory& category, memory::QueryConfig query,
-                 std::optional<double> present_from);
+                 const std::optional<memory::MatchThresholds>& thresholds);
 
 }  // namespace crossnav::scenegraph

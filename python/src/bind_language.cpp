@@ -99,7 +99,7 @@ nb::dict Ask(const PathIn& path, const std::string& question_text, const Setting
   const auto encoder = EncoderOf(encode, header, config, truth);
   KnownHome home =
       Unwrap(language::HomeOf({loaded.map, loaded.memory, loaded.flights, loaded.objects,
-                               memory::PresentFrom(header.encoder_name)},
+                               memory::ThresholdsOf(header.encoder_name)},
                               language::NamesFor(question), encoder, config.agent.query));
   if (ground_floor < 0 || ground_floor >= std::max<int>(1, static_cast<int>(home.floors.size())))
     Raise(ErrorCode::kInvalid, "the map has no such floor", "ground_floor");

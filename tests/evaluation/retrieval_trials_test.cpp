@@ -12,26 +12,50 @@ namespace {
 std::vector<RetrievalQuery> Queries(std::initializer_list<double> there,
                                     std::initializer_list<double> not_there) {
   std::vector<RetrievalQuery> all;
-  for (const double match : there) all.push_back({"h", "w", true, match});
-  for (const double match : not_there) all.push_back({"h", "w", false, match});
+  for (const double match : there) all.push_back({"h", "w", true, {0.5, match}});
+  for (const double match : not_there) all.push_back({"h", "w", false, {0.5, match}});
   return all;
 }
 
-TEST(PresenceThreshold, PartsWhatIsThereFromWhatIsNot) {
+TEST(PresenceVerdicts, OneThresholdPartsWhatIsThereFromWhatIsNot) {
   const auto chosen = ChoosePresence(
-      Queries({.7, .7, .7, .8, .8, .8, .9, .9, .9, .4}, {.1, .1, .1, .2, .2, .2, .3, .3, .3, .3}));
-  ASSERT_TRUE(chosen.present_from);
-  EXPECT_GT(*chosen.present_from, 0.3);
-  EXPECT_LE(*chosen.present_from, 0.4);
-  EXPECT_EQ(chosen.found, 10);
-  EXPECT_EQ(chosen.falsely, 0);
+      Queries({.7, .7, .7, .8, .8, .8, .9, .9, .9, .4}, {.1, .1, .1, .2, .2, .2, .3, .3, .3, .3}),
+      1);
+  ASSERT_TRUE(chosen);
+  EXPECT_GT(chosen->thresholds.present_from, 0.3);
+  EXPECT_LE(chosen->thresholds.present_from, 0.4);
+  EXPECT_EQ(chosen->thresholds.absent_below, chosen->thresholds.present_from);
+  EXPECT_EQ(chosen->there.present, 10);
+  EXPECT_EQ(chosen->not_there.absent, 10);
+  EXPECT_EQ(chosen->PresentIsRight(), 1);
 }
 
-TEST(PresenceThreshold, IsNoneWhereBothMatchAlikeOrTooFewWereAsked) {
-  EXPECT_FALSE(ChoosePresence(Queries({.7, .7, .8, .8, .8, .9, .9, .9, .9, .9},
-                                      {.7, .7, .8, .8, .8, .9, .9, .9, .9, .9}))
-                   .present_from);
-  EXPECT_FALSE(ChoosePresence(Queries({.9, .9}, {.1, .1})).present_from);
+TEST(PresenceVerdicts, MatchesThatBothHaveStayUnknown) {
+  const auto chosen = ChoosePresence(
+      Queries({.5, .5, .5, .5, .9, .9, .9, .9, .9, .9}, {.5, .5, .5, .5, .1, .1, .1, .1, .1, .1}),
+      1);
+  ASSERT_TRUE(chosen);
+  EXPECT_GT(chosen->thresholds.present_from, 0.5);
+  EXPECT_LE(chosen->thresholds.absent_below, 0.5);
+  EXPECT_EQ(chosen->there.present, 6);
+  EXPECT_EQ(chosen->there.absent, 0);
+  EXPECT_EQ(chosen->not_there.absent, 6);
+  EXPECT_EQ(chosen->not_there.present, 0);
+}
+
+TEST(PresenceVerdicts, AreRightSoOftenAtEvenOdds) {
+  const auto queries = Queries({.9, .9, .9, .1}, {.9, .1});
+  const auto counted = CountVerdicts(queries, 1, {0.5, 0.5});
+  EXPECT_NEAR(counted.PresentIsRight(), .75 / (.75 + .5), 1e-12);
+  EXPECT_NEAR(counted.AbsentIsRight(), .5 / (.5 + .25), 1e-12);
+  EXPECT_EQ(CountVerdicts(queries, 0, {0.5, 0.5}).not_there.present, 2) << "the other choice";
+}
+
+TEST(PresenceVerdicts, AreNoneWhereBothMatchAlikeOrTooFewWereAsked) {
+  EXPECT_FALSE(ChoosePresence(
+      Queries({.7, .7, .8, .8, .8, .9, .9, .9, .9, .9}, {.7, .7, .8, .8, .8, .9, .9, .9, .9, .9}),
+      1));
+  EXPECT_FALSE(ChoosePresence(Queries({.9, .9}, {.1, .1}), 1));
 }
 
 TEST(RetrievalCount, F1IsTheHarmonicMeanOfRecallAndPrecision) {
@@ -64,7 +88,7 @@ TEST(RetrievalTrial, FindsTheNamesOfASceneWithGroundTruthAndNothingElse) {
     there += query.is_there;
     EXPECT_EQ(query.is_there, query.word == "chair");
   }
-  EXPECT_EQ(there, 1);
+  EXPECT_GE(there, 1);
 }
 
 }  // namespace

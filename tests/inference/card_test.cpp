@@ -107,7 +107,7 @@ TEST_F(Cards, RetrievalThresholdsAreReadAndWrittenInPlaceOfOldOnes) {
       "family = \"dense\"\n[input]\nsize = 8\n\n[retrieval]\nmin_z_score = 2\n"
       "\n[text]  # kept\ntemplates = [\"{}\"]\n";
   const std::string section =
-      "[retrieval]\nmin_similarity = 0.3\npresent_from = 0.5\nmargin = 0.15\n";
+      "[retrieval]\nmin_similarity = 0.3\nabsent_below = 0.25\npresent_from = 0.5\nmargin = 0.15\n";
   for (const std::string& before : {card, card.substr(0, card.find("[retrieval]"))}) {
     const std::string text = WithRetrieval(before, section);
     EXPECT_EQ(WithRetrieval(text, section), text);
@@ -116,11 +116,15 @@ TEST_F(Cards, RetrievalThresholdsAreReadAndWrittenInPlaceOfOldOnes) {
     const auto read = ReadModelCard(path());
     ASSERT_TRUE(read) << read.error().Message();
     EXPECT_EQ(read->retrieval.min_similarity, 0.3);
+    EXPECT_EQ(read->retrieval.absent_below, 0.25);
     EXPECT_EQ(read->retrieval.present_from, 0.5);
     EXPECT_EQ(read->retrieval.margin, 0.15);
     EXPECT_FALSE(read->retrieval.min_z_score);
   }
   EXPECT_NE(WithRetrieval(card, section).find("[text]  # kept"), std::string::npos);
+  for (const char* text : {"absent_below = 0.6\npresent_from = 0.5\n", "absent_below = 0.6\n"})
+    EXPECT_EQ(ErrorOf("family = \"detr\"\n[input]\nsize = 3\n[retrieval]\n" + std::string(text)),
+              "key \"retrieval.absent_below\" must come with a present_from that is not smaller");
 }
 
 TEST_F(Cards, EvidenceIsMeasuredWhereAllItsNumbersAre) {

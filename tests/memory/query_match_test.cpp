@@ -80,15 +80,23 @@ TEST(QueryMatch, SurfacesThatFillTheMapArePresentWithoutAnOutstandingPlace) {
   w.Show(w.Word(), {40, 0, 0}, 7);
   const QueryMatch match = w.Ask(wall);
   EXPECT_TRUE(match.places.empty());
-  EXPECT_EQ(Judge(match, PresentFrom("ground-truth")), Verdict::kPresent);
+  EXPECT_EQ(Judge(match, ThresholdsOf("ground-truth")), Verdict::kPresent);
+}
+
+TEST(QueryMatch, IsUnknownBetweenTheThresholds) {
+  const MatchThresholds thresholds{0.4, 0.6};
+  EXPECT_EQ(Judge({0, 0.39, {}}, thresholds), Verdict::kAbsent);
+  EXPECT_EQ(Judge({0, 0.4, {}}, thresholds), Verdict::kUnknown);
+  EXPECT_EQ(Judge({0, 0.59, {}}, thresholds), Verdict::kUnknown);
+  EXPECT_EQ(Judge({0, 0.6, {}}, thresholds), Verdict::kPresent);
 }
 
 TEST(QueryMatch, AnEmptyMemoryHoldsNothingAndAnUnmeasuredEncoderIsNotJudged) {
   const SemanticMemory nothing;
   const QueryMatch match = MatchOf(nothing, std::vector<float>(kMatchDim, 1.0F), {});
   EXPECT_EQ(match.best, 0);
-  EXPECT_EQ(Judge(match, PresentFrom("ground-truth")), Verdict::kAbsent);
-  EXPECT_EQ(Judge(match, PresentFrom("somebody-elses")), Verdict::kUnknown);
+  EXPECT_EQ(Judge(match, ThresholdsOf("ground-truth")), Verdict::kAbsent);
+  EXPECT_EQ(Judge(match, ThresholdsOf("somebody-elses")), Verdict::kUnknown);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "crossnav/core/categories.h"
 #include "crossnav/core/rng.h"
+#include "crossnav/world/change/object_words.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -26,15 +27,16 @@ int CountOf(const sim::Scene& scene, const std::string& goal, bool is_category) 
       }));
 }
 
-/// Name of the changed object alone, before and after; empty without such a name.
-std::string GoalOf(const world::Change& change, const sim::Scene& before, const sim::Scene& after) {
-  const int now = change.kind == world::ChangeKind::kRemoved ? 0 : 1;
+/// Name of one object alone, with one instance before and `now` instances after; empty without such
+/// a name.
+std::string OwnNameOf(const std::string& category, const std::string& name, int now,
+                      const sim::Scene& before, const sim::Scene& after) {
   const auto is_only = [&](const std::string& goal, bool is_category) {
     return !goal.empty() && CountOf(before, goal, is_category) == 1 &&
            CountOf(after, goal, is_category) == now;
   };
-  if (is_only(change.category, true)) return change.category;
-  if (!IsCategory(change.name) && is_only(change.name, false)) return change.name;
+  if (is_only(category, true)) return category;
+  if (!IsCategory(name) && is_only(name, false)) return name;
   return {};
 }
 
@@ -76,6 +78,35 @@ class Maker {
     for (const std::string& name : names) {
       if (!FloorsReached(At(day), name, p_world).empty()) goals.push_back(name);
     }
+    return goals;
+  }
+
+  /// Furniture and movable objects with a name of their own, as the goals of the other tracks have.
+  std::set<std::string> FindableAlone(std::size_t day, const Vector3d& p_world) const {
+    std::set<std::string> goals;
+    for (const sim::SceneInstance& instance : At(day).scene().instances) {
+      if (!world::IsLandmark(instance.name) && !world::IsMovable(instance.name, instance.category))
+        continue;
+      const std::string goal =
+          OwnNameOf(instance.category, instance.name, 1, At(day - 1).scene(), At(day).scene());
+      if (!goal.empty() && !FloorsReached(At(day), goal, p_world).empty()) goals.insert(goal);
+    }
+    return goals;
+  }
+
+  /// Goals that may have stayed: behind a closed door first, then objects with a name of their own,
+  /// because an object with an instance on each floor is found soon without a memory.
+  std::vector<std::string> Stayed(std::size_t day, const Vector3d& start_world, Rng& rng) const {
+    const std::set<std::string> alone = FindableAlone(day, start_world);
+    std::set<std::string> all = alone;
+    for (const std::string& goal : Findable(day, start_world)) all.insert(goal);
+    std::vector<std::string> goals(all.begin(), all.end());
+    rng.Shuffle(goals);
+    std::stable_partition(goals.begin(), goals.end(),
+                          [&](const std::string& goal) { return alone.count(goal) > 0; });
+    std::stable_partition(goals.begin(), goals.end(), [&](const std::string& goal) {
+      return TrackOf(day, start_world, goal) == "doors";
+    });
     return goals;
   }
 
@@ -121,7 +152,8 @@ class Maker {
     for (const world::Change& change : days_[day].list.changes) {
       const bool is_moved = world::IsMove(change.kind);
       if (!is_moved && change.kind != world::ChangeKind::kRemoved) continue;
-      const std::string goal = GoalOf(change, At(day - 1).scene(), At(day).scene());
+      const std::string goal = OwnNameOf(change.category, change.name, is_moved ? 1 : 0,
+                                         At(day - 1).scene(), At(day).scene());
       if (goal.empty()) continue;
       VisitGoal made = GoalAt(day, goal, world::NameOf(change.kind), p_world);
       if (made.is_absent == is_moved || (is_moved && made.floors.empty())) continue;
@@ -180,14 +212,20 @@ class Maker {
     return std::nullopt;
   }
 
-  /// Orders the goals, each from the previous stop; sets the tracks of goals that stayed.
+  /// Orders the goals, each from the previous stop, first a goal that a closed door makes farther;
+  /// sets the tracks of goals that stayed.
   void Arrange(std::size_t day, HouseVisit& visit, Rng& rng) const {
+    const Vector3d& start = visit.start.p_world;
     rng.Shuffle(visit.goals);
     const auto far_enough = std::find_if(visit.goals.begin(), visit.goals.end(), [&](auto& goal) {
-      const auto first_m = Distance(day, visit.start.p_world, goal.goal);
+      const auto first_m = Distance(day, start, goal.goal);
       return goal.is_absent || (first_m && *first_m >= kMinStart_m);
     });
-    if (far_enough != visit.goals.end()) std::iter_swap(visit.goals.begin(), far_enough);
+    const auto behind_door = std::find_if(visit.goals.begin(), visit.goals.end(), [&](auto& goal) {
+      return goal.track == "static" && TrackOf(day, start, goal.goal) == "doors";
+    });
+    const auto first = behind_door != visit.goals.end() ? behind_door : far_enough;
+    if (first != visit.goals.end()) std::iter_swap(visit.goals.begin(), first);
     Vector3d from = visit.start.p_world;
     for (VisitGoal& goal : visit.goals) {
       if (goal.track == "static") goal.track = TrackOf(day, from, goal.goal);
@@ -202,8 +240,7 @@ class Maker {
     if (!start) return NoVisit(visit);
     visit.start = *start;
     visit.goals = ChangedGoals(day, start->p_world);
-    std::vector<std::string> stayed = Findable(day, start->p_world);
-    rng.Shuffle(stayed);
+    const std::vector<std::string> stayed = Stayed(day, start->p_world, rng);
     int of_static = 0;
     for (const std::string& goal : stayed) {
       const auto count = static_cast<int>(visit.goals.size());
@@ -224,9 +261,12 @@ class Maker {
     if (!start) return NoVisit(visit);
     visit.start = *start;
     std::vector<std::string> wanted;
-    for (const HouseVisit& day : later) {
-      for (const VisitGoal& goal : day.goals) {
-        if (goal.track != "static" && goal.track != "doors") wanted.push_back(goal.goal);
+    for (const bool has_stayed : {false, true}) {
+      for (const HouseVisit& day : later) {
+        for (const VisitGoal& goal : day.goals) {
+          if ((goal.track == "static" || goal.track == "doors") == has_stayed)
+            wanted.push_back(goal.goal);
+        }
       }
     }
     for (const std::string& goal : Findable(0, start->p_world)) wanted.push_back(goal);

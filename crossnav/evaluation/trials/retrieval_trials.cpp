@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 
 #include "crossnav/core/category_table.h"
 #include "crossnav/core/rng.h"
@@ -30,14 +31,22 @@ constexpr int kSide_px = 240;
 constexpr int kLeastVoxels = 5;     // of an instance that was seen
 constexpr double kSameWord = 0.9;   // cosine
 constexpr double kMargin_m = 0.25;  // chosen: of a place around its instance's box
-constexpr double kLeastSeparation = 0.8;
-constexpr int kLeastQueries = 10;  // chosen: of each kind, for a threshold
+constexpr std::size_t kPart = 8;    // chosen: places, about three rooms
+constexpr double kFloorWeight = 4;  // chosen
+constexpr double kRight = 0.85;     // chosen: of the verdicts of a calibrated encoder
+constexpr double kSteps = 200;      // chosen: matches that are tried
+constexpr int kLeastQueries = 10;   // chosen: of each kind, for a threshold
 
 std::string SpacedNameOf(const sim::SceneInstance& instance) {
   return SpacedName(instance.category.empty() ? instance.name : instance.category);
 }
 
-/// Points that cover the navmesh, no two nearer than kSpacing_m.
+/// Another floor is far.
+double FarFrom(const Vector3d& a, const Vector3d& b) {
+  return (a - b).head<2>().norm() + kFloorWeight * std::abs(a.z() - b.z());
+}
+
+/// Points that cover the navmesh, no two nearer than kSpacing_m; neighbours follow each other.
 std::vector<Vector3d> CoveringPoints(const sim::NavMesh& navmesh) {
   Rng rng(5);
   std::vector<Vector3d> kept;
@@ -49,13 +58,19 @@ std::vector<Vector3d> CoveringPoints(const sim::NavMesh& navmesh) {
     missed = is_near ? missed + 1 : 0;
     if (!is_near) kept.push_back(*p);
   }
+  for (std::size_t i = 0; i + 1 < kept.size(); ++i)
+    std::iter_swap(kept.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                   std::min_element(kept.begin() + static_cast<std::ptrdiff_t>(i) + 1, kept.end(),
+                                    [&](const Vector3d& a, const Vector3d& b) {
+                                      return FarFrom(a, kept[i]) < FarFrom(b, kept[i]);
+                                    }));
   return kept;
 }
 
-Result<void> SeeWhole(const sim::NavMesh& navmesh, sim::Simulator& simulator,
-                      perception::DenseEncoder& encoder, memory::SemanticMemory& memory) {
+Result<void> SeeFrom(std::span<const Vector3d> places, sim::Simulator& simulator,
+                     perception::DenseEncoder& encoder, memory::SemanticMemory& memory) {
   geometry::VoxelMap map;
-  for (const Vector3d& p : CoveringPoints(navmesh)) {
+  for (const Vector3d& p : places) {
     for (int yaw = 0; yaw < kTrialYaws; ++yaw) {
       if (!simulator.Reset({p, yaw * 2 * M_PI / kTrialYaws, yaw % 2 == 0 ? 0 : DegToRad(-30)}))
         continue;
@@ -118,6 +133,47 @@ RetrievalCount CountPlaces(const sim::Scene& scene, const std::string& word, boo
   return count;
 }
 
+/// Adds what a memory of the views from `places` answers; counts its places if it `is_whole`.
+Result<void> Ask(const sim::Scene& scene, std::span<const Vector3d> places,
+                 const std::set<std::string>& words, const std::vector<RetrievalChoice>& choices,
+                 sim::Simulator& simulator, perception::DenseEncoder& encoder, bool is_whole,
+                 RetrievalTrial& trial) {
+  memory::SemanticMemory memory;
+  if (auto ok = SeeFrom(places, simulator, encoder, memory); !ok) return ok;
+  const auto seen = SeenNames(scene, memory);
+  for (const std::string& word : words) {
+    const auto text = encoder.EncodeText(word);
+    if (!text) continue;
+    const auto found = seen.find(word);
+    const int voxels = found == seen.end() ? 0 : found->second;
+    const bool is_there = voxels >= kLeastVoxels;
+    const bool is_doubtful = voxels > 0 || NearestName(encoder, *text, seen) > kSameWord;
+    if (!is_there && is_doubtful) continue;
+    RetrievalQuery query{scene.id, word, is_there, {}};
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      memory::QueryConfig config;
+      config.min_similarity = choices[i].min_similarity;
+      config.min_z_score = choices[i].min_z_score;
+      config.min_peak_share = choices[i].min_peak_share;
+      const auto answer = memory::Query(memory, *text, config);
+      query.match.push_back(memory::MatchOf(memory, *text, answer).best);
+      if (is_whole) trial.counts[i] += CountPlaces(scene, word, is_there, answer);
+    }
+    trial.queries.push_back(std::move(query));
+  }
+  return {};
+}
+
+double Share(int part, int all) {
+  return all > 0 ? static_cast<double>(part) / all : 0;
+}
+
+/// Share of right verdicts, were as many words there as not.
+double RightAtEvenOdds(int right, int asked, int wrong, int wrongly_asked) {
+  const double yes = Share(right, asked), no = Share(wrong, wrongly_asked);
+  return yes > 0 ? yes / (yes + no) : 0;
+}
+
 }  // namespace
 
 double RetrievalCount::F1() const {
@@ -166,54 +222,65 @@ Result<RetrievalTrial> TryRetrieval(const sim::Scene& scene, const std::set<std:
   const auto held = make_encoder(simulator);
   if (!held) return tl::unexpected(held.error());
   perception::DenseEncoder& encoder = *held->encoder;
-  memory::SemanticMemory memory;
-  if (auto ok = SeeWhole(*navmesh, simulator, encoder, memory); !ok)
-    return tl::unexpected(ok.error());
-  const auto seen = SeenNames(scene, memory);
   RetrievalTrial trial;
   trial.counts.resize(choices.size());
-  for (const std::string& word : words) {
-    const auto text = encoder.EncodeText(word);
-    if (!text) continue;
-    const auto found = seen.find(word);
-    const bool is_there = found != seen.end() && found->second >= kLeastVoxels;
-    const bool is_doubtful = found != seen.end() || NearestName(encoder, *text, seen) > kSameWord;
-    if (!is_there && is_doubtful) continue;
-    const auto match = memory::MatchOf(memory, *text, memory::Query(memory, *text, {}));
-    trial.queries.push_back({scene.id, word, is_there, match.best});
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      memory::QueryConfig query;
-      query.min_similarity = choices[i].min_similarity;
-      query.min_z_score = choices[i].min_z_score;
-      query.min_peak_share = choices[i].min_peak_share;
-      trial.counts[i] += CountPlaces(scene, word, is_there, memory::Query(memory, *text, query));
-    }
+  const std::vector<Vector3d> points = CoveringPoints(*navmesh);
+  const std::span<const Vector3d> all = points;
+  if (auto ok = Ask(scene, all, words, choices, simulator, encoder, true, trial); !ok)
+    return tl::unexpected(ok.error());
+  for (std::size_t from = 0; all.size() > kPart && from < all.size(); from += kPart) {
+    const auto part = all.subspan(from, std::min(kPart, all.size() - from));
+    if (auto ok = Ask(scene, part, words, choices, simulator, encoder, false, trial); !ok)
+      return tl::unexpected(ok.error());
   }
   return trial;
 }
 
-PresenceThreshold ChoosePresence(const std::vector<RetrievalQuery>& queries) {
-  PresenceThreshold best;
-  for (const RetrievalQuery& q : queries) (q.is_there ? best.there : best.not_there) += 1;
-  if (best.there < kLeastQueries || best.not_there < kLeastQueries) return best;
-  for (int step = 1; step < 100; ++step) {
-    const double from = step / 100.0;
-    const auto count = [&](bool is_there) {
-      return static_cast<int>(std::count_if(
-          queries.begin(), queries.end(),
-          [&](const RetrievalQuery& q) { return q.is_there == is_there && q.match >= from; }));
-    };
-    const int found = count(true), falsely = count(false);
-    const double separation =
-        static_cast<double>(found) / best.there - static_cast<double>(falsely) / best.not_there;
-    if (separation <= best.separation) continue;
-    best.separation = separation;
-    best.found = found;
-    best.falsely = falsely;
-    best.present_from = from;
+double PresenceVerdicts::PresentIsRight() const {
+  return RightAtEvenOdds(there.present, there.asked, not_there.present, not_there.asked);
+}
+
+double PresenceVerdicts::AbsentIsRight() const {
+  return RightAtEvenOdds(not_there.absent, not_there.asked, there.absent, there.asked);
+}
+
+PresenceVerdicts CountVerdicts(const std::vector<RetrievalQuery>& queries, std::size_t choice,
+                               const memory::MatchThresholds& thresholds) {
+  PresenceVerdicts counted{thresholds, {}, {}};
+  for (const RetrievalQuery& query : queries) {
+    VerdictCount& count = query.is_there ? counted.there : counted.not_there;
+    const auto verdict = memory::Judge({0, query.match[choice], {}}, thresholds);
+    count.asked += 1;
+    count.present += verdict == memory::Verdict::kPresent;
+    count.absent += verdict == memory::Verdict::kAbsent;
   }
-  if (best.separation < kLeastSeparation) best.present_from.reset();
-  return best;
+  return counted;
+}
+
+std::optional<PresenceVerdicts> ChoosePresence(const std::vector<RetrievalQuery>& queries,
+                                               std::size_t choice) {
+  const auto at = [&](int step) {
+    const double match = step / kSteps;
+    return CountVerdicts(queries, choice, {match, match});
+  };
+  const PresenceVerdicts none = at(1);
+  if (none.there.asked < kLeastQueries || none.not_there.asked < kLeastQueries) return {};
+  int present_from = 0, absent_below = 0, between = 1;
+  double least_errors = 2;
+  for (int step = 1; step <= kSteps; ++step) {
+    const PresenceVerdicts one = at(step);
+    if (present_from == 0 && one.PresentIsRight() >= kRight) present_from = step;
+    if (one.AbsentIsRight() >= kRight) absent_below = step;
+    const double errors = Share(one.there.absent, one.there.asked) +
+                          Share(one.not_there.present, one.not_there.asked);
+    if (errors < least_errors) {
+      least_errors = errors;
+      between = step;
+    }
+  }
+  if (present_from == 0 || absent_below == 0) return {};
+  if (absent_below >= present_from) return at(between);
+  return CountVerdicts(queries, choice, {absent_below / kSteps, present_from / kSteps});
 }
 
 std::size_t BestChoice(const std::vector<RetrievalCount>& counts) {

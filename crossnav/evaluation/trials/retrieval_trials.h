@@ -13,6 +13,7 @@
 
 #include "crossnav/core/result.h"
 #include "crossnav/evaluation/settings/run_config.h"
+#include "crossnav/memory/query_match.h"
 #include "crossnav/perception/perception.h"
 #include "crossnav/sim/sensing/simulator.h"
 
@@ -35,11 +36,12 @@ struct RetrievalCount {
   RetrievalCount& operator+=(const RetrievalCount& other);
 };
 
-/// A word asked of a house, under the default query: how well it matches (memory/query_match.h).
+/// A word asked of a house or a part of it, and its match under each choice
+/// (memory/query_match.h).
 struct RetrievalQuery {
   std::string house, word;
   bool is_there = false;
-  double match = 0;
+  std::vector<double> match;
 };
 
 struct RetrievalTrial {
@@ -61,22 +63,34 @@ std::vector<RetrievalChoice> RetrievalChoices();
 std::set<std::string> WordsOf(const sim::Scene& scene);
 std::set<std::string> WordsOfNoHouse();
 
-/// One house asked for all `words`. A word that is not there is left out where the encoder holds it
-/// for a name that is (cosine above 0.9). `choices` may be empty.
+/// One house asked for all `words`: whole, and in parts of eight places each, as a robot knows it
+/// that has not been everywhere. Places are counted in the whole house. A word that is not there is
+/// left out where the encoder holds it for a name that is (cosine above 0.9).
 Result<RetrievalTrial> TryRetrieval(const sim::Scene& scene, const std::set<std::string>& words,
                                     const std::vector<RetrievalChoice>& choices,
                                     const MakeEncoder& make_encoder, const RunConfig& config);
 
-/// From which match on a text is present: the threshold with the greatest difference of the share
-/// found and the share falsely found. Nothing where that difference is below 0.8 (chosen: a verdict
-/// that errs more often is none), or with fewer than ten questions of either kind.
-struct PresenceThreshold {
-  std::optional<double> present_from;
-  int there = 0, found = 0;        ///< words that are there; of these, at or above it
-  int not_there = 0, falsely = 0;  ///< words that are not; of these, at or above it
-  double separation = 0;           ///< the difference of both shares, at its best
+/// What a verdict says of words that are there, or of words that are not.
+struct VerdictCount {
+  int asked = 0, present = 0, absent = 0;  ///< the rest is unknown
 };
-PresenceThreshold ChoosePresence(const std::vector<RetrievalQuery>& queries);
+
+/// Verdicts under `choice`, and how often they are right at even odds: of as many words that are
+/// there as are not.
+struct PresenceVerdicts {
+  memory::MatchThresholds thresholds;
+  VerdictCount there, not_there;
+  double PresentIsRight() const;
+  double AbsentIsRight() const;
+};
+PresenceVerdicts CountVerdicts(const std::vector<RetrievalQuery>& queries, std::size_t choice,
+                               const memory::MatchThresholds& thresholds);
+
+/// Least `present_from` and greatest `absent_below` from which on a verdict is right in 85 of 100
+/// cases (chosen); where they would overlap, the threshold between that errs least. Nothing where
+/// no match decides that well, or with fewer than ten questions of either kind.
+std::optional<PresenceVerdicts> ChoosePresence(const std::vector<RetrievalQuery>& queries,
+                                               std::size_t choice);
 
 /// The index of the choice with the best F1 of places; the first of equals.
 std::size_t BestChoice(const std::vector<RetrievalCount>& counts);
