@@ -203,8 +203,12 @@ Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& commo
   if (*mode == "revise") config->agent.memory.mode = *mode;
   const auto perception = PerceptionSource::Read(*config);
   if (!perception) return tl::unexpected(perception.error());
-  const auto file = EnsureVisits(options, console);
+  auto file = EnsureVisits(options, console);
   if (!file) return tl::unexpected(file.error());
+  if (config->eval.perception != "oracle")
+    console.Log(
+        fmt::format("{} goals are no category and are left out: only ground truth knows them",
+                    evaluation::LeaveOutNames(&file->visits)));
   const LifelongPlace place = LifelongPlaceOf(options);
   const ChainSettings chain{*config, *perception, *mode, place, place.runs() / *mode};
   const fs::path path = chain.run / "visits.jsonl";

@@ -57,6 +57,13 @@ TEST(Visits, AreReadAsTheyWereWritten) {
   EXPECT_EQ(VisitsText(file->visits), text);
 }
 
+TEST(Visits, OfANetworkHaveCategoriesAlone) {
+  std::vector<HouseVisit> visits = {SomeVisit(0)};
+  EXPECT_EQ(LeaveOutNames(&visits), 1) << "the floor lamp";
+  const std::vector<VisitGoal> all = SomeVisit(0).goals;
+  EXPECT_EQ(visits[0].goals, std::vector<VisitGoal>(all.begin() + 1, all.end()));
+}
+
 TEST(Visits, TruncatedFilesAndDaysOutOfOrderAreErrors) {
   const std::string text = VisitsText({SomeVisit(1)});
   for (std::size_t size = 0; size + 2 < text.size(); ++size) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "crossnav/core/categories.h"
 #include "crossnav/core/lines.h"
 #include "crossnav/core/read_file.h"
 #include "crossnav/core/rng.h"
@@ -142,6 +143,13 @@ Result<void> CheckFormat(const Json& json, const std::string& where) {
 }
 
 }  // namespace
+
+int LeaveOutNames(std::vector<HouseVisit>* visits) {
+  std::size_t left = 0;
+  for (HouseVisit& visit : *visits)
+    left += std::erase_if(visit.goals, [](const auto& goal) { return !IsCategory(goal.goal); });
+  return static_cast<int>(left);
+}
 
 std::string VisitsText(const std::vector<HouseVisit>& visits) {
   Json list = Json::array();

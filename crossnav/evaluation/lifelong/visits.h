@@ -45,6 +45,10 @@ struct VisitFile {
   std::string content_hash;  ///< of the text
 };
 
+/// Goals that are no category leave the visits: a network has classes, and only ground truth knows
+/// one object by its raw name. Returns the number of goals that left.
+int LeaveOutNames(std::vector<HouseVisit>* visits);
+
 std::string VisitsText(const std::vector<HouseVisit>& visits);
 /// Error: malformed, with `where` and the key; days of a house out of order.
 Result<VisitFile> ParseVisits(std::string_view text, const std::string& where);
