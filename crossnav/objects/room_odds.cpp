@@ -10,7 +10,7 @@ namespace crossnav::objects {
 namespace {
 
 constexpr double kMostCompany = 3.0;    // chosen: few rooms teach little
-constexpr double kRemoved = 0.45;       // chosen: of searches, by development houses
+constexpr double kRemoved = 0.2;        // chosen: of what is not at its place, before any search
 constexpr double kTypicalArea_m2 = 15;  // chosen: of a room; larger ones hold more
 
 using RoomSets = std::map<std::string, std::set<int>>;

@@ -75,7 +75,7 @@ TEST(RoomOdds, WithoutRecordsAllRoomsOfOneSizeAreAlike) {
 }
 
 TEST(RoomOdds, WhatIsNotFoundAnywhereIsGone) {
-  EXPECT_LT(OddsOfAbsence(1.0), 0.5);
+  EXPECT_LT(OddsOfAbsence(1.0), 0.3);
   EXPECT_GT(OddsOfAbsence(0.02), 0.9);
   EXPECT_EQ(OddsOfAbsence(0), 1);
 }
