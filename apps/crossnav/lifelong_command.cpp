@@ -30,7 +30,7 @@ constexpr const char* kModes[] = {"none", "keep", "revise"};
 
 /// --variant names the memory: the agent is the full one. `full` itself keeps it.
 Result<std::string> ModeOf(const std::string& variant) {
-  const std::string mode = variant == "full" ? "keep" : variant;
+  std::string mode = variant == "full" ? "keep" : variant;
   if (std::find(std::begin(kModes), std::end(kModes), mode) != std::end(kModes)) return mode;
   return Fail(ErrorCode::kInvalid, "is \"" + mode + "\"; it must be none, keep or revise",
               "--variant");
