@@ -109,6 +109,7 @@ double NearestName(perception::DenseEncoder& encoder, const std::vector<float>& 
                    const std::map<std::string, int>& seen) {
   double nearest = -1;
   for (const auto& [name, voxels] : seen) {
+    if (voxels == 0) continue;
     const auto other = encoder.EncodeText(name);
     if (!other) continue;
     nearest = std::max(nearest, std::inner_product(text.begin(), text.end(), other->begin(), 0.0));
