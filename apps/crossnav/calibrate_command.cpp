@@ -21,6 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
+constexpr double kNoise = 0.02;  // chosen: of an F1; other houses turn such a difference round
+
 /// Everything that the houses answered.
 struct Measured {
   std::vector<std::string> houses;
@@ -81,8 +83,6 @@ Result<Measured> Measure(const NetworksOptions& options, const fs::path& card,
   }
   return measured;
 }
-
-constexpr double kNoise = 0.02;  // chosen: of an F1; other houses turn such a difference round
 
 /// Index of the card's settings; nothing where they are none of the choices.
 std::optional<std::size_t> ChoiceOf(const inference::ModelCard& card, const Measured& measured) {

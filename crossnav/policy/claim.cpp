@@ -110,8 +110,7 @@ bool IsOfSurroundings(const memory::SemanticMemory& memory, const std::vector<Vo
     lo = {std::min(lo.x, key.x), std::min(lo.y, key.y), std::min(lo.z, key.z)};
     hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), std::max(hi.z, key.z)};
   }
-  // A surface lies anywhere in its voxel.
-  const int side_vox = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+  const int side_vox = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}) + 1;
   if (side_vox * voxel_m > kSmall_m) return false;
   std::vector<VoxelKey> ring;
   for (int x = lo.x - kRing_vox; x <= hi.x + kRing_vox; ++x)

@@ -69,13 +69,8 @@ TEST(Opinion, OfASmallThingThatItsSurroundingsGiveSaysNothing) {
   EXPECT_TRUE(IsOfSurroundings(SmallThing({0, 1}), small, 0.1, denies, others));
   EXPECT_FALSE(IsOfSurroundings(SmallThing({1, 0}), small, 0.1, denies, others))
       << "a desk on the floor is a desk";
-  std::vector<VoxelKey> column;
-  for (int z = 0; z < 7; ++z) column.push_back({0, 0, z});
-  EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), column, 0.1, denies, others))
+  EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), ColumnAt(0), 0.1, denies, others))
       << "as large as furniture";
-  std::vector<VoxelKey> laptop;  // 0.34 m wide, in five voxels
-  for (int x = 0; x < 5; ++x) laptop.push_back({x, 0, 0});
-  EXPECT_TRUE(IsOfSurroundings(SmallThing({0, 1}), laptop, 0.1, denies, others));
   const MemoryOpinion agrees{0.9, 0.1, "desk", 2};
   EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), small, 0.1, agrees, others));
 }

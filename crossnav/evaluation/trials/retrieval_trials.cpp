@@ -264,8 +264,8 @@ std::optional<PresenceVerdicts> ChoosePresence(const std::vector<RetrievalQuery>
     const double match = step / kSteps;
     return CountVerdicts(queries, choice, {match, match});
   };
-  const PresenceVerdicts none = at(1);
-  if (none.there.asked < kLeastQueries || none.not_there.asked < kLeastQueries) return {};
+  const PresenceVerdicts first = at(1);
+  if (first.there.asked < kLeastQueries || first.not_there.asked < kLeastQueries) return {};
   int present_from = 0, absent_below = 0, between = 1;
   double least_errors = 2;
   for (int step = 1; step <= kSteps; ++step) {

@@ -63,14 +63,14 @@ std::vector<RetrievalChoice> RetrievalChoices();
 std::set<std::string> WordsOf(const sim::Scene& scene);
 std::set<std::string> WordsOfNoHouse();
 
-/// One house asked for all `words`: whole, and in parts of eight places each, as a robot knows it
+/// Asks the house for all `words`: whole, and in parts of eight places each, as a robot knows it
 /// that has not been everywhere. Places are counted in the whole house. A word that is not there is
 /// left out where the encoder holds it for a name that is (cosine above 0.9).
 Result<RetrievalTrial> TryRetrieval(const sim::Scene& scene, const std::set<std::string>& words,
                                     const std::vector<RetrievalChoice>& choices,
                                     const MakeEncoder& make_encoder, const RunConfig& config);
 
-/// What a verdict says of words that are there, or of words that are not.
+/// Verdicts on words of one kind: those that are there, or those that are not.
 struct VerdictCount {
   int asked = 0, present = 0, absent = 0;  ///< the rest is unknown
 };
