@@ -38,7 +38,7 @@ constexpr double kStay = 0.5;    // chosen: likewise of its room and floor: comi
 constexpr double kAround_m = 6;  // chosen: patches about the agent, a view and a step
 constexpr int kRefresh_steps = 6;    // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;  // chosen: of a search without a view left
-constexpr double kWorth_m = 1000;    // chosen: for the probability; a corner two rooms off
+constexpr double kWorth_m = 400;     // chosen: for the probability; a corner of the next room
 constexpr double kCheap_m = 100;  // chosen: likewise, of an object that is gone with near certainty
 constexpr double kBeside_m = 0.5;  // chosen: the middle of a remembered place and the record's box
 constexpr double kCutOff = 0.05;   // chosen: a room or a floor, not corners
@@ -64,13 +64,14 @@ void UpdateAround(StepState& now) {
                               geometry::KeyOf(now.agent.p_world + reach, voxel_m));
 }
 
-/// The point on the ground that the camera looks at in the pitch of travel: no look needs a pitch.
-Vector3d FocusOf(const Situation& now, const VoxelKey& place, double heading_rad) {
-  const double down_rad = -DegToRad(now.config.policy.motion.travel_pitch_deg);
-  const double ahead_m =
-      now.config.sensor.camera_height_m / std::tan(std::max(down_rad, DegToRad(10)));
-  return FootOf(place, now.config.map.voxel_m) +
-         ahead_m * Vector3d(std::cos(heading_rad), std::sin(heading_rad), 0);
+/// The point that the camera looks at from `place`: on the ground, or as high as the camera.
+Vector3d FocusOf(const Situation& now, const VoxelKey& place, const SearchView& view) {
+  constexpr double kLevel_m = 3.0;  // chosen: any way off; it tells views of other headings apart
+  const double camera_m = now.config.sensor.camera_height_m;
+  const Vector3d ahead(std::cos(view.heading_rad), std::sin(view.heading_rad), 0);
+  const Vector3d p_foot = FootOf(place, now.config.map.voxel_m);
+  if (view.pitch_rad >= 0) return p_foot + Vector3d(0, 0, camera_m) + kLevel_m * ahead;
+  return p_foot + camera_m / std::tan(std::max(-view.pitch_rad, DegToRad(10))) * ahead;
 }
 
 double ArrivalHeading(const Situation& now, const std::vector<VoxelKey>& path) {
@@ -185,7 +186,7 @@ class SearchPrices {
     if (is_absent_ && (view->cost_m + start_m_) / view->gain > kCheap_m) return;
     Candidate candidate;
     candidate.kind = CandidateKind::kSearchView;
-    candidate.p_focus_world = FocusOf(now_, place, view->heading_rad);
+    candidate.p_focus_world = FocusOf(now_, place, *view);
     candidate.standing = {place};
     candidate.beyond = std::move(view->cells);
     candidate.size = static_cast<int>(candidate.beyond.size());
@@ -274,6 +275,7 @@ void BeginSearchWhereDue(StepState& now) {
   const NoticeRanges ranges = RangesOfNotice(now.world, now.goal, now.config);
   search->notice_range_m = ranges.probably_m;
   search->sure_range_m = ranges.surely_m;
+  search->missed = ranges.missed;
   const Vector3d sides_m = UsualSides(now.world, category);
   search->is_tall = sides_m.z() >= SearchPatch::kHigh_m;
   search->is_wide = sides_m.head<2>().maxCoeff() >= kWide_m;

@@ -14,7 +14,6 @@ using policy::SearchPatch;
 
 namespace {
 
-constexpr double kMissed = 0.1;     // chosen: chance of missing a small thing from afar
 constexpr double kUnasked = 0.3;    // chosen: chance that the memory misses a thing that was seen
 constexpr double kMargin_m = 0.3;   // chosen: views end that much before the range
 constexpr double kEdge_deg = 5;     // chosen: at each side of the picture
@@ -34,7 +33,7 @@ double UnnoticedAt(const SearchPatch& patch, const ObjectSearch& search) {
   const policy::Looked& looked = search.is_tall ? patch.high : patch.low;
   const double looked_for_m = search.was_noticed ? looked.in_run_m : looked.for_goal_m;
   if (looked_for_m <= search.sure_range_m) return 0;
-  if (looked_for_m <= search.notice_range_m) return kMissed;
+  if (looked_for_m <= search.notice_range_m) return search.missed;
   return looked.in_run_m <= search.notice_range_m ? kUnasked : 1;
 }
 
@@ -106,6 +105,9 @@ SearchViews::SearchViews(const Situation& now) : now_(now) {
     if (gain > 0) open_.push_back({cell, PointOf(patch, search), gain});
   }
   range_m_ = search.notice_range_m - kMargin_m;
+  const auto& camera = now.obs.camera;
+  half_width_rad_ = DegToRad(now.config.sensor.hfov_deg / 2 - kEdge_deg);
+  half_height_rad_ = std::atan(0.5 * camera.height_px / camera.fy) - DegToRad(kEdge_deg);
 }
 
 double SearchViews::Bound(const VoxelKey& place) const {
@@ -118,26 +120,32 @@ double SearchViews::Bound(const VoxelKey& place) const {
 std::optional<SearchView> SearchViews::From(const VoxelKey& place, double path_m,
                                             double arrival_rad) const {
   const std::vector<Seen> seen = SeenFrom(place);
-  const double turn_rad = DegToRad(now_.config.action.turn_deg);
-  const double half_rad = DegToRad(now_.config.sensor.hfov_deg / 2 - kEdge_deg);
+  const auto& action = now_.config.action;
+  const double turn_rad = DegToRad(action.turn_deg);
+  const double travel_rad = DegToRad(now_.config.policy.motion.travel_pitch_deg);
   const int turns_around = static_cast<int>(std::lround(2 * M_PI / turn_rad));
   const double start_m = now_.config.policy.explore.start_m;
   std::optional<SearchView> best;
-  for (int i = 0; i < turns_around; ++i) {
-    SearchView view;
-    // The agent turns by whole steps.
-    view.heading_rad = WrapAngle(now_.agent.yaw_rad + i * turn_rad);
-    view.cost_m = path_m + now_.config.action.forward_m *
-                               std::abs(WrapAngle(view.heading_rad - arrival_rad)) / turn_rad;
-    for (const Seen& patch : seen)
-      if (std::abs(WrapAngle(patch.bearing_rad - view.heading_rad)) <= half_rad) {
-        view.gain += patch.open->gain;
-        view.cells.push_back(patch.open->cell);
-      }
-    if (view.gain < kLeastGain) continue;
-    if (!best || (view.cost_m + start_m) / view.gain < (best->cost_m + start_m) / best->gain)
-      best = std::move(view);
-  }
+  for (const double pitch_rad : {travel_rad, 0.0})
+    for (int i = 0; i < turns_around; ++i) {
+      SearchView view;
+      // The agent turns by whole steps.
+      view.heading_rad = WrapAngle(now_.agent.yaw_rad + i * turn_rad);
+      view.pitch_rad = pitch_rad;
+      // There and back.
+      const double pitches = 2 * std::abs(pitch_rad - travel_rad) / DegToRad(action.pitch_deg);
+      const double turns = std::abs(WrapAngle(view.heading_rad - arrival_rad)) / turn_rad;
+      view.cost_m = path_m + action.forward_m * (turns + pitches);
+      for (const Seen& patch : seen)
+        if (std::abs(WrapAngle(patch.bearing_rad - view.heading_rad)) <= half_width_rad_ &&
+            std::abs(patch.elevation_rad - pitch_rad) <= half_height_rad_) {
+          view.gain += patch.open->gain;
+          view.cells.push_back(patch.open->cell);
+        }
+      if (view.gain < kLeastGain) continue;
+      if (!best || (view.cost_m + start_m) / view.gain < (best->cost_m + start_m) / best->gain)
+        best = std::move(view);
+    }
   return best;
 }
 
@@ -145,24 +153,16 @@ std::vector<SearchViews::Seen> SearchViews::SeenFrom(const VoxelKey& place) cons
   const Vector3d p_eye = EyeAt(now_, place);
   std::vector<Seen> seen;
   for (const Open& open : open_) {
-    if (!IsInRange(p_eye, open.p_world) || !IsInPicture(p_eye, open.p_world)) continue;
-    if (!now_.world.map.HasLineOfSight(p_eye, open.p_world)) continue;
+    if (!IsInRange(p_eye, open.p_world) || !now_.world.map.HasLineOfSight(p_eye, open.p_world))
+      continue;
     const Vector3d d = open.p_world - p_eye;
-    seen.push_back({&open, std::atan2(d.y(), d.x())});
+    seen.push_back({&open, std::atan2(d.y(), d.x()), std::atan2(d.z(), d.head<2>().norm())});
   }
   return seen;
 }
 
 bool SearchViews::IsInRange(const Vector3d& p_eye, const Vector3d& p_world) const {
   return (p_world - p_eye).squaredNorm() <= range_m_ * range_m_;
-}
-
-bool SearchViews::IsInPicture(const Vector3d& p_eye, const Vector3d& p_world) const {
-  const Vector3d d = p_world - p_eye;
-  const double above_rad =
-      std::atan2(d.z(), d.head<2>().norm()) - DegToRad(now_.config.policy.motion.travel_pitch_deg);
-  const auto& camera = now_.obs.camera;
-  return std::abs(above_rad) <= std::atan(0.5 * camera.height_px / camera.fy) - DegToRad(kEdge_deg);
 }
 
 }  // namespace crossnav::agent

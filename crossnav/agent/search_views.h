@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Views of a search: from a place and in a heading, the patches that the goal may stand on
-// unnoticed and that would come into sight. World frame, metres.
+// unnoticed and that would come into sight. The camera looks in the pitch of travel, or level: tops
+// of furniture above the camera are out of the lowered picture from near. World frame, metres.
 #pragma once
 
 #include <optional>
@@ -34,6 +35,7 @@ struct SearchView {
   double gain = 0;    ///< probability that the goal is in it, unnoticed so far
   double cost_m = 0;  ///< path and turns
   double heading_rad = 0;
+  double pitch_rad = 0;
   std::vector<geometry::VoxelKey> cells;  ///< patches that it shows
 };
 
@@ -59,15 +61,14 @@ class SearchViews {
   struct Seen {
     const Open* open;
     double bearing_rad;
+    double elevation_rad;
   };
 
   std::vector<Seen> SeenFrom(const geometry::VoxelKey& place) const;
   bool IsInRange(const Vector3d& p_eye, const Vector3d& p_world) const;
-  bool IsInPicture(const Vector3d& p_eye, const Vector3d& p_world) const;
-
   const Situation& now_;
   std::vector<Open> open_;
-  double range_m_ = 0;
+  double range_m_ = 0, half_width_rad_ = 0, half_height_rad_ = 0;
 };
 
 }  // namespace crossnav::agent

@@ -160,6 +160,7 @@ struct ObjectSearch {
   bool is_wide = false;                         ///< it reaches into the next patch
   double notice_range_m = 0;                    ///< up to which a look finds the goal in most cases
   double sure_range_m = 0;                      ///< up to which it finds the goal
+  double missed = 0;  ///< chance that a look between both ranges misses it
   double unseen = 1;  ///< probability that the goal is at a patch and was not noticed
   int step = -1;      ///< of the last refresh of `shares` and `unseen`
 };

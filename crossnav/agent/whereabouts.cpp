@@ -21,6 +21,7 @@ constexpr double kSamePlace = 0.3;         // chosen: share of a place's voxels 
 constexpr double kNoticed_rad = 1.0 / 12;  // chosen: least size in the picture, 5 degrees
 constexpr double kLeastNotice_m = 2.0;     // chosen: the smallest things are met that near
 constexpr double kUnknown = 0.6;           // chosen: of the range of things that are not small
+constexpr double kUnknownMissed = 0.3;     // chosen: chance that such a thing is missed beyond it
 constexpr int kLeastViews = 2;             // chosen: frames of a record, as for a live POI
 constexpr double kFirst = 2;               // chosen: more than the places that count alike
 constexpr double kIsMoved = 0.8;           // chosen: chance that a new object is a known one moved
@@ -133,7 +134,7 @@ NoticeRanges RangesOfNotice(const World& world, const GoalState& goal, const Con
   const Vector3d box_m = UsualSides(world, objects::KnownAs(world.objects.records(), goal.goal));
   const double most_m = config.policy.explore.inspect_range_m;
   // A thing that was not met in a known house is small, or nobody has looked for it.
-  if (box_m.maxCoeff() <= 0) return {most_m, kUnknown * most_m};
+  if (box_m.maxCoeff() <= 0) return {most_m, kUnknown * most_m, kUnknownMissed};
   const double from_front_m = std::sqrt(box_m.head<2>().maxCoeff() * box_m.z());
   // Surfaces lie anywhere in their voxels: the box is a voxel larger than the thing.
   const Vector3d sides_m =

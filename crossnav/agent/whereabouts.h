@@ -28,6 +28,7 @@ Vector3d UsualSides(const World& world, const std::string& category);
 struct NoticeRanges {
   double probably_m = 0;  ///< up to which a look finds the goal in most cases
   double surely_m = 0;    ///< up to which it does so from any side
+  double missed = 0.1;    ///< chosen: chance of missing it between both
 };
 NoticeRanges RangesOfNotice(const World& world, const GoalState& goal, const Config& config);
 

@@ -25,6 +25,8 @@ constexpr double kTwinOverlap = 0.5;   // chosen: likewise, of two records
 constexpr double kPictureGain = 1.5;   // chosen: times the pixels, for a new picture
 constexpr double kMoved_m = 0.25;      // chosen: one step: another view
 constexpr double kTurnedCos = 0.97;    // chosen: or 15 degrees
+constexpr double kClear = 4.0;         // chosen: times the fewest pixels that showed the object
+constexpr double kOtherSize = 0.75;    // chosen: distances of two aspects; half the pixels
 constexpr double kLeastVisible = 0.3;  // chosen: one side of an object hides the others
 constexpr double kMostSurface = 0.2;   // chosen: of a free place
 constexpr double kLeastPixels = 300;   // chosen: of an object that a detector finds ...
@@ -62,6 +64,14 @@ std::vector<VoxelKey> UnionOf(const std::vector<VoxelKey>& a, const std::vector<
   std::vector<VoxelKey> all;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
   return all;
+}
+
+/// Whether the object looks different from both places, given from its centre.
+bool IsOtherAspect(const Vector3d& a, const Vector3d& b) {
+  const double a_m = a.norm(), b_m = b.norm();
+  if (b_m <= 0) return true;
+  return std::min(a_m, b_m) <= kOtherSize * std::max(a_m, b_m) ||
+         a.dot(b) <= kTurnedCos * a_m * b_m;
 }
 
 double PixelsShown(const FrameView& view) {
@@ -228,6 +238,7 @@ std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Obs
         watch.doubted_along.dot(along) > kTurnedCos)
       continue;
     const FrameView view = ViewOf(record.voxels, obs, voxel_m_);
+    const Vector3d to_camera = p_camera - record.centre_world_m;
     const bool is_free = view.free >= config_.good_view && view.surface <= kMostSurface;
     const bool is_asked = std::find(asked.begin(), asked.end(), record.category) != asked.end();
     // The detector may miss a thing that is smaller in the picture than in any view that found it.
@@ -237,6 +248,10 @@ std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Obs
                           view.free + view.surface + view.hidden >= config_.good_view &&
                           view.pixels >= std::max(kLeastPixels, kLeastImage * image);
     if (!is_free && !is_other) continue;
+    // Near the limit of the detector's sight the misses of one aspect are one miss.
+    const bool is_limit = PixelsShown(view) < kClear * least_px;
+    if (!is_free && is_limit && !IsOtherAspect(to_camera, watch.to_camera_missed_m)) continue;
+    if (!is_free) watch.to_camera_missed_m = to_camera;
     watch.p_doubted_world = p_camera;
     watch.doubted_along = along;
     const bool was_gone = IsGone(record);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -30,6 +31,11 @@ double Norm(std::span<const float> v) {
   double squared = 0;
   for (const float x : v) squared += static_cast<double>(x) * x;
   return std::sqrt(squared);
+}
+
+double Cosine(std::span<const float> a, std::span<const float> b) {
+  const double dot = Dot(std::vector<double>(a.begin(), a.end()), b);
+  return dot / std::max(1e-12, Norm(a) * Norm(b));
 }
 
 bool IsOf(const Sighting& sighting, const std::vector<VoxelKey>& voxels, const Vector3d& p_center,
@@ -105,22 +111,33 @@ bool IsOfSurroundings(const memory::SemanticMemory& memory, const std::vector<Vo
   constexpr double kSmall_m = 0.45;  // chosen: largest side; half of a chair is larger
   constexpr int kRing_vox = 2;       // chosen: a cell of the features from near
   if (voxels.empty() || opinion.Margin() >= 0) return false;
+  const auto other = std::find_if(others.begin(), others.end(), [&](const NamedText& text) {
+    return text.name == opinion.other;
+  });
+  if (other == others.end()) return false;
   VoxelKey lo = voxels.front(), hi = lo;
   for (const VoxelKey& key : voxels) {
     lo = {std::min(lo.x, key.x), std::min(lo.y, key.y), std::min(lo.z, key.z)};
     hi = {std::max(hi.x, key.x), std::max(hi.y, key.y), std::max(hi.z, key.z)};
   }
-  const int side_vox = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}) + 1;
+  // A surface lies anywhere in its voxel: the box is a voxel larger than the thing.
+  const int side_vox = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
   if (side_vox * voxel_m > kSmall_m) return false;
-  std::vector<VoxelKey> ring;
+  std::vector<double> around;
   for (int x = lo.x - kRing_vox; x <= hi.x + kRing_vox; ++x)
     for (int y = lo.y - kRing_vox; y <= hi.y + kRing_vox; ++y)
-      for (int z = lo.z - kRing_vox; z <= hi.z + kRing_vox; ++z)
-        if (const VoxelKey key{x, y, z};
-            std::find(voxels.begin(), voxels.end(), key) == voxels.end())
-          ring.push_back(key);
-  const auto around = OpinionOf(memory, ring, {}, others);
-  return around && around->other == opinion.other;
+      for (int z = lo.z - kRing_vox; z <= hi.z + kRing_vox; ++z) {
+        const VoxelKey key{x, y, z};
+        const auto row = memory.RowOf(key);
+        if (row && std::find(voxels.begin(), voxels.end(), key) == voxels.end())
+          around.push_back(Cosine(memory.FeatureAt(*row), other->vector));
+      }
+  if (around.empty()) return false;
+  // What the thing stands on is a small part of the ring, beside a wall less than a fifth.
+  const std::size_t best = around.size() / 10;
+  std::nth_element(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(best), around.end(),
+                   std::greater<>());
+  return around[best] >= opinion.best_other;
 }
 
 bool IsOtherView(const Vector3d& p_object, const Vector3d& p_a, const Vector3d& p_b,
@@ -227,9 +244,13 @@ void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& s
 
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
                    const VerifyConfig& config) {
+  constexpr double kOutvoted = 0.1;  // chosen: cosine; two clear views say more than a like answer
   const double margin = opinion ? opinion->Margin() : 0;
-  if (margin < -config.refute_margin) return ClaimVerdict::kRefuted;
   const bool is_weak_frame = confidence < config.strong_confidence;
+  if (margin < -config.refute_margin) {
+    if (is_weak_frame || margin < -kOutvoted) return ClaimVerdict::kRefuted;
+    return views < 2 ? ClaimVerdict::kWeak : ClaimVerdict::kAgreed;
+  }
   const bool is_weak_memory = margin < config.strong_margin;
   if (is_weak_frame && is_weak_memory) {
     if (views < 2) return ClaimVerdict::kWeak;

@@ -13,11 +13,13 @@ using geometry::VoxelKey;
 using geometry::VoxelMap;
 using geometry::VoxelState;
 
-constexpr double kBelow_m = 0.15;      // chosen: ground is known to a voxel
-constexpr double kHighest_m = 1.5;     // chosen: higher tops are shelves under the ceiling
-constexpr double kHeadRoom_m = 0.5;    // chosen: less is the space under a bed or a table
-constexpr int kLeastColumns = 4;       // chosen: a quarter of a patch; less is an edge
-constexpr double kSlack_m = 0.2;       // chosen: two voxels; as for records of objects
+constexpr double kBelow_m = 0.15;    // chosen: ground is known to a voxel
+constexpr double kHighest_m = 1.5;   // chosen: higher tops are shelves under the ceiling
+constexpr double kHeadRoom_m = 0.5;  // chosen: less is the space under a bed or a table
+constexpr int kLeastColumns = 4;     // chosen: a quarter of a patch; less is an edge ...
+constexpr int kLeastEdge = 2;        // chosen: ... and of tops as high as the camera all that shows
+constexpr double kLowTop_m = 0.3;    // chosen: lower ones show from above
+constexpr double kSlack_m = 0.2;     // chosen: two voxels; as for records of objects
 constexpr double kLeastDepth_m = 0.1;  // chosen: least depth in a picture
 
 VoxelKey CellOf(const VoxelKey& key) {
@@ -72,6 +74,10 @@ void SearchField::Update(const VoxelMap& map, double level_m, const VoxelKey& lo
     sum.p_world += CenterOf(key, voxel_m);
     ++sum.count;
   });
+  const auto is_patch = [&](const Sum& sum) {
+    const bool is_low = sum.p_world.z() / sum.count < level_m + kLowTop_m;
+    return sum.count >= (is_low ? kLeastColumns : kLeastEdge);
+  };
   const VoxelKey first = CellOf(from), last = CellOf(to);
   std::erase_if(patches_, [&](const auto& entry) {
     const VoxelKey& cell = entry.first;
@@ -79,10 +85,10 @@ void SearchField::Update(const VoxelMap& map, double level_m, const VoxelKey& lo
         cell.z < first.z || cell.z > last.z)
       return false;
     const auto it = sums.find(cell);
-    return it == sums.end() || it->second.count < kLeastColumns;
+    return it == sums.end() || !is_patch(it->second);
   });
   for (const auto& [cell, sum] : sums) {
-    if (sum.count < kLeastColumns) continue;
+    if (!is_patch(sum)) continue;
     SearchPatch& patch = patches_[cell];
     patch.p_world = sum.p_world / sum.count + Vector3d(0, 0, 0.5 * voxel_m);
     patch.height_m = patch.p_world.z() - level_m;

@@ -153,6 +153,13 @@ TEST(ObjectBook, AnOccludedPlaceIsNotContradicted) {
   EXPECT_EQ(book.records().front().confidence, before);
 }
 
+/// From 2.2 m, each time from another side.
+Observation LookFromSide(const World& world, const Vector3d& p_world, int i) {
+  const double side_deg = -35 + 16 * i, side_rad = DegToRad(side_deg);
+  return world.Look(p_world.x() - 2.2 * std::cos(side_rad), p_world.y() + 2.2 * std::sin(side_rad),
+                    -side_deg);
+}
+
 TEST(ObjectBook, AnythingElseAtThePlaceContradictsOnlyWhatTheDetectorWasAskedFor) {
   World world;
   world.rooms.solids = {kChair};
@@ -160,8 +167,8 @@ TEST(ObjectBook, AnythingElseAtThePlaceContradictsOnlyWhatTheDetectorWasAskedFor
   SeeIt(world, kChair, 4, asked);
   SeeIt(world, kChair, 4, not_asked);
   // The same box stands there, and the detector says nothing.
-  for (int i = 0; i < 6; ++i) {
-    const Observation obs = world.Look(1.0, 1.0 + 0.3 * i, 0);
+  for (int i = 0; i < 5; ++i) {
+    const Observation obs = LookFromSide(world, kChair.Center(), i);
     (void)asked.Doubt(kChairs, obs, {1, i});
     (void)not_asked.Doubt(kBeds, obs, {1, i});
   }
@@ -179,7 +186,8 @@ TEST(ObjectBook, EachOfSeveralCategoriesThatTheDetectorWasAskedForIsContradicted
     (void)book.Note(std::vector<SeenObject>{chair.seen, bed.seen}, obs, {0, i});
   }
   const std::vector<std::string> both = {"bed", "chair"};
-  for (int i = 0; i < 6; ++i) (void)book.Doubt(both, world.Look(1.0, 1.0 + 0.3 * i, 0), {1, i});
+  for (int i = 0; i < 5; ++i)
+    (void)book.Doubt(both, LookFromSide(world, {3.25, 2.4, 0}, i), {1, i});
   ASSERT_EQ(book.records().size(), 2U);
   EXPECT_TRUE(book.IsGone(book.records()[0]));
   EXPECT_TRUE(book.IsGone(book.records()[1]));
@@ -206,6 +214,20 @@ TEST(ObjectBook, ViewsSmallerThanThoseThatFoundTheThingDoNotContradictIt) {
   for (int i = 0; i < 6; ++i)
     (void)book.Doubt(kChairs, world.Look(0.65, 1.3 + 0.15 * i, 0), {1, i});
   EXPECT_LT(book.records().front().confidence, before);
+}
+
+// Regression: a monitor that showed its edge was gone after five steps towards it.
+TEST(ObjectBook, MissesOfOneAspectNearTheLimitOfSightAreOneMiss) {
+  const World world = LongRoomWithChair();
+  ObjectBook book;
+  SeeIt(world, kChair, 4, book);
+  for (int i = 0; i < 6; ++i)
+    (void)book.Doubt(kChairs, world.Look(1.1 + 0.1 * i, 1.3 + 0.1 * i, 0), {0, 10 + i});
+  EXPECT_FALSE(book.IsGone(book.records().front()));
+  EXPECT_LT(book.records().front().confidence, 0.97);
+  for (int i = 0; i < 6; ++i)
+    (void)book.Doubt(kChairs, world.Look(1.5 + 0.2 * i, 3.4 - 0.3 * i, -30), {0, 20 + i});
+  EXPECT_TRUE(book.IsGone(book.records().front())) << "missed from other sides and from near";
 }
 
 // The views that found it yesterday are not known: a small view may have missed it.

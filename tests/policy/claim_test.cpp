@@ -69,10 +69,32 @@ TEST(Opinion, OfASmallThingThatItsSurroundingsGiveSaysNothing) {
   EXPECT_TRUE(IsOfSurroundings(SmallThing({0, 1}), small, 0.1, denies, others));
   EXPECT_FALSE(IsOfSurroundings(SmallThing({1, 0}), small, 0.1, denies, others))
       << "a desk on the floor is a desk";
-  EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), ColumnAt(0), 0.1, denies, others))
+  std::vector<VoxelKey> tall = ColumnAt(0);
+  tall.push_back({0, 0, 5});
+  EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), tall, 0.1, denies, others))
       << "as large as furniture";
   const MemoryOpinion agrees{0.9, 0.1, "desk", 2};
   EXPECT_FALSE(IsOfSurroundings(SmallThing({0, 1}), small, 0.1, agrees, others));
+}
+
+/// Regression: a laptop of 5 x 4 voxels beside a wall was refuted by its desk.
+TEST(Opinion, OfALaptopBesideAWallIsThatOfItsDesk) {
+  const std::vector<NamedText> others = {{"desk", {0, 1}}, {"wardrobe", {1, 0}}};
+  SemanticMemory memory({}, 0.1, 2);
+  std::vector<VoxelKey> laptop;
+  for (int x = -2; x <= 6; ++x)
+    for (int y = -2; y <= 5; ++y) {
+      const bool is_in = x >= 0 && x < 5 && y >= 0 && y < 4;
+      if (is_in) laptop.push_back({x, y, 0});
+      // The desk is two voxels deep in front of the laptop; the rest is the wall.
+      memory.AppendRow(MemoryRowOf(
+          {x, y, 0}, 1, is_in || y < 0 ? std::vector<float>{0, 1} : std::vector<float>{1, 0}));
+      memory.AppendRow(MemoryRowOf({x, y, 2}, 1, {1, 0}));
+    }
+  const MemoryOpinion denies{0.8, 0.85, "desk", 20};
+  EXPECT_TRUE(IsOfSurroundings(memory, laptop, 0.1, denies, others));
+  laptop.push_back({5, 0, 0});
+  EXPECT_FALSE(IsOfSurroundings(memory, laptop, 0.1, denies, others)) << "as large as furniture";
 }
 
 TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedClaimsEnd) {
@@ -84,6 +106,15 @@ TEST(Judge, WeakClaimsNeedTwoViewsAndRefutedClaimsEnd) {
   EXPECT_EQ(Judge(unsure, 0.9, 1, kConfig), ClaimVerdict::kWeak);
   EXPECT_EQ(Judge(denies, 0.99, 3, kConfig), ClaimVerdict::kRefuted);
   EXPECT_EQ(Judge(std::nullopt, 0.9, 1, kConfig), ClaimVerdict::kWeak);
+}
+
+/// Regression: a plant that a clear view showed was refuted by the wardrobe behind it.
+TEST(Judge, TwoClearViewsOutvoteAMemoryThatAnswersAlike) {
+  const MemoryOpinion alike{0.78, 0.81, "wardrobe", 9}, other{0.6, 0.81, "wardrobe", 9};
+  EXPECT_EQ(Judge(alike, 0.85, 1, kConfig), ClaimVerdict::kWeak);
+  EXPECT_EQ(Judge(alike, 0.85, 2, kConfig), ClaimVerdict::kAgreed);
+  EXPECT_EQ(Judge(alike, 0.75, 2, kConfig), ClaimVerdict::kRefuted);
+  EXPECT_EQ(Judge(other, 0.85, 2, kConfig), ClaimVerdict::kRefuted);
 }
 
 TEST(Judge, ASecondViewAloneDoesNotSaveWhatFrameAndMemoryDoubt) {

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "support/map_of_states.h"
+
 namespace crossnav::policy {
 namespace {
 
@@ -72,6 +74,18 @@ TEST(SearchField, GroundAndTopsOfFurnitureArePatches) {
       EXPECT_GT(patch.p_world.x(), 2.3);
       EXPECT_LT(patch.p_world.x(), 3.3);
     }
+}
+
+/// Regression: of a worktop as high as the camera the front edge alone is seen, two columns of it
+/// beside a sink.
+TEST(SearchField, TheEdgeOfAHighTopIsAPatch) {
+  VoxelMap map;
+  test::AddGround(map, 0, 0, 2, 1, 0);
+  test::AddGround(map, 0, 0, 2, 1, 9);
+  SearchField field;
+  field.Update(map, 0.1, kLo, kHi);
+  ASSERT_EQ(field.patches().size(), 1U) << "ground needs more";
+  EXPECT_NEAR(field.patches().begin()->second.height_m, 0.9, 1e-6);
 }
 
 TEST(SearchField, APatchBehindASurfaceWasNotLookedAt) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Views of a search in a small room that was set by hand.
+#include "crossnav/agent/search_views.h"
+
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "crossnav/agent/whereabouts.h"
+#include "support/map_of_states.h"
+
+namespace crossnav::agent {
+namespace {
+
+using geometry::VoxelKey;
+using geometry::VoxelState;
+
+/// The best view of a top `height_vox` above the ground, 1.3 m from the agent.
+std::optional<SearchView> ViewOfTop(int height_vox) {
+  Config config;
+  World world(config);
+  test::AddGround(world.map, 0, 0, 20, 20, 0);
+  VoxelKey hi;
+  for (int x = 16; x < 20; ++x)
+    for (int y = 8; y < 12; ++y)
+      for (int z = 1; z <= height_vox; ++z)
+        test::SetState(world.map, hi = {x, y, z}, VoxelState::kOccupied);
+  world.ground.Rebuild(world.map);
+  world.level_m = 0.1;
+  world.full.field.Update(world.map, world.level_m, {16, 8, 0}, hi);
+  GoalState goal;
+  ObjectSearch& search = goal.full.search.emplace();
+  search.notice_range_m = search.sure_range_m = 5;
+  search.is_tall = true;
+  for (const auto& [cell, patch] : world.full.field.patches())
+    if (patch.height_m > 0.25) search.shares[cell] = 1;
+  EXPECT_EQ(search.shares.size(), 1U);
+  AgentPose agent;
+  agent.p_world = Vector3d(0.45, 1.05, 0.1);
+  Observation obs;
+  obs.camera = IntrinsicsFromHfov(64, 64, DegToRad(90));
+  const std::vector<policy::Sighting> sightings;
+  const Situation now{config, world, goal, agent, agent, obs, sightings};
+  return SearchViews(now).From({4, 10, 1}, 0, 0);
+}
+
+/// Regression: a television on a board of 1.1 m was out of every lowered picture of its room.
+TEST(SearchViews, ATopAboveTheCameraIsLookedAtLevel) {
+  const auto high = ViewOfTop(11), low = ViewOfTop(4);
+  ASSERT_TRUE(high.has_value());
+  EXPECT_DOUBLE_EQ(high->pitch_rad, 0);
+  ASSERT_TRUE(low.has_value());
+  EXPECT_DOUBLE_EQ(low->pitch_rad, DegToRad(Config{}.policy.motion.travel_pitch_deg));
+  EXPECT_LT(low->cost_m, high->cost_m);
+}
+
+/// Regression: a thin floor lamp that no day had met counted as seen from 4 m.
+TEST(SearchViews, AThingThatWasNeverMetIsMissedFromAfarMoreOften) {
+  const Config config;
+  World world(config);
+  GoalState goal;
+  goal.goal = "floor lamp";
+  const NoticeRanges unknown = RangesOfNotice(world, goal, config);
+  objects::ObjectRecord lamp;
+  lamp.category = goal.goal;
+  lamp.views = 5;
+  lamp.box_world_m.extend(Vector3d(0, 0, 0)).extend(Vector3d(0.5, 0.5, 1.7));
+  world.objects.Load({lamp});
+  const NoticeRanges known = RangesOfNotice(world, goal, config);
+  EXPECT_LT(unknown.surely_m, known.surely_m);
+  EXPECT_GT(unknown.missed, 2 * known.missed);
+}
+
+}  // namespace
+}  // namespace crossnav::agent
