@@ -135,10 +135,11 @@ NoticeRanges RangesOfNotice(const World& world, const GoalState& goal, const Con
   const double most_m = config.policy.explore.inspect_range_m;
   // A thing that was not met in a known house is small, or nobody has looked for it.
   if (box_m.maxCoeff() <= 0) return {most_m, kUnknown * most_m, kUnknownMissed};
-  const double from_front_m = std::sqrt(box_m.head<2>().maxCoeff() * box_m.z());
-  // Surfaces lie anywhere in their voxels: the box is a voxel larger than the thing.
-  const Vector3d sides_m =
-      (box_m.array() - world.objects.voxel_m()).max(0.5 * world.objects.voxel_m());
+  // Surfaces lie anywhere in their voxels: the box is up to a voxel larger than the thing.
+  const double voxel_m = world.objects.voxel_m();
+  const Vector3d likely_m = box_m.array() - 0.5 * voxel_m;
+  const double from_front_m = std::sqrt(likely_m.head<2>().maxCoeff() * likely_m.z());
+  const Vector3d sides_m = (box_m.array() - voxel_m).max(0.5 * voxel_m);
   const double from_any_side_m = std::sqrt(std::sqrt(sides_m.x() * sides_m.y()) * sides_m.z());
   const auto range = [&](double size_m) {
     return std::min(most_m, std::max(kLeastNotice_m, size_m / kNoticed_rad));

@@ -8,6 +8,7 @@ namespace crossnav::objects {
 namespace {
 
 constexpr double kSlack_vox = 2.0;  // chosen: a voxel's diagonal and the noise of depth
+constexpr double kFront_vox = 1.2;  // chosen: likewise in front of it, and less than a wall
 constexpr double kNear_m = 0.1;     // chosen: least depth in a picture
 
 }  // namespace
@@ -18,7 +19,7 @@ FrameView ViewOf(std::span<const geometry::VoxelKey> voxels, const Observation& 
   if (voxels.empty() || samples <= 0) return view;
   const Pose T_camera_world = obs.T_world_camera.inverse();
   const std::size_t step = std::max<std::size_t>(1, voxels.size() / samples);
-  const double slack_m = kSlack_vox * voxel_m;
+  const double slack_m = kSlack_vox * voxel_m, front_m = kFront_vox * voxel_m;
   double u0 = 1e9, v0 = 1e9, u1 = -1e9, v1 = -1e9;
   int count = 0, free = 0, surface = 0, hidden = 0;
   view.distance_m = 1e9;
@@ -37,7 +38,7 @@ FrameView ViewOf(std::span<const geometry::VoxelKey> voxels, const Observation& 
     const double over_m = depth_m - p.z();
     if (over_m > slack_m)
       ++free;
-    else if (over_m >= -slack_m)
+    else if (over_m >= -front_m)
       ++surface;
     else
       ++hidden;

@@ -19,7 +19,7 @@ constexpr double kHeadRoom_m = 0.5;  // chosen: less is the space under a bed or
 constexpr int kLeastColumns = 4;     // chosen: a quarter of a patch; less is an edge ...
 constexpr int kLeastEdge = 2;        // chosen: ... and of tops as high as the camera all that shows
 constexpr double kLowTop_m = 0.3;    // chosen: lower ones show from above
-constexpr double kSlack_m = 0.2;     // chosen: two voxels; as for records of objects
+constexpr double kSlack_m = 0.12;    // chosen: half a thing on the patch; less than a wall
 constexpr double kLeastDepth_m = 0.1;  // chosen: least depth in a picture
 
 VoxelKey CellOf(const VoxelKey& key) {

@@ -176,6 +176,19 @@ TEST(ObjectBook, AnythingElseAtThePlaceContradictsOnlyWhatTheDetectorWasAskedFor
   EXPECT_GT(not_asked.records().front().confidence, 0.9);
 }
 
+/// Regression: a thing at a thin wall was missed from the next room.
+TEST(ObjectBook, AThinWallInFrontOfAThingHidesIt) {
+  const Box3 thing = BoxOf(3.05, 1.8, 0, 3.3, 2.3, 0.9);
+  World world;
+  world.rooms.solids = {thing};
+  ObjectBook book;
+  SeeIt(world, thing, 4, book);
+  world.rooms.solids.push_back(BoxOf(2.9, 0, 0, 3.02, 4, 2.6));
+  for (int i = 0; i < 5; ++i)
+    (void)book.Doubt(kChairs, LookFromSide(world, thing.Center(), i), {0, 10 + i});
+  EXPECT_GT(book.records().front().confidence, 0.9);
+}
+
 TEST(ObjectBook, EachOfSeveralCategoriesThatTheDetectorWasAskedForIsContradicted) {
   World world;
   world.rooms.solids = {kChair, kOther};

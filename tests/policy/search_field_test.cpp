@@ -102,6 +102,22 @@ TEST(SearchField, APatchBehindASurfaceWasNotLookedAt) {
   EXPECT_GT(near, 0);
 }
 
+/// Regression: a television at a thin wall counted as looked at from the next room.
+TEST(SearchField, APatchAtTheBackOfAThinWallWasNotLookedAt) {
+  VoxelMap map;
+  test::AddGround(map, 16, 18, 20, 22, 0);
+  SearchField field;
+  field.Update(map, 0.1, kLo, kHi);
+  ASSERT_FALSE(field.patches().empty());
+  const policy::SearchPatch& patch = field.patches().begin()->second;
+  const Observation obs = CameraLookingAlongX(0.3, 1);
+  const double away_m = (obs.T_world_camera.inverse() * patch.LowPoint()).z();
+  field.Look(CameraLookingAlongX(0.3, away_m - 0.15), 5);
+  EXPECT_TRUE(std::isinf(patch.low.in_run_m));
+  field.Look(CameraLookingAlongX(0.3, away_m + 0.01), 5);
+  EXPECT_TRUE(std::isfinite(patch.low.in_run_m));
+}
+
 TEST(SearchField, TheNearestLookIsKeptAndAGoalBeginsAnew) {
   SearchField field;
   field.Update(GroundWithATable(), 0, kLo, kHi);
