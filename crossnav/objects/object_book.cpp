@@ -25,6 +25,7 @@ constexpr double kTwinOverlap = 0.5;   // chosen: likewise, of two records
 constexpr double kPictureGain = 1.5;   // chosen: times the pixels, for a new picture
 constexpr double kMoved_m = 0.25;      // chosen: one step: another view
 constexpr double kTurnedCos = 0.97;    // chosen: or 15 degrees
+constexpr int kManyFrames = 10;        // chosen: more than a false detection lasts
 constexpr double kClear = 4.0;         // chosen: times the fewest pixels that showed the object
 constexpr double kOtherSize = 0.75;    // chosen: distances of two aspects; half the pixels
 constexpr double kLeastVisible = 0.3;  // chosen: one side of an object hides the others
@@ -162,6 +163,7 @@ int ObjectBook::MergeTwins(int index) {
     record.voxels = UnionOf(record.voxels, twin.voxels);
     Measure(record, voxel_m_);
     record.views += twin.views;
+    watches_[index].frames += watches_[i].frames;
     record.id = std::min(record.id, twin.id);
     if (std::pair(twin.first_seen_day, twin.first_seen_step) <
         std::pair(record.first_seen_day, record.first_seen_step)) {
@@ -207,6 +209,7 @@ std::vector<int> ObjectBook::Note(std::span<const SeenObject> seen, const Observ
     double& least_px = watches_[index].least_shown_px;
     least_px = least_px > 0 ? std::min(least_px, shown_px) : shown_px;
     ++record.views;
+    ++watches_[index].frames;
     record.last_seen_day = when.day;
     record.last_seen_step = when.step;
     const int id = record.id;
@@ -244,7 +247,9 @@ std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Obs
     // The detector may miss a thing that is smaller in the picture than in any view that found it.
     const double least_px = watch.least_shown_px > 0 ? watch.least_shown_px : kSureImage * image;
     const bool is_large = PixelsShown(view) >= least_px;
-    const bool is_other = is_asked && is_large && view.Visible() >= kLeastVisible &&
+    // What many frames have shown does not go while the robot is there: the detector misses it.
+    const bool is_other = is_asked && is_large && watch.frames < kManyFrames &&
+                          view.Visible() >= kLeastVisible &&
                           view.free + view.surface + view.hidden >= config_.good_view &&
                           view.pixels >= std::max(kLeastPixels, kLeastImage * image);
     if (!is_free && !is_other) continue;

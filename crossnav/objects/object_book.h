@@ -88,6 +88,7 @@ class ObjectBook {
     double picture_px = 0;                               ///< pixels behind the picture
     Vector3d p_doubted_world = Vector3d::Constant(1e9);  ///< camera of the last contradiction
     Vector3d doubted_along = Vector3d::Zero();           ///< and its direction
+    int frames = 0;                                      ///< of this run that found it
     Vector3d to_camera_missed_m = Vector3d::Zero();      ///< from the object, at the last miss
     double least_shown_px = 0;  ///< of the views of this run that found the object; 0 = none
     std::int64_t colour_views = 0;
