@@ -225,12 +225,28 @@ std::vector<int> ObjectBook::Note(std::span<const SeenObject> seen, const Observ
   return ids;
 }
 
+/// Whether the detector, asked for the record's category, should have found it in `view`.
+bool ObjectBook::IsMiss(const FrameView& view, const Watch& watch, const Vector3d& to_camera_m,
+                        double image_px) const {
+  // What many frames have shown does not go while the robot is there: the detector misses it.
+  if (watch.frames >= kManyFrames) return false;
+  // The detector may miss a thing that is smaller in the picture than in any view that found it.
+  const double least_px = watch.least_shown_px > 0 ? watch.least_shown_px : kSureImage * image_px;
+  const double shown_px = PixelsShown(view);
+  const bool is_good = view.Visible() >= kLeastVisible &&
+                       view.free + view.surface + view.hidden >= config_.good_view &&
+                       view.pixels >= std::max(kLeastPixels, kLeastImage * image_px);
+  if (shown_px < least_px || !is_good) return false;
+  // Near that limit the misses of one aspect are one miss.
+  return shown_px >= kClear * least_px || IsOtherAspect(to_camera_m, watch.to_camera_missed_m);
+}
+
 std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Observation& obs,
                                    const Moment& when) {
   std::vector<int> gone;
   const Vector3d p_camera = obs.T_world_camera.translation();
   const Vector3d along = obs.T_world_camera.linear().col(2);
-  const double image = static_cast<double>(obs.depth_m.width) * obs.depth_m.height;
+  const double image_px = static_cast<double>(obs.depth_m.width) * obs.depth_m.height;
   for (std::size_t i = 0; i < records_.size(); ++i) {
     ObjectRecord& record = records_[i];
     Watch& watch = watches_[i];
@@ -241,22 +257,11 @@ std::vector<int> ObjectBook::Doubt(std::span<const std::string> asked, const Obs
         watch.doubted_along.dot(along) > kTurnedCos)
       continue;
     const FrameView view = ViewOf(record.voxels, obs, voxel_m_);
-    const Vector3d to_camera = p_camera - record.centre_world_m;
     const bool is_free = view.free >= config_.good_view && view.surface <= kMostSurface;
     const bool is_asked = std::find(asked.begin(), asked.end(), record.category) != asked.end();
-    // The detector may miss a thing that is smaller in the picture than in any view that found it.
-    const double least_px = watch.least_shown_px > 0 ? watch.least_shown_px : kSureImage * image;
-    const bool is_large = PixelsShown(view) >= least_px;
-    // What many frames have shown does not go while the robot is there: the detector misses it.
-    const bool is_other = is_asked && is_large && watch.frames < kManyFrames &&
-                          view.Visible() >= kLeastVisible &&
-                          view.free + view.surface + view.hidden >= config_.good_view &&
-                          view.pixels >= std::max(kLeastPixels, kLeastImage * image);
-    if (!is_free && !is_other) continue;
-    // Near the limit of the detector's sight the misses of one aspect are one miss.
-    const bool is_limit = PixelsShown(view) < kClear * least_px;
-    if (!is_free && is_limit && !IsOtherAspect(to_camera, watch.to_camera_missed_m)) continue;
-    if (!is_free) watch.to_camera_missed_m = to_camera;
+    const Vector3d to_camera_m = p_camera - record.centre_world_m;
+    if (!is_free && !(is_asked && IsMiss(view, watch, to_camera_m, image_px))) continue;
+    if (!is_free) watch.to_camera_missed_m = to_camera_m;
     watch.p_doubted_world = p_camera;
     watch.doubted_along = along;
     const bool was_gone = IsGone(record);

@@ -10,6 +10,7 @@
 
 #include "crossnav/core/observation.h"
 #include "crossnav/objects/appearance.h"
+#include "crossnav/objects/frame_view.h"
 #include "crossnav/objects/object_record.h"
 #include "crossnav/objects/portrait.h"
 
@@ -98,6 +99,8 @@ class ObjectBook {
 
   int FindFor(const SeenObject& seen, const Vector3d& centre, std::int64_t step) const;
   void Merge(ObjectRecord& record, Watch& watch, const SeenObject& seen, const Observation& obs);
+  bool IsMiss(const FrameView& view, const Watch& watch, const Vector3d& to_camera_m,
+              double image_px) const;
   int MergeTwins(int index);  // id of the merged record, or -1
 
   double voxel_m_;
