@@ -66,6 +66,7 @@ class SearchViews {
 
   std::vector<Seen> SeenFrom(const geometry::VoxelKey& place) const;
   bool IsInRange(const Vector3d& p_eye, const Vector3d& p_world) const;
+
   const Situation& now_;
   std::vector<Open> open_;
   double range_m_ = 0, half_width_rad_ = 0, half_height_rad_ = 0;

@@ -228,7 +228,7 @@ std::vector<int> ObjectBook::Note(std::span<const SeenObject> seen, const Observ
 /// Whether the detector, asked for the record's category, should have found it in `view`.
 bool ObjectBook::IsMiss(const FrameView& view, const Watch& watch, const Vector3d& to_camera_m,
                         double image_px) const {
-  // What many frames have shown does not go while the robot is there: the detector misses it.
+  // An object of many frames does not go while the robot is there: the detector misses it.
   if (watch.frames >= kManyFrames) return false;
   // The detector may miss a thing that is smaller in the picture than in any view that found it.
   const double least_px = watch.least_shown_px > 0 ? watch.least_shown_px : kSureImage * image_px;

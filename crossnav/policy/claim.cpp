@@ -21,9 +21,11 @@ constexpr std::array<const char*, 18> kRivals = {
     "table", "desk",         "cabinet", "wardrobe", "sink",       "bathtub",
     "stool", "refrigerator", "stove",   "bench",    "picture",    "bookcase"};
 
-double Dot(std::span<const double> a, std::span<const float> b) {
+template <class Numbers>
+double Dot(const Numbers& a, std::span<const float> b) {
   double sum = 0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    sum += static_cast<double>(a[i]) * b[i];
   return sum;
 }
 
@@ -34,8 +36,7 @@ double Norm(std::span<const float> v) {
 }
 
 double Cosine(std::span<const float> a, std::span<const float> b) {
-  const double dot = Dot(std::vector<double>(a.begin(), a.end()), b);
-  return dot / std::max(1e-12, Norm(a) * Norm(b));
+  return Dot(a, b) / std::max(1e-12, Norm(a) * Norm(b));
 }
 
 bool IsOf(const Sighting& sighting, const std::vector<VoxelKey>& voxels, const Vector3d& p_center,
@@ -108,8 +109,9 @@ std::optional<MemoryOpinion> OpinionOf(const memory::SemanticMemory& memory,
 bool IsOfSurroundings(const memory::SemanticMemory& memory, const std::vector<VoxelKey>& voxels,
                       double voxel_m, const MemoryOpinion& opinion,
                       const std::vector<NamedText>& others) {
-  constexpr double kSmall_m = 0.45;  // chosen: largest side; half of a chair is larger
-  constexpr int kRing_vox = 2;       // chosen: a cell of the features from near
+  constexpr double kSmall_m = 0.45;   // chosen: largest side; half of a chair is larger
+  constexpr int kRing_vox = 2;        // chosen: a cell of the features from near
+  constexpr std::size_t kParts = 10;  // chosen: the support beside a wall is two of ten parts
   if (voxels.empty() || opinion.Margin() >= 0) return false;
   const auto other = std::find_if(others.begin(), others.end(), [&](const NamedText& text) {
     return text.name == opinion.other;
@@ -133,8 +135,8 @@ bool IsOfSurroundings(const memory::SemanticMemory& memory, const std::vector<Vo
           around.push_back(Cosine(memory.FeatureAt(*row), other->vector));
       }
   if (around.empty()) return false;
-  // What the thing stands on is a small part of the ring, beside a wall less than a fifth.
-  const std::size_t best = around.size() / 10;
+  // The support is a small part of the ring, so that the best tenth answers for it.
+  const std::size_t best = around.size() / kParts;
   std::nth_element(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(best), around.end(),
                    std::greater<>());
   return around[best] >= opinion.best_other;
@@ -244,7 +246,7 @@ void NoteScores(const std::vector<LivePoi>& pois, const std::vector<Sighting>& s
 
 ClaimVerdict Judge(const std::optional<MemoryOpinion>& opinion, double confidence, int views,
                    const VerifyConfig& config) {
-  constexpr double kOutvoted = 0.1;  // chosen: cosine; two clear views say more than a like answer
+  constexpr double kOutvoted = 0.1;  // chosen: cosine that two clear views make up for
   const double margin = opinion ? opinion->Margin() : 0;
   const bool is_weak_frame = confidence < config.strong_confidence;
   if (margin < -config.refute_margin) {

@@ -153,11 +153,11 @@ TEST(ObjectBook, AnOccludedPlaceIsNotContradicted) {
   EXPECT_EQ(book.records().front().confidence, before);
 }
 
-/// From 2.2 m, each time from another side.
-Observation LookFromSide(const World& world, const Vector3d& p_world, int i) {
+/// Each time from another side.
+Observation LookFromSide(const World& world, const Vector3d& p_world, int i, double away_m = 2.2) {
   const double side_deg = -35 + 16 * i, side_rad = DegToRad(side_deg);
-  return world.Look(p_world.x() - 2.2 * std::cos(side_rad), p_world.y() + 2.2 * std::sin(side_rad),
-                    -side_deg);
+  return world.Look(p_world.x() - away_m * std::cos(side_rad),
+                    p_world.y() + away_m * std::sin(side_rad), -side_deg);
 }
 
 TEST(ObjectBook, AnythingElseAtThePlaceContradictsOnlyWhatTheDetectorWasAskedFor) {
@@ -204,7 +204,7 @@ TEST(ObjectBook, AThinWallInFrontOfAThingHidesIt) {
   SeeIt(world, thing, 4, book);
   world.rooms.solids.push_back(BoxOf(2.9, 0, 0, 3.02, 4, 2.6));
   for (int i = 0; i < 5; ++i)
-    (void)book.Doubt(kChairs, LookFromSide(world, thing.Center(), i), {0, 10 + i});
+    (void)book.Doubt(kChairs, LookFromSide(world, thing.Center(), i, 1.8), {0, 10 + i});
   EXPECT_GT(book.records().front().confidence, 0.9);
 }
 
@@ -254,7 +254,7 @@ TEST(ObjectBook, MissesOfOneAspectNearTheLimitOfSightAreOneMiss) {
   ObjectBook book;
   SeeIt(world, kChair, 4, book);
   for (int i = 0; i < 6; ++i)
-    (void)book.Doubt(kChairs, world.Look(1.1 + 0.1 * i, 1.3 + 0.1 * i, 0), {0, 10 + i});
+    (void)book.Doubt(kChairs, world.Look(1.2 + 0.05 * i, 2.0, -30 + 18 * (i % 3)), {0, 10 + i});
   EXPECT_FALSE(book.IsGone(book.records().front()));
   EXPECT_LT(book.records().front().confidence, 0.97);
   for (int i = 0; i < 6; ++i)
