@@ -160,7 +160,7 @@ std::optional<Action> ActOn(StepState& now, Approach& approach,
   approach.looks = 0;
   if (verification.failed_check == "confidence") goal.full.doubtful_m = verification.distance_m;
   if (++goal.failed_views >= now.config.policy.approach.max_viewpoints &&
-      !DecideByViews(now, *poi)) {
+      !DecideByViews(now, *poi) && !ReturnToClaim(now, *poi)) {
     Reject(now, *poi);
     goal.events.push_back("verification failed: " + verification.failed_check);
     End(now, Ending::kRefuted);

@@ -211,6 +211,32 @@ bool DecideByViews(StepState& now, const policy::LivePoi& poi) {
   return true;
 }
 
+void GiveUpSecondView(StepState& now, int poi_id) {
+  constexpr double kSameView_m = 0.5;  // chosen: a step and a turn
+  GoalState& goal = now.goal;
+  goal.full.claims.no_second_view_of = poi_id;
+  const policy::ClaimViews* seen = goal.full.claims.ViewsOf(poi_id);
+  if (JudgesByViews(now.config) || !seen) return;
+  std::erase_if(goal.tried_viewpoints, [&](const Vector3d& p_foot_world) {
+    return std::any_of(seen->p_cameras_world.begin(), seen->p_cameras_world.end(),
+                       [&](const Vector3d& p_camera_world) {
+                         return (p_camera_world - p_foot_world).head<2>().norm() <= kSameView_m;
+                       });
+  });
+  goal.failed_views = std::min(goal.failed_views, 1);
+  goal.full.doubtful_m = 0;
+  goal.events.push_back("no other view shows the claim: back to where it was made");
+}
+
+bool ReturnToClaim(StepState& now, const policy::LivePoi& poi) {
+  const policy::ClaimTracker& claims = now.goal.full.claims;
+  if (JudgesByViews(now.config) || claims.second_view_of != poi.id ||
+      claims.no_second_view_of == poi.id)
+    return false;
+  GiveUpSecondView(now, poi.id);
+  return true;
+}
+
 bool IsDecidedByViews(const Situation& now, const policy::LivePoi& poi,
                       const policy::Verification& verification) {
   return now.goal.full.claims.decided_by_views == poi.id &&
@@ -315,9 +341,14 @@ bool SettleForLikeliest(StepState& now) {
   return true;
 }
 
-std::optional<Vector3d> BestViewIfSettled(const Situation& now, int poi_id) {
-  const policy::ClaimViews* seen = now.goal.full.claims.ViewsOf(poi_id);
-  if (!seen || seen->scores.empty() || !IsSettledFor(now.goal, poi_id)) return std::nullopt;
+std::optional<Vector3d> ViewToReturnTo(const Situation& now, int poi_id) {
+  const policy::ClaimTracker& claims = now.goal.full.claims;
+  const policy::ClaimViews* seen = claims.ViewsOf(poi_id);
+  if (!seen) return std::nullopt;
+  if (!JudgesByViews(now.config) && claims.no_second_view_of == poi_id &&
+      !seen->p_cameras_world.empty())
+    return seen->p_cameras_world.front();
+  if (seen->scores.empty() || !IsSettledFor(now.goal, poi_id)) return std::nullopt;
   return std::max_element(seen->scores.begin(), seen->scores.end(),
                           [](const policy::ViewScore& a, const policy::ViewScore& b) {
                             return a.Mean() < b.Mean();

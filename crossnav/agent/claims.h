@@ -30,7 +30,13 @@ policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
 /// The frames at the last viewpoints failed. True where all views together hold the claim
 /// nevertheless (verify.evidence = views); the next frame claims it.
 bool DecideByViews(StepState& now, const policy::LivePoi& poi);
-/// Whether it was decided so, and the agent is near enough for STOP.
+/// No other view of a weak claim is within reach, or shows it: the memory decides, where the claim
+/// was made (verify.evidence = frame).
+void GiveUpSecondView(StepState& now, int poi_id);
+/// The same where the last viewpoints failed. False if the claim does not wait for a second view, or
+/// did so before.
+bool ReturnToClaim(StepState& now, const policy::LivePoi& poi);
+/// Whether it was decided by views, and the agent is near enough for STOP.
 bool IsDecidedByViews(const Situation& now, const policy::LivePoi& poi,
                       const policy::Verification& verification);
 
@@ -63,8 +69,9 @@ void SettleFor(StepState& now, int poi_id);
 /// verify.evidence = views).
 bool SettleForLikeliest(StepState& now);
 
-/// The camera of the view that supported a POI most, if the agent settled for it.
-std::optional<Vector3d> BestViewIfSettled(const Situation& now, int poi_id);
+/// The camera of the view that supported a POI most, if the agent settled for it, or of the first
+/// view that claimed it, if no second view does.
+std::optional<Vector3d> ViewToReturnTo(const Situation& now, int poi_id);
 
 /// Camera places that another view of this POI must differ from; empty where any view will do.
 std::vector<Vector3d> ViewsToAvoid(const Situation& now, const policy::LivePoi& poi);

@@ -159,7 +159,7 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
       nearer.range_m = std::min(wish.range_m, share * failed.doubtful_m);
       if (auto target = NearestView(now, start, nearer)) return target;
     }
-  wish.same_side = BestViewIfSettled(now, poi.id);
+  wish.same_side = ViewToReturnTo(now, poi.id);
   if (wish.same_side)
     if (auto target = NearestView(now, start, wish)) return target;
   wish.same_side.reset();

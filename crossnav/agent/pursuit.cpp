@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "crossnav/agent/claims.h"
 #include "crossnav/agent/scan.h"
 #include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/flights.h"
@@ -136,7 +137,7 @@ void End(StepState& now, Ending ending) {
   if (std::holds_alternative<Climb>(pursuit)) NoteFlightTry(now, pursued->target, ending);
   if (const Approach* approach = std::get_if<Approach>(&pursuit);
       approach && TryEndingOf(ending) && now.goal.full.claims.second_view_of == approach->poi_id)
-    now.goal.full.claims.no_second_view_of = approach->poi_id;
+    GiveUpSecondView(now, approach->poi_id);
   if (ending == Ending::kNoProgress && now.goal.full.may_squeeze) CloseGap(now, pursued->route);
   pursuit = Idle{};
   if (!IsWalledIn(now)) return;

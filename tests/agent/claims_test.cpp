@@ -88,8 +88,8 @@ struct Outcome {
   bool at_bed = false, at_sofa = false;
 };
 
-Outcome SearchForBed(const FakeSight& sight, const std::string& memory) {
-  Config config = SmallConfig();
+Outcome SearchForBed(const FakeSight& sight, const std::string& memory,
+                     Config config = SmallConfig()) {
   config.verify.memory = memory;
   Agent agent(config, FakeSuite(sight));
   EXPECT_TRUE(agent.SetGoal("bed").has_value());
@@ -122,6 +122,35 @@ TEST(Claims, AWeakClaimNeedsAViewFromAnotherSide) {
   const Outcome outcome = SearchForBed(Liar(15, false), "on");
   EXPECT_TRUE(outcome.at_bed) << outcome.walk.traces.size();
   EXPECT_GE(CountEvents(outcome.walk, "claim is weak"), 1);
+}
+
+/// The bed is seen from within 15 degrees of the direction to -x only.
+FakeSight FromOneSide() {
+  FakeSight sight = Liar(0, true);
+  FakeSight bed;
+  test::SeeBox(kBed, "bed", &bed);
+  sight.detect = [=](const Observation& obs, std::string_view goal) {
+    const Vector3d d = obs.T_world_camera.translation() - Vector3d(7.1, 3.0, 0.3);
+    const double off_rad = std::abs(WrapAngle(std::atan2(d.y(), d.x()) - DegToRad(180)));
+    auto found = bed.detect(obs, goal);
+    if (off_rad > DegToRad(15)) found.clear();
+    for (auto& detection : found) detection.confidence = 0.75F;
+    return found;
+  };
+  sight.segment = bed.segment;
+  return sight;
+}
+
+// Regression: a vase between other things was rejected, because no second view showed it.
+TEST(Claims, AClaimThatNoOtherViewShowsIsDecidedByTheMemoryWhereItWasMade) {
+  for (const int viewpoints : {2, 4}) {  // the last of four is out of reach
+    Config config = SmallConfig();
+    config.policy.approach.max_viewpoints = viewpoints;
+    const Outcome outcome = SearchForBed(FromOneSide(), "on", config);
+    EXPECT_TRUE(outcome.at_bed) << viewpoints << " " << outcome.walk.traces.size();
+    EXPECT_EQ(CountEvents(outcome.walk, "back to where it was made"), 1);
+    EXPECT_EQ(CountEvents(outcome.walk, "rejected"), 0);
+  }
 }
 
 TEST(Claims, AHintThatTwoViewsRefuteIsNotGoneToAgain) {
