@@ -140,6 +140,7 @@ Result<void> Agent::Impl::Begin(GoalState fresh) {
   if (!text) return tl::unexpected(text.error());
   LearnNames(*perception.encoder, config, &world);
   fresh.index = goal.index + 1;
+  fresh.begun_step = world.step;
   fresh.text = std::move(*text);
   if (config.query.relevancy == "contrastive") {
     auto background = perception::EncodeTexts(*perception.encoder, memory::kBackgroundPrompts);

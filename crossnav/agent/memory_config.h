@@ -11,12 +11,16 @@ struct MemoryConfig {
   /// their object, searches where the object may have gone, and clears what is seen through.
   std::string mode = "keep";
   double absent_from = 0.85;  // chosen: odds of absence at which a search is given up
+  /// Actions for a goal before a search is given up because the rest costs much for its
+  /// probability; chosen: a quarter of eval.action_budget, so that most of it is left.
+  int search_actions = 300;
 };
 
 template <class V>
 void Visit(V& visit, MemoryConfig& c) {
   visit("mode", c.mode, {"keep", "revise"});
   visit("absent_from", c.absent_from, 0.0, 1.0);
+  visit("search_actions", c.search_actions, 0, 1000000);
 }
 
 }  // namespace crossnav::agent

@@ -337,7 +337,8 @@ std::vector<PricedCandidate> PriceSearch(const Situation& now, const VoxelKey& s
     prices.AddExplored(search, *place, path_m);
     prices.AddView(search, *place, path_m);
   }
-  if (IsSearchOver(now) && prices.best() > kWorth_m) return {};
+  const bool is_long = now.world.step - now.goal.begun_step >= now.config.memory.search_actions;
+  if (is_long && IsSearchOver(now) && prices.best() > kWorth_m) return {};
   return prices.Take();
 }
 

@@ -248,6 +248,7 @@ struct GoalState {
   std::optional<PicturedGoal> pictured;    ///< the goal is a picture
   InstanceChoice instances;                ///< of a goal that is described or pictured
   int index = -1;
+  int begun_step = 0;  ///< of the world, when the goal was set
   std::vector<float> text;
   std::vector<std::vector<float>> background;  ///< text vectors for query.relevancy = contrastive
   policy::LivePois live;

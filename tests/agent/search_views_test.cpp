@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crossnav/agent/object_search.h"
 #include "crossnav/agent/whereabouts.h"
 #include "support/map_of_states.h"
 
@@ -16,33 +17,43 @@ namespace {
 using geometry::VoxelKey;
 using geometry::VoxelState;
 
-/// The best view of a top `height_vox` above the ground, 1.3 m from the agent.
-std::optional<SearchView> ViewOfTop(int height_vox) {
+constexpr VoxelKey kStart{4, 10, 1};
+
+/// A top `height_vox` above the ground, 1.3 m from the agent, holds the goal with `share`.
+struct RoomWithTop {
   Config config;
-  World world(config);
-  test::AddGround(world.map, 0, 0, 20, 20, 0);
-  VoxelKey hi;
-  for (int x = 16; x < 20; ++x)
-    for (int y = 8; y < 12; ++y)
-      for (int z = 1; z <= height_vox; ++z)
-        test::SetState(world.map, hi = {x, y, z}, VoxelState::kOccupied);
-  world.ground.Rebuild(world.map);
-  world.level_m = 0.1;
-  world.full.field.Update(world.map, world.level_m, {16, 8, 0}, hi);
+  World world{config};
   GoalState goal;
-  ObjectSearch& search = goal.full.search.emplace();
-  search.notice_range_m = search.sure_range_m = 5;
-  search.is_tall = true;
-  for (const auto& [cell, patch] : world.full.field.patches())
-    if (patch.height_m > 0.25) search.shares[cell] = 1;
-  EXPECT_EQ(search.shares.size(), 1U);
   AgentPose agent;
-  agent.p_world = Vector3d(0.45, 1.05, 0.1);
   Observation obs;
-  obs.camera = IntrinsicsFromHfov(64, 64, DegToRad(90));
-  const std::vector<policy::Sighting> sightings;
-  const Situation now{config, world, goal, agent, agent, obs, sightings};
-  return SearchViews(now).From({4, 10, 1}, 0, 0);
+  std::vector<policy::Sighting> sightings;
+
+  explicit RoomWithTop(int height_vox, double share = 1) {
+    test::AddGround(world.map, 0, 0, 20, 20, 0);
+    VoxelKey hi;
+    for (int x = 16; x < 20; ++x)
+      for (int y = 8; y < 12; ++y)
+        for (int z = 1; z <= height_vox; ++z)
+          test::SetState(world.map, hi = {x, y, z}, VoxelState::kOccupied);
+    world.ground.Rebuild(world.map);
+    world.level_m = 0.1;
+    world.full.field.Update(world.map, world.level_m, {16, 8, 0}, hi);
+    ObjectSearch& search = goal.full.search.emplace();
+    search.notice_range_m = search.sure_range_m = 5;
+    search.is_tall = true;
+    for (const auto& [cell, patch] : world.full.field.patches())
+      if (patch.height_m > 0.25) search.shares[cell] = share;
+    EXPECT_EQ(search.shares.size(), 1U);
+    agent.p_world = Vector3d(0.45, 1.05, 0.1);
+    obs.camera = IntrinsicsFromHfov(64, 64, DegToRad(90));
+  }
+  Situation Now() const { return {config, world, goal, agent, agent, obs, sightings}; }
+};
+
+std::optional<SearchView> ViewOfTop(int height_vox) {
+  const RoomWithTop room(height_vox);
+  const Situation now = room.Now();
+  return SearchViews(now).From(kStart, 0, 0);
 }
 
 /// Regression: a television on a board of 1.1 m was out of every lowered picture of its room.
@@ -53,6 +64,25 @@ TEST(SearchViews, ATopAboveTheCameraIsLookedAtLevel) {
   ASSERT_TRUE(low.has_value());
   EXPECT_DOUBLE_EQ(low->pitch_rad, DegToRad(Config{}.policy.motion.travel_pitch_deg));
   EXPECT_LT(low->cost_m, high->cost_m);
+}
+
+/// Regression: a television was given up after 60 actions, in a room that nobody had looked into,
+/// because the way there was long for its probability.
+TEST(SearchViews, WhatCostsMuchForItsProbabilityIsLeftOutOnlyAfterManyActions) {
+  RoomWithTop room(4, 0.0042);
+  room.goal.full.search->notice_range_m = 0.9;  // nothing shows it from where the agent is
+  for (int i = -1; i <= 20; ++i)
+    for (int z = 0; z <= 14; ++z)
+      for (const VoxelKey wall : {VoxelKey{i, -1, z}, {i, 20, z}, {-1, i, z}, {20, i, z}})
+        test::SetState(room.world.map, wall, VoxelState::kOccupied);
+  room.world.ground.Rebuild(room.world.map);
+  room.world.revision.emplace();
+  room.goal.full.search->unseen = 0.1;  // and little is left to see
+  room.world.step = 1000;
+  room.goal.begun_step = 1000 - room.config.memory.search_actions + 1;
+  EXPECT_FALSE(PriceSearch(room.Now(), kStart).empty());
+  room.goal.begun_step -= 1;
+  EXPECT_TRUE(PriceSearch(room.Now(), kStart).empty());
 }
 
 /// Regression: a thin floor lamp that no day had met counted as seen from 4 m.
