@@ -147,6 +147,15 @@ class Maker {
     return made;
   }
 
+  /// Whether the place that the goal left can be reached on the day; otherwise nobody can tell that
+  /// the goal is gone.
+  bool IsOldPlaceReached(std::size_t day, const std::string& goal, const Vector3d& p_world) const {
+    const auto& targets = At(day - 1).TargetsOf(goal);
+    return std::any_of(targets.begin(), targets.end(), [&](const Target& target) {
+      return At(day).navmesh().Geodesic(p_world, target.viewpoints_world).has_value();
+    });
+  }
+
   std::vector<VisitGoal> ChangedGoals(std::size_t day, const Vector3d& p_world) const {
     std::vector<VisitGoal> goals;
     for (const world::Change& change : days_[day].list.changes) {
@@ -157,6 +166,7 @@ class Maker {
       if (goal.empty()) continue;
       VisitGoal made = GoalAt(day, goal, world::NameOf(change.kind), p_world);
       if (made.is_absent == is_moved || (is_moved && made.floors.empty())) continue;
+      if (made.is_absent && !IsOldPlaceReached(day, goal, p_world)) continue;
       goals.push_back(std::move(made));
     }
     return goals;
