@@ -2,6 +2,8 @@
 #include "crossnav/agent/search_shares.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -16,6 +18,8 @@ using objects::KnownAs;
 namespace {
 
 constexpr double kOtherKind = 0.05;   // chosen: of tops for a thing of the ground, and vice versa
+constexpr double kMisfit = 0.05;      // chosen: of patches too small for the goal: it may overhang
+constexpr double kMostBase_m2 = 0.6;  // chosen: that a base asks for; the cells around hold 1.4 m2
 constexpr double kAtOldPlace = 0.25;  // chosen: of things that left their place, near it
 constexpr double kOldPlace_m = 1.2;   // chosen: the next place on a table, or beside it
 
@@ -32,6 +36,27 @@ std::optional<double> UsualHeight(const World& world, const std::string& categor
     ++count;
   }
   return count > 0 ? std::optional(sum_m / count) : std::nullopt;
+}
+
+/// Least base among the category's records, without the voxel that a surface may be off [m2]; 0
+/// without a record.
+double LeastBase(const World& world, const std::string& category) {
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (const objects::ObjectRecord& record : world.objects.records()) {
+    if (record.category != category || record.views == 0) continue;
+    const Vector3d sides_m =
+        (record.box_world_m.sizes().array() - world.objects.voxel_m()).max(0).matrix();
+    least_m2 = std::min(least_m2, sides_m.x() * sides_m.y());
+  }
+  return std::isfinite(least_m2) ? std::min(least_m2, kMostBase_m2) : 0;
+}
+
+/// Share of the places on the surface around a patch that hold a base of `base_m2`.
+double FitOf(const World& world, const VoxelKey& cell, double base_m2) {
+  if (base_m2 <= 0) return 1;
+  const double voxel_m = world.objects.voxel_m();
+  const double around_m2 = ColumnsAround(world.full.field, cell) * voxel_m * voxel_m;
+  return std::max(kMisfit, 1 - base_m2 / around_m2);
 }
 
 void ScaleTo(double sum, std::map<VoxelKey, double>* shares) {
@@ -63,13 +88,15 @@ std::map<VoxelKey, double> SharesBeside(const World& world, const GoalState& goa
 
 std::map<VoxelKey, double> SharesOf(const World& world, const GoalState& goal,
                                     const std::map<int, double>& odds) {
-  const auto height_m = UsualHeight(world, KnownAs(world.objects.records(), goal.goal));
+  const std::string category = KnownAs(world.objects.records(), goal.goal);
+  const auto height_m = UsualHeight(world, category);
+  const double base_m2 = LeastBase(world, category);
   std::map<VoxelKey, double> shares;
   std::map<VoxelKey, int> rooms;
   std::map<int, double> in_room;
   for (const auto& [cell, patch] : world.full.field.patches()) {
     if (goal.full.search->hidden.contains(cell)) continue;
-    double share = patch.columns;
+    double share = patch.columns * FitOf(world, cell, base_m2);
     if (height_m && (*height_m > kFurnitureTop_m) != (patch.height_m > kFurnitureTop_m))
       share *= kOtherKind;
     if (world.revision) {

@@ -109,4 +109,18 @@ void SearchField::BeginGoal() {
     patch.low.for_goal_m = patch.high.for_goal_m = Looked{}.for_goal_m;
 }
 
+int ColumnsAround(const SearchField& field, const VoxelKey& cell) {
+  constexpr double kLevel_m = 0.15;  // chosen: a voxel and a half
+  const double z_m = field.patches().at(cell).p_world.z();
+  int columns = 0;
+  for (int dx = -1; dx <= 1; ++dx)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dz = -1; dz <= 1; ++dz) {  // a top may lie at the border of two cells
+        const auto it = field.patches().find({cell.x + dx, cell.y + dy, cell.z + dz});
+        if (it != field.patches().end() && std::abs(it->second.p_world.z() - z_m) <= kLevel_m)
+          columns += it->second.columns;
+      }
+  return columns;
+}
+
 }  // namespace crossnav::policy

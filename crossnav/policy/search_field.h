@@ -51,4 +51,7 @@ class SearchField {
   std::map<geometry::VoxelKey, SearchPatch> patches_;
 };
 
+/// Voxels of the level surface that the patch of `cell` is a part of, in its 3 x 3 cells.
+int ColumnsAround(const SearchField& field, const geometry::VoxelKey& cell);
+
 }  // namespace crossnav::policy
