@@ -12,8 +12,8 @@ struct MemoryConfig {
   std::string mode = "keep";
   double absent_from = 0.85;  // chosen: odds of absence at which a search is given up
   /// Actions for a goal before a search is given up because the rest costs much for its
-  /// probability; chosen: a quarter of eval.action_budget, so that most of it is left.
-  int search_actions = 300;
+  /// probability; chosen: a third of eval.action_budget, so that most of it is left.
+  int search_actions = 400;
 };
 
 template <class V>
