@@ -33,8 +33,8 @@ bool DecideByViews(StepState& now, const policy::LivePoi& poi);
 /// No other view of a weak claim is within reach, or shows it: the memory decides, where the claim
 /// was made (verify.evidence = frame).
 void GiveUpSecondView(StepState& now, int poi_id);
-/// The same where the last viewpoints failed. False if the claim does not wait for a second view, or
-/// did so before.
+/// The same where the last viewpoints failed. False if the claim does not wait for a second view,
+/// or did so before.
 bool ReturnToClaim(StepState& now, const policy::LivePoi& poi);
 /// Whether it was decided by views, and the agent is near enough for STOP.
 bool IsDecidedByViews(const Situation& now, const policy::LivePoi& poi,
