@@ -214,9 +214,9 @@ bool DecideByViews(StepState& now, const policy::LivePoi& poi) {
 void GiveUpSecondView(StepState& now, int poi_id) {
   constexpr double kSameView_m = 0.5;  // chosen: a step and a turn
   GoalState& goal = now.goal;
-  goal.full.claims.no_second_view_of = poi_id;
+  const bool is_new = std::exchange(goal.full.claims.no_second_view_of, poi_id) != poi_id;
   const policy::ClaimViews* seen = goal.full.claims.ViewsOf(poi_id);
-  if (JudgesByViews(now.config) || !seen) return;
+  if (JudgesByViews(now.config) || !seen || !is_new) return;
   std::erase_if(goal.tried_viewpoints, [&](const Vector3d& p_foot_world) {
     return std::any_of(seen->p_cameras_world.begin(), seen->p_cameras_world.end(),
                        [&](const Vector3d& p_camera_world) {

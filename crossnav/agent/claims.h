@@ -31,7 +31,7 @@ policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
 /// nevertheless (verify.evidence = views); the next frame claims it.
 bool DecideByViews(StepState& now, const policy::LivePoi& poi);
 /// No other view of a weak claim is within reach, or shows it: the memory decides, where the claim
-/// was made (verify.evidence = frame).
+/// was made (verify.evidence = frame). Once for a claim.
 void GiveUpSecondView(StepState& now, int poi_id);
 /// The same where the last viewpoints failed. False if the claim does not wait for a second view,
 /// or did so before.

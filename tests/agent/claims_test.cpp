@@ -153,6 +153,22 @@ TEST(Claims, AClaimThatNoOtherViewShowsIsDecidedByTheMemoryWhereItWasMade) {
   }
 }
 
+TEST(Claims, AClaimThatNoViewShowsAgainIsReturnedToOnce) {
+  FakeSight sight = FromOneSide();
+  auto claims = std::make_shared<int>(0);
+  sight.detect = [detect = sight.detect, claims](const Observation& obs, std::string_view goal) {
+    auto found = detect(obs, goal);
+    const bool is_near = obs.T_world_camera.translation().x() > 4.5;
+    if (!found.empty() && is_near && ++*claims > 5) found.clear();
+    return found;
+  };
+  Config config = SmallConfig();
+  config.policy.approach.max_viewpoints = 8;
+  const Outcome outcome = SearchForBed(sight, "on", config);
+  EXPECT_TRUE(outcome.walk.all_explored);
+  EXPECT_EQ(CountEvents(outcome.walk, "back to where it was made"), 1);
+}
+
 TEST(Claims, AHintThatTwoViewsRefuteIsNotGoneToAgain) {
   const auto visits = [](const std::string& evidence) {
     Config config = SmallConfig();
