@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # `make networks`: frames, training, export, thresholds and figures. Existing results are kept: an
-# interrupted run resumes. NETWORKS_DATA (default build/networks) takes 55 GB. NETWORKS_PYTHON is a
+# interrupted run resumes. NETWORKS_DATA (default build/networks) takes 60 GB. NETWORKS_PYTHON is a
 # Python with networks/requirements.txt; without it a virtual environment is made in the data
 # folder.
 set -euo pipefail

@@ -46,8 +46,7 @@ double ShareOfSmallTable(double base_m) {
   return small;
 }
 
-// Regression: half of what was left to search for a television were slivers of tops between other
-// things, where it does not fit; the search ended before the table that it stood on.
+// Regression: surfaces between other things, too small for a television, counted as left to search.
 TEST(SearchShares, AThingIsHardlyWhereItDoesNotFit) {
   EXPECT_NEAR(ShareOfSmallTable(0), 0.1, 1e-9) << "of what has no record, the area alone is known";
   EXPECT_LT(ShareOfSmallTable(0.7), 0.02);
