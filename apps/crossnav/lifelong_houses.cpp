@@ -11,6 +11,7 @@
 #include "crossnav/evaluation/running/worker_pool.h"
 #include "crossnav/world/change/house_days.h"
 #include "crossnav/world/house/house_generator.h"
+#include "suite_buildings.h"
 
 namespace crossnav::app {
 namespace {
@@ -20,10 +21,12 @@ namespace fs = std::filesystem;
 struct LifelongSuite {
   const char* name;
   std::uint64_t first_seed;
-  int houses, days;  ///< days after the first
+  int houses, days;       ///< days after the first
+  bool is_drawn = false;  ///< the homes of evaluation::DrawnHomes in turn, each several times
 };
 // Seeds 7001 to 7040 are run to report only.
 constexpr LifelongSuite kSuites[] = {{"crossnav-lifelong-1", 7001, 40, 3},
+                                     {"crossnav-lifelong-1-drawn", 1, 27, 3, true},
                                      {"crossnav-lifelong-1-val", 8101, 10, 3},
                                      {"crossnav-lifelong-1-mini", 8001, 1, 2}};
 constexpr std::uint64_t kSeedsAHouse = 5;  // chosen: that may be tried for each house
@@ -32,7 +35,7 @@ Result<LifelongSuite> SuiteOf(const std::string& name) {
     if (name == suite.name) return suite;
   }
   return Fail(ErrorCode::kNotFound,
-              "no suite of this name; there are crossnav-lifelong-1, -val and -mini", name);
+              "no suite of this name; there are crossnav-lifelong-1, -drawn, -val and -mini", name);
 }
 
 /// Changes of each night of the suite: one per track.
@@ -49,29 +52,51 @@ evaluation::RunConfig MakerConfig() {
   return config;
 }
 
-/// House with its days and visits; empty text if the seed gives no house.
-Result<std::string> MakeHouse(const LifelongSuite& suite, std::uint64_t seed,
-                              const LifelongPlace& place) {
+/// Where houses come from and go to.
+struct Ground {
+  const LifelongSuite& suite;
+  fs::path jar;
+  LifelongPlace place;
+};
+
+/// Scene folder of the first day; empty if the seed gives no house.
+Result<fs::path> FirstDay(std::uint64_t seed, const Ground& ground) {
+  if (ground.suite.is_drawn) {
+    const std::uint64_t index = seed - ground.suite.first_seed;
+    return ImportDrawnHome(ground.jar, index % evaluation::DrawnHomes().size(),
+                           static_cast<int>(seed), ground.place.scenes());
+  }
   world::HouseParams params;
   params.seed = seed;
   params.floors = seed % 3 == 0 ? 3 : 2;
-  const auto house = world::GenerateHouse(params, place.scenes());
-  if (!house && house.error().code == ErrorCode::kInvalid) return std::string();
+  const auto house = world::GenerateHouse(params, ground.place.scenes());
+  if (!house && house.error().code == ErrorCode::kInvalid) return fs::path();
   if (!house) return tl::unexpected(house.error());
+  return house->folder;
+}
+
+/// House with its days and visits; empty text if the seed gives no house.
+Result<std::string> MakeHouse(std::uint64_t seed, const Ground& ground) {
+  const auto first = FirstDay(seed, ground);
+  if (!first) return tl::unexpected(first.error());
+  if (first->empty()) return std::string();
+  const LifelongSuite& suite = ground.suite;
+  const fs::path scenes = ground.place.scenes();
   world::DaysOptions options;
   options.seed = seed;
   options.days = suite.days;
   options.kinds = NightOf();
-  const auto days = world::WriteDays(house->folder, place.scenes(), options);
+  options.may_be_fewer = suite.is_drawn;  // there are nine of them
+  const auto days = world::WriteDays(*first, scenes, options);
   if (!days && days.error().code == ErrorCode::kInvalid) return std::string();
   if (!days) return tl::unexpected(days.error());
   const evaluation::RunConfig config = MakerConfig();
   std::vector<evaluation::VisitDay> visited;
   for (int day = 0; day <= suite.days; ++day) {
     evaluation::VisitDay next;
-    const std::string id =
-        day == 0 ? house->scene_id : (*days)[static_cast<std::size_t>(day) - 1].list.scene;
-    auto context = evaluation::SceneContext::Load(place.scenes(), id, config);
+    const std::string id = day == 0 ? first->filename().string()
+                                    : (*days)[static_cast<std::size_t>(day) - 1].list.scene;
+    auto context = evaluation::SceneContext::Load(scenes, id, config);
     if (!context) return tl::unexpected(context.error());
     next.scene_id = id;
     next.context = std::move(*context);
@@ -84,8 +109,7 @@ Result<std::string> MakeHouse(const LifelongSuite& suite, std::uint64_t seed,
   return evaluation::VisitsText(*visits);
 }
 
-Result<void> MakeHouses(const LifelongSuite& suite, const LifelongPlace& place, int jobs,
-                        int wanted, std::uint64_t& seed,
+Result<void> MakeHouses(const Ground& ground, int jobs, int wanted, std::uint64_t& seed,
                         std::vector<evaluation::HouseVisit>& visits, int& houses,
                         Console& console) {
   std::map<int, std::string> texts;
@@ -93,24 +117,22 @@ Result<void> MakeHouses(const LifelongSuite& suite, const LifelongPlace& place, 
   evaluation::PoolTask task;
   task.count = wanted;
   task.jobs = jobs;
-  task.work = [&](int item) {
-    return MakeHouse(suite, first + static_cast<std::uint64_t>(item), place);
-  };
+  task.work = [&](int item) { return MakeHouse(first + static_cast<std::uint64_t>(item), ground); };
   task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
     if (answer.end != evaluation::ItemEnd::kDone) {
       return Fail(answer.error.code, answer.error.Message(),
                   fmt::format("house of seed {}", first + static_cast<std::uint64_t>(item)));
     }
     texts[item] = answer.text;
-    console.Progress(
-        fmt::format("house {} of {}", houses + static_cast<int>(texts.size()), suite.houses));
+    console.Progress(fmt::format("house {} of {}", houses + static_cast<int>(texts.size()),
+                                 ground.suite.houses));
     return {};
   };
   if (auto ok = evaluation::RunPool(task); !ok) return ok;
   seed += static_cast<std::uint64_t>(wanted);
   for (const auto& [item, text] : texts) {
     if (text.empty()) continue;
-    auto file = evaluation::ParseVisits(text, suite.name);
+    auto file = evaluation::ParseVisits(text, ground.suite.name);
     if (!file) return tl::unexpected(file.error());
     ++houses;
     for (auto& visit : file->visits) visits.push_back(std::move(visit));
@@ -133,6 +155,10 @@ Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console&
   if (auto ok = evaluation::CheckOutputFile(place.visits(), "--out"); !ok) {
     return tl::unexpected(ok.error());
   }
+  const Ground ground{*suite, options.homes, place};
+  if (suite->is_drawn) {
+    if (auto ok = CheckHomesArchive(ground.jar); !ok) return tl::unexpected(ok.error());
+  }
   fs::remove_all(place.scenes(), ignored);  // of a make that was interrupted
   std::vector<evaluation::HouseVisit> visits;
   int houses = 0;
@@ -140,9 +166,8 @@ Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console&
   const std::uint64_t last = seed + kSeedsAHouse * static_cast<std::uint64_t>(suite->houses);
   while (houses < suite->houses) {
     if (seed >= last) return Fail(ErrorCode::kInvalid, "too few seeds give a house", suite->name);
-    if (auto ok = MakeHouses(*suite, place, options.jobs, suite->houses - houses, seed, visits,
-                             houses, console);
-        !ok) {
+    const int wanted = suite->houses - houses;
+    if (auto ok = MakeHouses(ground, options.jobs, wanted, seed, visits, houses, console); !ok) {
       return tl::unexpected(ok.error());
     }
   }

@@ -85,37 +85,47 @@ Result<MeshHashes> GenerateBuildings(const evaluation::SuiteDefinition& suite,
   return meshes;
 }
 
+Result<void> CheckHomesArchive(const fs::path& jar) {
+  std::error_code error;
+  if (fs::is_regular_file(jar, error)) return {};
+  return Fail(ErrorCode::kNotFound,
+              "no such file; install the package sweethome3d, or unpack it and name its "
+              "sweethome3d.jar with --homes",
+              jar.string());
+}
+
+Result<fs::path> ImportDrawnHome(const fs::path& jar, std::size_t home, int number,
+                                 const fs::path& scenes) {
+  homes::ImportOptions import;
+  import.input = jar;
+  import.out_dir = scenes;
+  import.home = evaluation::DrawnHomes()[home];
+  import.name = fmt::format("{:05}-{}", number, import.home);
+  const auto report = homes::ImportScene(import);
+  if (!report) return tl::unexpected(report.error());
+  return report->folder;
+}
+
 Result<MeshHashes> ImportDrawnHomes(const fs::path& jar, const fs::path& scenes, int jobs,
                                     Console& console) {
-  std::error_code error;
-  if (!fs::is_regular_file(jar, error)) {
-    return Fail(ErrorCode::kNotFound,
-                "no such file; install the package sweethome3d, or unpack it and name its "
-                "sweethome3d.jar with --homes",
-                jar.string());
-  }
+  if (auto ok = CheckHomesArchive(jar); !ok) return tl::unexpected(ok.error());
   const auto homes = evaluation::DrawnHomes();
   MeshHashes meshes;
   evaluation::PoolTask task;
   task.count = static_cast<int>(homes.size());
   task.jobs = jobs;
-  const auto id_of = [&](int item) {
-    return fmt::format("{:05}-{}", item + 1, homes[static_cast<std::size_t>(item)]);
-  };
   task.work = [&](int item) -> Result<std::string> {
-    homes::ImportOptions import;
-    import.input = jar;
-    import.out_dir = scenes;
-    import.home = homes[static_cast<std::size_t>(item)];
-    import.name = id_of(item);
-    const auto report = homes::ImportScene(import);
-    if (!report) return tl::unexpected(report.error());
-    return MeshHashOf(report->folder);
+    const auto folder = ImportDrawnHome(jar, static_cast<std::size_t>(item), item + 1, scenes);
+    if (!folder) return tl::unexpected(folder.error());
+    const auto hash = MeshHashOf(*folder);
+    if (!hash) return hash;
+    return folder->filename().string() + " " + *hash;
   };
   task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
     if (answer.end != evaluation::ItemEnd::kDone)
-      return Fail(answer.error.code, answer.error.Message(), id_of(item));
-    meshes[id_of(item)] = answer.text;
+      return Fail(answer.error.code, answer.error.Message(), homes[static_cast<std::size_t>(item)]);
+    const std::size_t blank = answer.text.find(' ');
+    meshes[answer.text.substr(0, blank)] = answer.text.substr(blank + 1);
     console.Progress(fmt::format("home {} of {}", meshes.size(), homes.size()));
     return {};
   };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Buildings of a suite's tracks, below a folder of scenes. Each function returns the mesh hash of
-// each scene by its name.
+// Buildings of a suite's tracks, below a folder of scenes.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +11,7 @@
 
 namespace crossnav::app {
 
+/// Mesh hash of each scene, by its name.
 using MeshHashes = std::map<std::string, std::string>;
 
 /// Houses of the first valid seeds, independent of the number of processes.
@@ -19,7 +19,14 @@ Result<MeshHashes> GenerateBuildings(const evaluation::SuiteDefinition& suite,
                                      const std::filesystem::path& scenes,
                                      const world::FurniturePack* pack, int jobs, Console& console);
 
-/// The example homes in the archive `jar` of Sweet Home 3D. Error: no such file.
+/// Error: the archive of Sweet Home 3D is not there, with the remedy.
+Result<void> CheckHomesArchive(const std::filesystem::path& jar);
+
+/// Imports home `home` of evaluation::DrawnHomes as scene `<number>-<home>`; its folder.
+Result<std::filesystem::path> ImportDrawnHome(const std::filesystem::path& jar, std::size_t home,
+                                              int number, const std::filesystem::path& scenes);
+
+/// The example homes in the archive `jar`. Error: as CheckHomesArchive.
 Result<MeshHashes> ImportDrawnHomes(const std::filesystem::path& jar,
                                     const std::filesystem::path& scenes, int jobs,
                                     Console& console);

@@ -57,5 +57,15 @@ TEST_F(LifelongCli, AMemoryKeptThroughDaysOfChangeStaysBoundedAndSurvivesKilledS
   EXPECT_EQ(Run(command).exit_code, 1) << "days begin with nothing";
 }
 
+TEST_F(LifelongCli, DrawnHomesNeedTheirArchive) {
+  const Outcome outcome =
+      Run("suite make crossnav-lifelong-1-drawn --homes no.jar --out suites --quiet");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("no.jar: no such file; install the package sweethome3d"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(test::fs::exists(At("suites/crossnav-lifelong-1-drawn/visits.json")));
+}
+
 }  // namespace
 }  // namespace crossnav
