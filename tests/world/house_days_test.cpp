@@ -69,7 +69,8 @@ void WallY(BoxHouse& house, double y, double a, double b, double door) {
 }
 
 /// Three rooms in a ring: 0 left, 1 right below, 2 right above. The doorway 0 - 1 has an open leaf.
-sim::Scene RingHouse() {
+/// `boxed_in`: a sofa stands in a closed box of walls, so that nobody can see it.
+sim::Scene RingHouse(bool boxed_in = false) {
   BoxHouse house;
   house.Floor(0, 0, 0, 4, 8);
   house.Floor(1, 4, 0, 8, 4);
@@ -93,6 +94,14 @@ sim::Scene RingHouse() {
   house.Add("plant", 1, {7.2, 3.2, 0}, {7.5, 3.5, 1.0}, {50, 140, 60});
   house.Add("plant", 2, {7.2, 4.5, 0}, {7.5, 4.8, 1.0}, {50, 140, 60});
   house.Add("toilet", 1, {4.3, 3.3, 0}, {4.7, 3.8, 0.5}, {250, 250, 250});
+  if (boxed_in) {
+    house.Add("sofa", 2, {5.0, 5.0, 0}, {5.4, 5.4, 0.5}, {90, 90, 90});
+    WallX(house, 4.9, 4.9, 5.5, -1);
+    WallX(house, 5.5, 4.9, 5.5, -1);
+    WallY(house, 4.9, 4.9, 5.5, -1);
+    WallY(house, 5.5, 4.9, 5.5, -1);
+    house.Wall({4.85, 4.85, 0.6}, {5.55, 5.55, 0.7});
+  }
   return house.Finish();
 }
 
@@ -303,6 +312,15 @@ TEST(HouseDays, TheGateRefusesADayThatLosesACategory) {
   ASSERT_TRUE(quiet.has_value()) << quiet.error().Message();
   EXPECT_TRUE(quiet->list.changes.empty());
   EXPECT_EQ(quiet->missing, std::vector<ChangeKind>{ChangeKind::kRemoved});
+}
+
+/// Regression: a home that people drew had a sofa that cannot be seen, and no later days.
+TEST(HouseDays, ACategoryThatCouldNotBeSeenOnTheFirstDayNeedNotBeSeenLater) {
+  auto calendar = HouseCalendar::Begin(RingHouse(true), Options({ChangeKind::kSameFurniture}));
+  ASSERT_TRUE(calendar.has_value());
+  const auto day = calendar->Next();
+  ASSERT_TRUE(day.has_value()) << day.error().Message();
+  EXPECT_EQ(day->list.changes.size(), 1U);
 }
 
 TEST(HouseDays, AHouseWithoutNamesOrThatIsNotThereIsAnError) {

@@ -70,21 +70,30 @@ std::set<std::string> CategoriesOf(const sim::Scene& scene) {
   return categories;
 }
 
-Result<void> CheckCategories(const sim::Scene& first, const sim::Scene& scene,
-                             const sim::NavMesh& navmesh, const sim::RayCaster& caster,
-                             const Vector3d& start_world) {
-  const auto before = CategoriesOf(first), now = CategoriesOf(scene);
+/// Whether an instance of `category` can be viewed.
+bool IsAnyViewable(const sim::Scene& scene, const sim::NavMesh& navmesh,
+                   const sim::RayCaster& caster, const std::string& category,
+                   const Vector3d& start_world) {
+  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
+    return instance.category == category && !instance.box.empty() &&
+           IsViewable(scene, navmesh, caster, instance, start_world);
+  });
+}
+
+Result<void> CheckCategories(const HouseView& first, const sim::Scene& first_scene,
+                             const sim::Scene& scene, const sim::NavMesh& navmesh,
+                             const sim::RayCaster& caster, const Vector3d& start_world) {
+  const auto before = CategoriesOf(first_scene), now = CategoriesOf(scene);
   if (now.size() < std::min(kMinCategories, before.size())) {
     return RefuseDay("fewer than five categories", scene.id);
   }
   for (const std::string& category : now) {
-    const bool is_viewable =
-        std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
-          return instance.category == category && !instance.box.empty() &&
-                 IsViewable(scene, navmesh, caster, instance, start_world);
-        });
-    const bool was_there = before.contains(category);
-    if (was_there && !is_viewable) return RefuseDay("no instance can be viewed", category);
+    if (!before.contains(category)) continue;
+    if (IsAnyViewable(scene, navmesh, caster, category, start_world)) continue;
+    // In imported homes a category may have been hidden from the start.
+    const sim::RayCaster first_caster(first_scene);
+    if (IsAnyViewable(first_scene, *first.navmesh, first_caster, category, first.start_world))
+      return RefuseDay("no instance can be viewed", category);
   }
   return {};
 }
@@ -115,7 +124,7 @@ Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, con
   if (auto ok = CheckRooms(first, navmesh, day.shut, *start); !ok) return ok;
   const sim::RayCaster caster(scene);
   if (auto ok = CheckChanged(scene, navmesh, caster, *start, day.changes); !ok) return ok;
-  return CheckCategories(first_scene, scene, navmesh, caster, *start);
+  return CheckCategories(first, first_scene, scene, navmesh, caster, *start);
 }
 
 }  // namespace crossnav::world

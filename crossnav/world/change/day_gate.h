@@ -20,8 +20,8 @@ struct JudgedDay {
   const ShutRooms& shut;
 };
 /// Error with the first reason: a floor or room that was usable on the first day is gone or cut
-/// off, fewer than five categories (or than the first day had), a category or a changed object that
-/// cannot be viewed from a place that the start reaches.
+/// off, fewer than five categories (or than the first day had), a category that could be viewed on
+/// the first day, or a changed object, that cannot be viewed from a place that the start reaches.
 Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, const JudgedDay& day,
                       const sim::NavMesh& navmesh);
 
