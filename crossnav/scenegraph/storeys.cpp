@@ -48,7 +48,7 @@ std::map<int, std::set<VoxelKey>> StandingByHeight(const VoxelMap& map) {
 }
 
 /// Removes the piece that holds `seed` from `standing`: heights within one voxel of the seed's.
-Level TakePiece(std::map<int, std::set<VoxelKey>>& standing, const VoxelKey& seed) {
+Level TakePiece(std::map<int, std::set<VoxelKey>>& standing, VoxelKey seed) {
   Level level{seed.z, {}};
   std::deque<VoxelKey> open = {seed};
   standing[seed.z].erase(seed);
