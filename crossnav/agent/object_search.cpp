@@ -231,8 +231,10 @@ class SearchPrices {
   std::optional<int> current_room_;
 };
 
-/// A believed record was not visited, because no way leads there.
+/// The goal was seen and not approached, or a believed record was not visited, because no way leads
+/// there.
 bool HasPlaceBeyondReach(const Situation& now) {
+  if (!now.goal.live.Stable(now.config.policy.object).empty()) return true;
   const auto& book = now.world.objects;
   const std::string category = KnownAs(book.records(), now.goal.goal);
   const auto is_believed = [&](const HistoryPoi& poi) {
