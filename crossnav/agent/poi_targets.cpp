@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "crossnav/agent/claims.h"
+#include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/shared_parts.h"
 #include "crossnav/policy/approach.h"
 #include "crossnav/policy/frontiers.h"
@@ -23,6 +24,7 @@ constexpr double kUnderFoot_m = 0.5;  // chosen: lower voxels belong to another 
 constexpr double kFloorShare = 0.25;  // chosen: of the most places at one height; treads have less
 constexpr double kStandBeside_m = 0.6;  // chosen: a robot and a step from the object
 constexpr double kOverGround_m = 0.35;  // chosen: a sill or a step, and a voxel
+constexpr double kStuck_m = 0.5;        // chosen: two steps
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
@@ -169,8 +171,23 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
   return WayBackTo(now, start, settled->p_foot_world);
 }
 
+namespace {
+
+/// An approach made no progress from about here; from elsewhere another way may lead there. A claim
+/// without a second view goes back to the first.
+bool WasStuckHere(const Situation& now, const policy::LivePoi& poi) {
+  if (now.goal.full.claims.no_second_view_of == poi.id) return false;
+  const auto stuck = StuckApproaches(now, poi.p_center_world);
+  return std::any_of(stuck.begin(), stuck.end(), [&](const Vector3d& p_from_world) {
+    return (p_from_world - now.agent.p_world).norm() < kStuck_m;
+  });
+}
+
+}  // namespace
+
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& start) {
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
+    if (WasStuckHere(now, *poi)) continue;
     auto target = ViewOf(now, start, *poi);
     if (!target) continue;
     auto standing = std::move(target->candidate.standing);

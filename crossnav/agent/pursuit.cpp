@@ -23,6 +23,8 @@ constexpr double kProgress_m = 0.1;        // chosen: one voxel
 constexpr int kMaxReplans = 5;             // chosen: longer paths that observations explain
 constexpr double kGapAhead_m = 1.0;        // chosen: a gap that the body had begun to try
 constexpr double kWalledInRadius_m = 1.0;  // chosen: bumps that may wall the agent in
+constexpr std::size_t kMostStuck =
+    3;  // chosen: approaches without progress before a claim is dropped
 
 /// Marks were forgotten here before, and the same headings failed again.
 bool WasUnmarkedHere(const StepState& now) {
@@ -228,9 +230,19 @@ void MeasureProgress(StepState& now) {
   const policy::ClaimTracker& claims = now.goal.full.claims;
   if (const Approach* approach = std::get_if<Approach>(&pursuit);
       approach &&
-      (claims.second_view_of != approach->poi_id || claims.no_second_view_of == approach->poi_id))
+      (claims.second_view_of != approach->poi_id || claims.no_second_view_of == approach->poi_id) &&
+      StuckApproaches(now, approach->target.p_focus_world).size() + 1 >= kMostStuck)
     now.goal.live.Discard(approach->poi_id);
   End(now, Ending::kNoProgress);
+}
+
+std::vector<Vector3d> StuckApproaches(const Situation& now, const Vector3d& p_object_world) {
+  std::vector<Vector3d> p_from_world;
+  for (const Attempt& attempt : now.goal.full.attempts)
+    if (attempt.kind == policy::CandidateKind::kLivePoi && attempt.ending == Ending::kNoProgress &&
+        (attempt.p_focus_world - p_object_world).norm() <= now.config.policy.poi.blacklist_xy_m)
+      p_from_world.push_back(attempt.p_from_world);
+  return p_from_world;
 }
 
 double DistanceToEnd(const Situation& now) {

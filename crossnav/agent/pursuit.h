@@ -36,4 +36,7 @@ double DistanceToEnd(const Situation& now);
 /// Counts steps. Ends a pursuit whose path does not get shorter for too long.
 void MeasureProgress(StepState& now);
 
+/// Places from which approaches to the object about `p_object_world` made no progress.
+std::vector<Vector3d> StuckApproaches(const Situation& now, const Vector3d& p_object_world);
+
 }  // namespace crossnav::agent

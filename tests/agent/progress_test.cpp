@@ -10,6 +10,7 @@
 
 #include "agent/two_rooms.h"
 #include "crossnav/agent/act.h"
+#include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/core/rng.h"
@@ -136,6 +137,42 @@ TEST(Progress, ARememberedPlaceThatIsNotReachedIsNotLookedAt) {
   for (int i = 0; i < 40; ++i) (void)Act(given.now, {});
   EXPECT_EQ(given.goal.history.front().looked, 0);
   EXPECT_FALSE(given.goal.history.front().is_exhausted);
+}
+
+// Regression: an approach that a bump stopped counted as a refuted claim. The agent passed the
+// television again and again, in plain sight, and said that it was gone.
+TEST(Progress, AnApproachThatMadeNoProgressIsTriedFromElsewhere) {
+  Ground given;
+  policy::Sighting sighting;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 1; k <= 4; ++k) sighting.voxels.push_back({24 + i, 15, k});
+  sighting.p_center_world = Vector3d(2.6, 1.55, 0.3);
+  sighting.confidence = sighting.mask_quality = 0.9;
+  sighting.area_fraction = 0.1;
+  const policy::ObjectConfig& object = given.config.policy.object;
+  for (const int step : {1, 2})
+    given.goal.live.Update({sighting}, object, given.config.map.voxel_m, step);
+  for (const VoxelKey& key : sighting.voxels)
+    test::SetState(given.world.map, key, geometry::VoxelState::kOccupied);
+  given.world.ground.Rebuild(given.world.map);
+  const auto choose = [&] {
+    return ChooseLivePoi(given.now, *given.world.ground.StandingAt(given.now.agent.p_world));
+  };
+  const Vector3d stuck = given.now.agent.p_world;
+  const Vector3d kElsewhere_m[] = {{-0.6, 0.3, 0}, {-0.3, -0.6, 0}, {0, 0.9, 0}};
+  for (int tries = 1; tries <= 3; ++tries) {
+    auto target = choose();
+    ASSERT_TRUE(target) << tries;
+    Approach approach;
+    approach.poi_id = *target->candidate.poi_id;
+    approach.target = target->candidate;
+    approach.route.path = target->path;
+    Begin(given.now, std::move(approach));
+    for (int i = 0; i < 60; ++i) MeasureProgress(given.now);
+    EXPECT_FALSE(choose()) << "not from where it stopped";
+    given.now.agent.p_world = stuck + kElsewhere_m[tries - 1];
+  }
+  EXPECT_FALSE(choose()) << "three are enough";
 }
 
 // Regression: marks of bumps on all sides of a narrow place closed every exit, to the end of the
