@@ -118,7 +118,7 @@ Result<MeshHashes> ImportDrawnHomes(const fs::path& jar, const fs::path& scenes,
     const auto folder = ImportDrawnHome(jar, static_cast<std::size_t>(item), item + 1, scenes);
     if (!folder) return tl::unexpected(folder.error());
     const auto hash = MeshHashOf(*folder);
-    if (!hash) return hash;
+    if (!hash) return tl::unexpected(hash.error());
     return folder->filename().string() + " " + *hash;
   };
   task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {

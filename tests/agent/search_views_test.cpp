@@ -66,8 +66,8 @@ TEST(SearchViews, ATopAboveTheCameraIsLookedAtLevel) {
   EXPECT_LT(low->cost_m, high->cost_m);
 }
 
-/// Regression: a television was given up 60 actions after its record was gone, in a room that nobody
-/// had looked into, because the way there was long for its probability.
+/// Regression: a television was given up 60 actions after its record was gone, in a room that
+/// nobody had looked into, because the way there was long for its probability.
 TEST(SearchViews, WhatCostsMuchForItsProbabilityIsLeftOutOnlyAfterManyActions) {
   RoomWithTop room(4, 0.0042);
   room.goal.full.search->notice_range_m = 0.9;  // nothing shows it from where the agent is
