@@ -101,14 +101,21 @@ std::vector<std::vector<evaluation::HouseVisit>> ByHouse(const evaluation::Visit
   return houses;
 }
 
-/// Records that the run's file already holds. Error: the file belongs to another run.
-Result<evaluation::VisitResults> Started(const fs::path& path, const evaluation::VisitRun& run) {
+/// Records that the run's file already holds, without houses that failed. Error: the file belongs
+/// to another run.
+Result<evaluation::VisitResults> Started(const fs::path& path, const evaluation::VisitRun& run,
+                                         Console& console) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return evaluation::VisitResults{run, {}};
   const auto text = ReadFile(path);
   if (!text) return tl::unexpected(text.error());
   auto results = evaluation::ParseVisitResults(*text, path.string());
-  if (!results || results->run == run) return results;
+  if (!results) return results;
+  if (results->run == run) {
+    if (const int failed = evaluation::DropFailedHouses(&*results); failed > 0)
+      console.Log(fmt::format("{} houses with a failed visit are played again", failed));
+    return results;
+  }
   return Fail(
       ErrorCode::kMismatch,
       "is of other visits, settings, perception or version; remove it, or use another --out",
@@ -216,8 +223,10 @@ Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& commo
   std::error_code error;
   fs::create_directories(chain.run / "memory", error);
   if (error) return Fail(ErrorCode::kIo, error.message(), (chain.run / "memory").string());
-  auto results = Started(path, {file->content_hash, *mode, "full", settings,
-                                config->eval.perception + "-perception", CROSSNAV_VERSION});
+  auto results = Started(path,
+                         {file->content_hash, *mode, "full", settings,
+                          config->eval.perception + "-perception", CROSSNAV_VERSION},
+                         console);
   if (!results) return tl::unexpected(results.error());
   if (auto ok = PlayHouses(ByHouse(*file), options.jobs, chain, *results, console); !ok) return ok;
   console.EndProgress();

@@ -93,6 +93,22 @@ TEST(Visits, ResultsAreReadAsTheyWereWritten) {
   EXPECT_FALSE(ParseVisitResults(text.substr(0, text.size() - 20), "visits.jsonl").has_value());
 }
 
+/// Regression: two houses that a full disk had stopped counted as played, for ever.
+TEST(Visits, HousesThatFailedArePlayedAgain) {
+  VisitResults results;
+  for (const char* house : {"a", "b"})
+    for (int day = 0; day < 3; ++day) {
+      VisitRecord& record = results.records.emplace_back();
+      record.house = house;
+      record.day = day;
+    }
+  EXPECT_EQ(DropFailedHouses(&results), 0);
+  results.records.back().failure = "b.map: the disk is full";
+  EXPECT_EQ(DropFailedHouses(&results), 1);
+  ASSERT_EQ(results.records.size(), 3U);
+  for (const VisitRecord& record : results.records) EXPECT_EQ(record.house, "a");
+}
+
 TEST(StaleWatch, CountsHowOftenTheAgentSetsOutForAPlaceThatIsStale) {
   StaleWatch watch({{2, 0, 0}, {8, 0, 0}});
   const auto step_to = [&](const char* kind, double x) {

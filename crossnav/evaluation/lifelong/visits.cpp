@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "crossnav/core/categories.h"
 #include "crossnav/core/lines.h"
@@ -203,6 +204,15 @@ double GoalRecord::Spl() const {
   if (!success) return 0;
   const double longest_m = std::max(shortest_m, length_m);
   return longest_m <= 0 ? 1 : shortest_m / longest_m;
+}
+
+int DropFailedHouses(VisitResults* results) {
+  std::set<std::string> failed;
+  for (const VisitRecord& record : results->records)
+    if (!record.failure.empty()) failed.insert(record.house);
+  std::erase_if(results->records,
+                [&](const VisitRecord& record) { return failed.contains(record.house); });
+  return static_cast<int>(failed.size());
 }
 
 std::string VisitLine(const VisitRecord& record) {

@@ -92,6 +92,9 @@ struct VisitResults {
 /// JSON Lines: the run, then one line per visit.
 std::string VisitResultsText(const VisitResults& results);
 Result<VisitResults> ParseVisitResults(std::string_view text, const std::string& where);
+/// Drops the records of houses with a failed visit (a full disk, a killed process) and returns the
+/// number of these houses: a run that goes on plays them again.
+int DropFailedHouses(VisitResults* results);
 std::string VisitLine(const VisitRecord& record);
 Result<VisitRecord> ParseVisitLine(const std::string& line, const std::string& where);
 
