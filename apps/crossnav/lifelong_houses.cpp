@@ -52,41 +52,40 @@ evaluation::RunConfig MakerConfig() {
   return config;
 }
 
-/// Where houses come from and go to.
-struct Ground {
+struct HouseSource {
   const LifelongSuite& suite;
-  fs::path jar;
+  fs::path jar;  ///< of Sweet Home 3D, for drawn homes
   LifelongPlace place;
 };
 
 /// Scene folder of the first day; empty if the seed gives no house.
-Result<fs::path> FirstDay(std::uint64_t seed, const Ground& ground) {
-  if (ground.suite.is_drawn) {
-    const std::uint64_t index = seed - ground.suite.first_seed;
-    return ImportDrawnHome(ground.jar, index % evaluation::DrawnHomes().size(),
-                           static_cast<int>(seed), ground.place.scenes());
+Result<fs::path> FirstDay(std::uint64_t seed, const HouseSource& source) {
+  if (source.suite.is_drawn) {
+    const std::uint64_t index = seed - source.suite.first_seed;
+    return ImportDrawnHome(source.jar, index % evaluation::DrawnHomes().size(),
+                           static_cast<int>(seed), source.place.scenes());
   }
   world::HouseParams params;
   params.seed = seed;
   params.floors = seed % 3 == 0 ? 3 : 2;
-  const auto house = world::GenerateHouse(params, ground.place.scenes());
+  const auto house = world::GenerateHouse(params, source.place.scenes());
   if (!house && house.error().code == ErrorCode::kInvalid) return fs::path();
   if (!house) return tl::unexpected(house.error());
   return house->folder;
 }
 
 /// House with its days and visits; empty text if the seed gives no house.
-Result<std::string> MakeHouse(std::uint64_t seed, const Ground& ground) {
-  const auto first = FirstDay(seed, ground);
+Result<std::string> MakeHouse(std::uint64_t seed, const HouseSource& source) {
+  const auto first = FirstDay(seed, source);
   if (!first) return tl::unexpected(first.error());
   if (first->empty()) return std::string();
-  const LifelongSuite& suite = ground.suite;
-  const fs::path scenes = ground.place.scenes();
+  const LifelongSuite& suite = source.suite;
+  const fs::path scenes = source.place.scenes();
   world::DaysOptions options;
   options.seed = seed;
   options.days = suite.days;
   options.kinds = NightOf();
-  options.may_be_fewer = suite.is_drawn;  // there are nine of them
+  options.may_be_fewer = suite.is_drawn;  // another seed is no other home
   const auto days = world::WriteDays(*first, scenes, options);
   if (!days && days.error().code == ErrorCode::kInvalid) return std::string();
   if (!days) return tl::unexpected(days.error());
@@ -109,7 +108,7 @@ Result<std::string> MakeHouse(std::uint64_t seed, const Ground& ground) {
   return evaluation::VisitsText(*visits);
 }
 
-Result<void> MakeHouses(const Ground& ground, int jobs, int wanted, std::uint64_t& seed,
+Result<void> MakeHouses(const HouseSource& source, int jobs, int wanted, std::uint64_t& seed,
                         std::vector<evaluation::HouseVisit>& visits, int& houses,
                         Console& console) {
   std::map<int, std::string> texts;
@@ -117,7 +116,7 @@ Result<void> MakeHouses(const Ground& ground, int jobs, int wanted, std::uint64_
   evaluation::PoolTask task;
   task.count = wanted;
   task.jobs = jobs;
-  task.work = [&](int item) { return MakeHouse(first + static_cast<std::uint64_t>(item), ground); };
+  task.work = [&](int item) { return MakeHouse(first + static_cast<std::uint64_t>(item), source); };
   task.deliver = [&](int item, const evaluation::ItemAnswer& answer) -> Result<void> {
     if (answer.end != evaluation::ItemEnd::kDone) {
       return Fail(answer.error.code, answer.error.Message(),
@@ -125,14 +124,14 @@ Result<void> MakeHouses(const Ground& ground, int jobs, int wanted, std::uint64_
     }
     texts[item] = answer.text;
     console.Progress(fmt::format("house {} of {}", houses + static_cast<int>(texts.size()),
-                                 ground.suite.houses));
+                                 source.suite.houses));
     return {};
   };
   if (auto ok = evaluation::RunPool(task); !ok) return ok;
   seed += static_cast<std::uint64_t>(wanted);
   for (const auto& [item, text] : texts) {
     if (text.empty()) continue;
-    auto file = evaluation::ParseVisits(text, ground.suite.name);
+    auto file = evaluation::ParseVisits(text, source.suite.name);
     if (!file) return tl::unexpected(file.error());
     ++houses;
     for (auto& visit : file->visits) visits.push_back(std::move(visit));
@@ -155,9 +154,9 @@ Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console&
   if (auto ok = evaluation::CheckOutputFile(place.visits(), "--out"); !ok) {
     return tl::unexpected(ok.error());
   }
-  const Ground ground{*suite, options.homes, place};
+  const HouseSource source{*suite, options.homes, place};
   if (suite->is_drawn) {
-    if (auto ok = CheckHomesArchive(ground.jar); !ok) return tl::unexpected(ok.error());
+    if (auto ok = CheckHomesArchive(source.jar); !ok) return tl::unexpected(ok.error());
   }
   fs::remove_all(place.scenes(), ignored);  // of a make that was interrupted
   std::vector<evaluation::HouseVisit> visits;
@@ -167,7 +166,7 @@ Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console&
   while (houses < suite->houses) {
     if (seed >= last) return Fail(ErrorCode::kInvalid, "too few seeds give a house", suite->name);
     const int wanted = suite->houses - houses;
-    if (auto ok = MakeHouses(ground, options.jobs, wanted, seed, visits, houses, console); !ok) {
+    if (auto ok = MakeHouses(source, options.jobs, wanted, seed, visits, houses, console); !ok) {
       return tl::unexpected(ok.error());
     }
   }

@@ -24,7 +24,7 @@ constexpr double kUnderFoot_m = 0.5;  // chosen: lower voxels belong to another 
 constexpr double kFloorShare = 0.25;  // chosen: of the most places at one height; treads have less
 constexpr double kStandBeside_m = 0.6;  // chosen: a robot and a step from the object
 constexpr double kOverGround_m = 0.35;  // chosen: a sill or a step, and a voxel
-constexpr double kStuck_m = 0.5;        // chosen: two steps
+constexpr double kStuck_m = 0.5;        // chosen: two steps from where an approach was stuck
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {

@@ -23,8 +23,7 @@ constexpr double kProgress_m = 0.1;        // chosen: one voxel
 constexpr int kMaxReplans = 5;             // chosen: longer paths that observations explain
 constexpr double kGapAhead_m = 1.0;        // chosen: a gap that the body had begun to try
 constexpr double kWalledInRadius_m = 1.0;  // chosen: bumps that may wall the agent in
-constexpr std::size_t kMostStuck =
-    3;  // chosen: approaches without progress before a claim is dropped
+constexpr std::size_t kMostStuck = 3;      // chosen: approaches without progress to one object
 
 /// Marks were forgotten here before, and the same headings failed again.
 bool WasUnmarkedHere(const StepState& now) {

@@ -15,6 +15,7 @@
 #include "crossnav/agent/object_search.h"
 #include "crossnav/agent/poi_targets.h"
 #include "support/map_of_states.h"
+#include "support/sightings.h"
 
 namespace crossnav::agent {
 namespace {
@@ -79,15 +80,10 @@ TEST(CutOff, WhatIsInSightBehindANarrowGapIsNotGone) {
   given.world.revision.emplace();
   given.goal.full.search.emplace().unseen = 0;  // everywhere else was looked at
   EXPECT_TRUE(IsSurelyAbsent(given.now));
-  policy::Sighting goal_in_sight;
-  for (int i = 0; i < 4; ++i)
-    for (int k = 1; k <= 4; ++k) goal_in_sight.voxels.push_back({30 + i, 10, k});
-  goal_in_sight.p_center_world = Vector3d(3.2, 1.05, 0.3);
-  goal_in_sight.confidence = goal_in_sight.mask_quality = 0.9;
-  goal_in_sight.area_fraction = 0.1;
   for (const int step : {1, 2})
-    given.goal.live.Update({goal_in_sight}, given.config.policy.object, given.config.map.voxel_m,
-                           step);
+    given.goal.live.Update({test::SightingOfWall({30, 10, 1})}, given.config.policy.object,
+                           given.config.map.voxel_m, step);
+  EXPECT_FALSE(IsSurelyAbsent(given.now));
   ASSERT_TRUE(TryLastResort(given.now));
   EXPECT_NE(given.goal.events.back().find("narrow gaps are tried"), std::string::npos)
       << given.goal.events.back();

@@ -15,6 +15,7 @@
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/core/rng.h"
 #include "support/map_of_states.h"
+#include "support/sightings.h"
 
 namespace crossnav::agent {
 namespace {
@@ -143,12 +144,7 @@ TEST(Progress, ARememberedPlaceThatIsNotReachedIsNotLookedAt) {
 // television again and again, in plain sight, and said that it was gone.
 TEST(Progress, AnApproachThatMadeNoProgressIsTriedFromElsewhere) {
   Ground given;
-  policy::Sighting sighting;
-  for (int i = 0; i < 4; ++i)
-    for (int k = 1; k <= 4; ++k) sighting.voxels.push_back({24 + i, 15, k});
-  sighting.p_center_world = Vector3d(2.6, 1.55, 0.3);
-  sighting.confidence = sighting.mask_quality = 0.9;
-  sighting.area_fraction = 0.1;
+  const policy::Sighting sighting = test::SightingOfWall({24, 15, 1});
   const policy::ObjectConfig& object = given.config.policy.object;
   for (const int step : {1, 2})
     given.goal.live.Update({sighting}, object, given.config.map.voxel_m, step);

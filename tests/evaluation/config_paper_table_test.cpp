@@ -23,6 +23,7 @@
 #include "crossnav/policy/takeover.h"
 #include "support/flight_world.h"
 #include "support/map_of_states.h"
+#include "support/sightings.h"
 
 namespace crossnav::evaluation {
 namespace {
@@ -162,20 +163,11 @@ std::vector<VoxelKey> Block(int x, int count) {
   return keys;
 }
 
-policy::Sighting SightingOf(std::vector<VoxelKey> voxels, double confidence, double area) {
-  policy::Sighting sighting;
-  sighting.p_center_world = policy::CentroidOf(voxels, 0.1);
-  sighting.voxels = std::move(voxels);
-  sighting.confidence = confidence;
-  sighting.mask_quality = 0.9;
-  sighting.area_fraction = area;
-  return sighting;
-}
-
 TEST(ConfigPaperTable, DetectorConfidenceAndBoxArea) {
   const auto counts = [](double confidence, double area) {
     policy::LivePois pois;
-    pois.Update({SightingOf(Block(0, 27), confidence, area)}, kAgent.policy.object, 0.1, 0);
+    pois.Update({crossnav::test::SightingOf(Block(0, 27), confidence, area)}, kAgent.policy.object,
+                0.1, 0);
     return pois.all().size();
   };
   EXPECT_EQ(counts(0.70, 0.1), 1u);
@@ -188,9 +180,9 @@ TEST(ConfigPaperTable, SecondaryConfidence) {
   for (const double confidence : {0.59, 0.60}) {
     policy::LivePois pois;
     const auto& object = kAgent.policy.object;
-    pois.Update({SightingOf(Block(0, 27), 0.9, 0.1)}, object, 0.1, 0);
+    pois.Update({crossnav::test::SightingOf(Block(0, 27), 0.9, 0.1)}, object, 0.1, 0);
     const int id = pois.all().front().id;
-    pois.Update({SightingOf(Block(1, 27), confidence, 0.1)}, object, 0.1, 1, id);
+    pois.Update({crossnav::test::SightingOf(Block(1, 27), confidence, 0.1)}, object, 0.1, 1, id);
     EXPECT_EQ(pois.all().front().frames, confidence < 0.6 ? 1 : 2);
   }
 }
@@ -221,8 +213,8 @@ policy::Verification VerifyAt(double confidence, double distance_m) {
   AgentPose agent;
   agent.p_world = {0.95 - distance_m, 0.15, 0};
   obs.T_world_camera = CameraPose(agent, 0.88);
-  return policy::Verify(poi, {SightingOf(poi.voxels, confidence, 0.1)}, {obs, agent, 0.88},
-                        kAgent.policy, 0.1);
+  return policy::Verify(poi, {crossnav::test::SightingOf(poi.voxels, confidence, 0.1)},
+                        {obs, agent, 0.88}, kAgent.policy, 0.1);
 }
 
 TEST(ConfigPaperTable, FoundConfidenceAndTargetApproachRange) {

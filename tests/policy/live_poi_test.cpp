@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "crossnav/policy/clusters.h"
+#include "support/sightings.h"
 
 namespace crossnav::policy {
 namespace {
@@ -48,13 +49,7 @@ std::vector<VoxelKey> CubeAt(int x, int side = 3) {
 }
 
 Sighting SightingOf(std::vector<VoxelKey> voxels, double confidence = 0.8, double area = 0.1) {
-  Sighting sighting;
-  sighting.p_center_world = CentroidOf(voxels, 0.1);
-  sighting.voxels = std::move(voxels);
-  sighting.confidence = confidence;
-  sighting.mask_quality = 0.9;
-  sighting.area_fraction = area;
-  return sighting;
+  return test::SightingOf(std::move(voxels), confidence, area);
 }
 
 TEST(LiftDetections, VoxelsComeFromTheMaskedPixels) {

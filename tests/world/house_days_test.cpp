@@ -314,7 +314,8 @@ TEST(HouseDays, TheGateRefusesADayThatLosesACategory) {
   EXPECT_EQ(quiet->missing, std::vector<ChangeKind>{ChangeKind::kRemoved});
 }
 
-/// Regression: a home that people drew had a sofa that cannot be seen, and no later days.
+/// Regression: in a home that people drew no way leads from the largest room to the beds and the
+/// toilet; it had no later days.
 TEST(HouseDays, ACategoryThatCouldNotBeSeenOnTheFirstDayNeedNotBeSeenLater) {
   auto calendar = HouseCalendar::Begin(RingHouse(true), Options({ChangeKind::kSameFurniture}));
   ASSERT_TRUE(calendar.has_value());

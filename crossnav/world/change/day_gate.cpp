@@ -90,7 +90,7 @@ Result<void> CheckCategories(const HouseView& first, const sim::Scene& first_sce
   for (const std::string& category : now) {
     if (!before.contains(category)) continue;
     if (IsAnyViewable(scene, navmesh, caster, category, start_world)) continue;
-    // In imported homes a category may have been hidden from the start.
+    // In imported homes a category may have been out of reach on the first day.
     const sim::RayCaster first_caster(first_scene);
     if (IsAnyViewable(first_scene, *first.navmesh, first_caster, category, first.start_world))
       return RefuseDay("no instance can be viewed", category);
