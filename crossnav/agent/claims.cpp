@@ -17,6 +17,7 @@ using policy::ClaimVerdict;
 namespace {
 
 constexpr double kHintShare = 0.5;  // chosen: a hint costs a walk, a claim the episode
+constexpr int kSteady_frames = 10;  // chosen: a walk past it; noise shows fewer
 
 bool JudgesByViews(const Config& config) {
   return DoubtsClaims(config) && config.verify.evidence == "views";
@@ -330,9 +331,35 @@ void SettleFor(StepState& now, int poi_id) {
   goal.events.push_back("back to the likeliest refuted claim, P " + TwoDigits(object.probability));
 }
 
+bool SettleForHint(StepState& now) {
+  GoalState& goal = now.goal;
+  const policy::ObjectConfig& object = now.config.policy.object;
+  if (!DoubtsClaims(now.config) || JudgesByViews(now.config)) return false;
+  const policy::LivePoi* best = nullptr;
+  for (const policy::LivePoi& hint : goal.full.hints.all())
+    if (!hint.is_discarded && hint.frames >= kSteady_frames &&
+        hint.confidence < object.detector_confidence &&
+        hint.confidence >= (best ? best->confidence : object.secondary_confidence))
+      best = &hint;
+  if (!best) return false;
+  goal.events.push_back("nothing left: back to what " + std::to_string(best->frames) +
+                        " frames showed, confidence " + TwoDigits(best->confidence));
+  const int hint_id = best->id;
+  goal.full.claims.settled_for.push_back({goal.live.Adopt(*best, object), now.agent.p_world});
+  goal.full.hints.Discard(hint_id);
+  return true;
+}
+
+double ConfidenceForStop(const Situation& now, int poi_id) {
+  const policy::ObjectConfig& object = now.config.policy.object;
+  const bool is_hint = !JudgesByViews(now.config) && IsSettledFor(now.goal, poi_id);
+  return is_hint ? std::min(object.secondary_confidence, object.found_confidence)
+                 : object.found_confidence;
+}
+
 bool SettleForLikeliest(StepState& now) {
   const policy::ClaimTracker& claims = now.goal.full.claims;
-  if (!JudgesByViews(now.config)) return false;
+  if (!JudgesByViews(now.config)) return SettleForHint(now);
   JudgeRejectedAgain(now.world, now.config, 0, &now.goal);
   const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
   if (!likeliest) return false;

@@ -65,9 +65,17 @@ const policy::RejectedObject* LikeliestRefuted(const Situation& now, double leas
 /// Makes a rejected object a POI again, which the next frame that confirms it claims.
 void SettleFor(StepState& now, int poi_id);
 
-/// Settles for the likeliest rejected object. False without a likely one (verify.settle,
-/// verify.evidence = views).
+/// Settles for a hint that many frames showed with the secondary confidence, though none with that
+/// of a POI. False without one (verify.evidence = frame).
+bool SettleForHint(StepState& now);
+
+/// Settles for the likeliest rejected object (verify.settle, verify.evidence = views) or hint.
+/// False without a likely one.
 bool SettleForLikeliest(StepState& now);
+
+/// Confidence of the frame that STOP takes (policy.object.found_confidence), less where the agent
+/// settled for a hint.
+double ConfidenceForStop(const Situation& now, int poi_id);
 
 /// The camera of the view that supported a POI most, if the agent settled for it, or of the first
 /// view that claimed it, if no second view does.

@@ -128,6 +128,7 @@ bool TryLastResort(StepState& now) {
   // Before a room or a floor is given up, closed ways are tried.
   if (IsSurelyAbsent(now) ||
       (IsSearchOver(now) && !(HasOpeningResort(goal) && IsPartCutOff(now)))) {
+    if (SettleForHint(now)) return true;
     goal.events.push_back("all explored; everywhere looked at, it is gone");
     return false;
   }

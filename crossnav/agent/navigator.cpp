@@ -41,7 +41,7 @@ ClaimVerdict JudgeClaim(StepState& now, const policy::LivePoi& poi,
 /// Issues STOP where this frame confirms a live POI. False if it confirms none.
 bool TryConfirmGoal(StepState& now, Decision& decision) {
   for (const policy::LivePoi* poi : now.goal.live.Stable(now.config.policy.object)) {
-    auto verification = VerifyNow(now, *poi);
+    auto verification = VerifyNow(now, *poi, ConfidenceForStop(now, poi->id));
     verification.passed = verification.passed || IsDecidedByViews(now, *poi, verification);
     if (verification.passed &&
         !ObjectStorey(now, poi->voxels, poi->p_center_world).Has(now.agent.p_world)) {

@@ -174,7 +174,8 @@ Decision Decide(StepState& given) {
   const auto& target = SelectTarget(decision.mode, options);  // eq:supp_candidate_priority
   const policy::LivePoi* claimed =
       decision.mode.uses_live_poi ? goal.live.Find(goal.active_live) : nullptr;
-  if (claimed) decision.verification = VerifyNow(given, *claimed);
+  if (claimed)
+    decision.verification = VerifyNow(given, *claimed, given.config.policy.object.found_confidence);
   const bool is_looking = look && decision.mode.mode == Mode::kBasicExplore;
   decision.action = is_looking ? look : Act(now, decision.mode, target, decision.verification);
   if (!decision.action && Reconsider(now)) decision.action = Action::kTurnLeft;

@@ -54,9 +54,12 @@ Config OfProfile(Config config) {
   return config;
 }
 
-policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi) {
+policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi,
+                               double found_confidence) {
+  policy::PolicyConfig config = now.config.policy;
+  config.object.found_confidence = found_confidence;
   return policy::Verify(poi, now.sightings, {now.obs, now.agent, now.config.sensor.camera_height_m},
-                        now.config.policy, now.config.map.voxel_m);
+                        config, now.config.map.voxel_m);
 }
 
 double DistanceToEndOf(const std::vector<geometry::VoxelKey>& path, const Vector3d& p_foot,

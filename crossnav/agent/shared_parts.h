@@ -20,8 +20,10 @@ trace::CandidateTrace TraceOf(const policy::Candidate& candidate, double voxel_m
 /// Settings as a profile uses them: published methods measure to the nearest voxel of an object.
 Config OfProfile(Config config);
 
-/// Verification of `poi` by the frame of this step.
-policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi);
+/// Verification of `poi` by the frame of this step; `found_confidence` stands for that of the
+/// settings.
+policy::Verification VerifyNow(const Situation& now, const policy::LivePoi& poi,
+                               double found_confidence);
 
 /// Distance from the foot position `p_foot` to the end of `path`, which is not empty [m]:
 /// horizontal, and what it is above or below beyond two treads.

@@ -145,6 +145,14 @@ std::vector<const LivePoi*> LivePois::Stable(const ObjectConfig& config) const {
   return stable;
 }
 
+int LivePois::Adopt(const LivePoi& poi, const ObjectConfig& config) {
+  LivePoi& adopted = pois_.emplace_back(poi);
+  adopted.id = next_id_++;
+  adopted.frames = std::max(adopted.frames, config.stable_frames);
+  adopted.is_discarded = false;
+  return adopted.id;
+}
+
 const LivePoi* LivePois::Find(int id) const {
   const auto it =
       std::find_if(pois_.begin(), pois_.end(), [&](const LivePoi& poi) { return poi.id == id; });

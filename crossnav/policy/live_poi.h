@@ -58,6 +58,9 @@ class LivePois {
   /// Stable and not discarded, most confident first.
   std::vector<const LivePoi*> Stable(const ObjectConfig& config) const;
 
+  /// Adds a POI of another list as a stable one; returns its id here.
+  int Adopt(const LivePoi& poi, const ObjectConfig& config);
+
   const LivePoi* Find(int id) const;
   void Discard(int id);
   const std::vector<LivePoi>& all() const { return pois_; }

@@ -90,6 +90,31 @@ TEST(CutOff, WhatIsInSightBehindANarrowGapIsNotGone) {
   EXPECT_TRUE(given.Reaches({28, 10, 1}));
 }
 
+TEST(CutOff, WhatManyFramesShowedWeaklyIsNotGone) {
+  TwoFloors given;
+  given.world.revision.emplace();
+  given.goal.full.search.emplace().unseen = 0;  // everywhere was looked at
+  policy::ObjectConfig weak = given.config.policy.object;
+  weak.detector_confidence = given.config.policy.explore.hint_confidence;
+  policy::Sighting lamp = test::SightingOfWall({10, 10, 1});
+  lamp.confidence = 0.65;
+  const auto see = [&](int from, int to) {
+    for (int step = from; step < to; ++step)
+      given.goal.full.hints.Update({lamp}, weak, given.config.map.voxel_m, step);
+  };
+  see(0, 9);
+  EXPECT_FALSE(TryLastResort(given.now));
+  EXPECT_NE(given.goal.events.back().find("it is gone"), std::string::npos);
+  see(9, 10);
+  ASSERT_TRUE(TryLastResort(given.now));
+  EXPECT_NE(given.goal.events.back().find("back to what 10 frames showed"), std::string::npos)
+      << given.goal.events.back();
+  ASSERT_EQ(given.goal.live.Stable(given.config.policy.object).size(), 1U);
+  EXPECT_FALSE(TryLastResort(given.now) && TryLastResort(given.now) &&
+               given.goal.full.claims.settled_for.size() > 1)
+      << "settled for once";
+}
+
 TEST(CutOff, AnUnreachableLevelIsNamedInTheDeclaration) {
   TwoFloors given;
   AddGround(given.world.map, 0, 0, 10, 10, 28);
