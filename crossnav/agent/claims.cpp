@@ -17,11 +17,6 @@ using policy::ClaimVerdict;
 namespace {
 
 constexpr double kHintShare = 0.5;  // chosen: a hint costs a walk, a claim the episode
-constexpr int kSteady_frames = 10;  // chosen: a walk past it; noise shows fewer
-
-bool JudgesByViews(const Config& config) {
-  return DoubtsClaims(config) && config.verify.evidence == "views";
-}
 
 std::string TwoDigits(double value) {
   char text[16];
@@ -89,18 +84,6 @@ double ProbabilityOf(const Situation& now, const policy::LivePoi& poi) {
   return policy::ProbabilityOf(summary, OpinionOf(now, poi), now.config.verify);
 }
 
-/// Views that were noted since a rejection count. Objects below `least` by their views keep their
-/// probability, because the memory's answer takes time.
-void JudgeRejectedAgain(const World& world, const Config& config, double least, GoalState* goal) {
-  const policy::VerifyConfig& verify = config.verify;
-  for (policy::RejectedObject& object : goal->full.claims.rejected) {
-    const auto summary = SummaryOf(*goal, config, goal->full.claims.ViewsOf(object.poi_id));
-    if (ProbabilityOf(summary, verify.views) < least) continue;
-    object.probability =
-        policy::ProbabilityOf(summary, OpinionOf(world, *goal, config, object.voxels), verify);
-  }
-}
-
 /// Views of a hint in plain sight. Where all of them missed it, the sighting that made it a hint is
 /// the only one: from afar, or cut off.
 policy::ViewSummary SummaryOfHint(const Situation& now, const policy::LivePoi& hint) {
@@ -138,11 +121,25 @@ bool DoubtsClaims(const Config& config) {
   return config.verify.memory == "on" && config.policy.profile == "full" && !config.policy.planar;
 }
 
+bool JudgesByViews(const Config& config) {
+  return DoubtsClaims(config) && config.verify.evidence == "views";
+}
+
 void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* world) {
   if (!DoubtsClaims(config) || !world->full.names.empty()) return;
   for (const char* name : policy::RivalNames())
     if (auto vector = encoder.EncodeText(name))
       world->full.names.push_back({name, std::move(*vector)});
+}
+
+void JudgeRejectedAgain(const World& world, const Config& config, double least, GoalState* goal) {
+  const policy::VerifyConfig& verify = config.verify;
+  for (policy::RejectedObject& object : goal->full.claims.rejected) {
+    const auto summary = SummaryOf(*goal, config, goal->full.claims.ViewsOf(object.poi_id));
+    if (ProbabilityOf(summary, verify.views) < least) continue;
+    object.probability =
+        policy::ProbabilityOf(summary, OpinionOf(world, *goal, config, object.voxels), verify);
+  }
 }
 
 std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sightings,
@@ -294,78 +291,6 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
   }
   now.world.objects.Refute(SpacedName(goal.goal), poi.voxels);
   goal.live.Discard(poi.id);
-}
-
-const policy::RejectedObject* LikeliestRefuted(const Situation& now, double least_probability) {
-  if (!JudgesByViews(now.config)) return nullptr;
-  const policy::RejectedObject* likeliest = nullptr;
-  for (const policy::RejectedObject& object : now.goal.full.claims.rejected)
-    if (object.probability >= (likeliest ? likeliest->probability : least_probability) &&
-        !IsSettledFor(now.goal, object.poi_id))
-      likeliest = &object;
-  return likeliest;
-}
-
-void SettleFor(StepState& now, int poi_id) {
-  GoalState& goal = now.goal;
-  policy::ClaimTracker& claims = goal.full.claims;
-  const auto rejected =
-      std::find_if(claims.rejected.begin(), claims.rejected.end(),
-                   [&](const policy::RejectedObject& object) { return object.poi_id == poi_id; });
-  CROSSNAV_CHECK(rejected != claims.rejected.end(), "only a rejected object is settled for");
-  const auto object = policy::RejectedObject(*rejected);  // the list loses it
-  std::erase_if(claims.rejected, [&](const policy::RejectedObject& other) {
-    return policy::IsSameObject(object.voxels, object.p_center_world, other.voxels,
-                                other.p_center_world, now.config.policy.object.merge_distance_m);
-  });
-  claims.settled_for.push_back({object.poi_id, object.p_foot_world});
-  goal.live.Forgive(object.poi_id);
-  std::erase_if(goal.full.failed,
-                [&](const FailedViews& views) { return views.poi_id == object.poi_id; });
-  if (goal.active_live == object.poi_id) {
-    goal.tried_viewpoints.clear();
-    goal.failed_views = 0;
-    goal.full.doubtful_m = 0;
-  }
-  if (claims.second_view_of == object.poi_id) claims.second_view_of = -1;
-  goal.events.push_back("back to the likeliest refuted claim, P " + TwoDigits(object.probability));
-}
-
-bool SettleForHint(StepState& now) {
-  GoalState& goal = now.goal;
-  const policy::ObjectConfig& object = now.config.policy.object;
-  if (!DoubtsClaims(now.config) || JudgesByViews(now.config)) return false;
-  const policy::LivePoi* best = nullptr;
-  for (const policy::LivePoi& hint : goal.full.hints.all())
-    if (!hint.is_discarded && hint.frames >= kSteady_frames &&
-        hint.confidence < object.detector_confidence &&
-        hint.confidence >= (best ? best->confidence : object.secondary_confidence))
-      best = &hint;
-  if (!best) return false;
-  goal.events.push_back("nothing left: back to what " + std::to_string(best->frames) +
-                        " frames showed, confidence " + TwoDigits(best->confidence));
-  const int hint_id = best->id;
-  goal.full.claims.settled_for.push_back({goal.live.Adopt(*best, object), now.agent.p_world});
-  goal.full.hints.Discard(hint_id);
-  return true;
-}
-
-double ConfidenceForStop(const Situation& now, int poi_id) {
-  const policy::ObjectConfig& object = now.config.policy.object;
-  const bool is_hint = !JudgesByViews(now.config) && IsSettledFor(now.goal, poi_id);
-  return is_hint ? std::min(object.secondary_confidence, object.found_confidence)
-                 : object.found_confidence;
-}
-
-bool SettleForLikeliest(StepState& now) {
-  const policy::ClaimTracker& claims = now.goal.full.claims;
-  if (!JudgesByViews(now.config)) return SettleForHint(now);
-  JudgeRejectedAgain(now.world, now.config, 0, &now.goal);
-  const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
-  if (!likeliest) return false;
-  now.goal.events.push_back("nothing left");
-  SettleFor(now, claims.rejected[*likeliest].poi_id);
-  return true;
 }
 
 std::optional<Vector3d> ViewToReturnTo(const Situation& now, int poi_id) {

@@ -13,6 +13,8 @@ namespace crossnav::agent {
 
 /// Whether claims are compared with the memory.
 bool DoubtsClaims(const Config& config);
+/// Whether they are judged by all views, misses included (verify.evidence = views).
+bool JudgesByViews(const Config& config);
 
 /// Text vectors of the names that compete with claims, once for an encoder; names that the encoder
 /// cannot encode are left out.
@@ -22,6 +24,10 @@ void LearnNames(perception::DenseEncoder& encoder, const Config& config, World* 
 std::vector<policy::Sighting> WithoutRejected(std::vector<policy::Sighting> sightings,
                                               const Vector3d& p_camera_world, const World& world,
                                               const Config& config, GoalState* goal);
+
+/// Views that were noted since a rejection count. Objects below `least` by their views keep their
+/// probability, because the memory's answer takes time.
+void JudgeRejectedAgain(const World& world, const Config& config, double least, GoalState* goal);
 
 /// Final verdict on a POI that this frame confirms; kWeak requests a view from another side.
 policy::ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
@@ -57,25 +63,6 @@ bool IsUnlikelyHint(const Situation& now, const policy::LivePoi& hint);
 /// Gives up a POI: it, hints of it and remembered places on it are not tried again for this goal
 /// until there is new evidence.
 void Reject(StepState& now, const policy::LivePoi& poi);
-
-/// The likeliest rejected object, by the views so far; null if none has at least this probability
-/// (verify.evidence = views). Objects that the agent settled for before are left out.
-const policy::RejectedObject* LikeliestRefuted(const Situation& now, double least_probability);
-
-/// Makes a rejected object a POI again, which the next frame that confirms it claims.
-void SettleFor(StepState& now, int poi_id);
-
-/// Settles for a hint that many frames showed with the secondary confidence, though none with that
-/// of a POI. False without one (verify.evidence = frame).
-bool SettleForHint(StepState& now);
-
-/// Settles for the likeliest rejected object (verify.settle, verify.evidence = views) or hint.
-/// False without a likely one.
-bool SettleForLikeliest(StepState& now);
-
-/// Confidence of the frame that STOP takes (policy.object.found_confidence), less where the agent
-/// settled for a hint.
-double ConfidenceForStop(const Situation& now, int poi_id);
 
 /// The camera of the view that supported a POI most, if the agent settled for it, or of the first
 /// view that claimed it, if no second view does.

@@ -3,11 +3,11 @@
 
 #include <array>
 
-#include "crossnav/agent/claims.h"
 #include "crossnav/agent/cut_off.h"
 #include "crossnav/agent/object_search.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/settle.h"
 #include "crossnav/agent/wanted_instance.h"
 
 namespace crossnav::agent {
@@ -128,7 +128,7 @@ bool TryLastResort(StepState& now) {
   // Before a room or a floor is given up, closed ways are tried.
   if (IsSurelyAbsent(now) ||
       (IsSearchOver(now) && !(HasOpeningResort(goal) && IsPartCutOff(now)))) {
-    if (SettleForHint(now)) return true;
+    if (SettleForSteadySight(now)) return true;
     goal.events.push_back("all explored; everywhere looked at, it is gone");
     return false;
   }

@@ -15,6 +15,7 @@
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/progress.h"
 #include "crossnav/agent/remembered_places.h"
+#include "crossnav/agent/settle.h"
 #include "crossnav/agent/shared_parts.h"
 #include "crossnav/agent/wanted_instance.h"
 

@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "crossnav/agent/claims.h"
+#include "crossnav/agent/settle.h"
 
 namespace crossnav::agent {
 

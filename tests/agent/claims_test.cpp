@@ -276,6 +276,22 @@ TEST(Claims, WhatManyFramesShowWeaklyIsTheAnswerOnceNothingElseIsLeft) {
   EXPECT_EQ(CountEvents(glimpse, "back to what"), 0);
 }
 
+/// Regression: the memory named the table behind such a lamp, which refuted it for good.
+TEST(Claims, WhatTheMemoryRefutesIsTheAnswerOnceNothingElseIsLeft) {
+  FakeSight sight = Liar(0, true, 0.75F);
+  sight.text = [text = sight.text](std::string_view name) {
+    return text(name == "bed" ? "sofa" : name == "sofa" ? "bed" : name);
+  };
+  Agent agent(SmallConfig(), FakeSuite(sight));
+  EXPECT_TRUE(agent.SetGoal("bed").has_value());
+  BoxWalker walker = SofaAndBed();
+  const Walk search = RunAgent(agent, walker, 900);
+  EXPECT_GE(CountEvents(search, "claim refuted"), 1);
+  EXPECT_EQ(CountEvents(search, "back to what"), 1);
+  ASSERT_TRUE(search.p_claimed_world);
+  EXPECT_LT(kBed.HorizontalDistance(*search.p_claimed_world), 0.1);
+}
+
 /// A couch at the end of a passage, which shows one side alone and is a bed with 0.75 from there;
 /// the bench before it keeps the agent `bench_m` away.
 Walk SearchPassage(double patience, double bench_m) {

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "crossnav/agent/settle.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "crossnav/agent/claims.h"
+#include "crossnav/core/check.h"
+
+namespace crossnav::agent {
+
+namespace {
+
+constexpr int kSteady_frames = 10;  // chosen: a walk past it; noise shows fewer
+
+std::string TwoDigits(double value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+}  // namespace
+
+const policy::RejectedObject* LikeliestRefuted(const Situation& now, double least_probability) {
+  if (!JudgesByViews(now.config)) return nullptr;
+  const policy::RejectedObject* likeliest = nullptr;
+  for (const policy::RejectedObject& object : now.goal.full.claims.rejected)
+    if (object.probability >= (likeliest ? likeliest->probability : least_probability) &&
+        !now.goal.full.claims.SettledFor(object.poi_id))
+      likeliest = &object;
+  return likeliest;
+}
+
+namespace {
+
+/// Makes a rejected object a POI again. Returns it as it was rejected.
+policy::RejectedObject TakeBack(StepState& now, int poi_id) {
+  GoalState& goal = now.goal;
+  policy::ClaimTracker& claims = goal.full.claims;
+  const auto rejected =
+      std::find_if(claims.rejected.begin(), claims.rejected.end(),
+                   [&](const policy::RejectedObject& object) { return object.poi_id == poi_id; });
+  CROSSNAV_CHECK(rejected != claims.rejected.end(), "only a rejected object is settled for");
+  const auto object = policy::RejectedObject(*rejected);  // the list loses it
+  std::erase_if(claims.rejected, [&](const policy::RejectedObject& other) {
+    return policy::IsSameObject(object.voxels, object.p_center_world, other.voxels,
+                                other.p_center_world, now.config.policy.object.merge_distance_m);
+  });
+  claims.settled_for.push_back({object.poi_id, object.p_foot_world});
+  goal.live.Forgive(object.poi_id);
+  std::erase_if(goal.full.failed,
+                [&](const FailedViews& views) { return views.poi_id == object.poi_id; });
+  if (goal.active_live == object.poi_id) {
+    goal.tried_viewpoints.clear();
+    goal.failed_views = 0;
+    goal.full.doubtful_m = 0;
+  }
+  if (claims.second_view_of == object.poi_id) claims.second_view_of = -1;
+  return object;
+}
+
+/// Frames that showed an object, weak ones included.
+int FramesOf(const Situation& now, const policy::RejectedObject& object) {
+  int frames = 0;
+  for (const policy::LivePoi& hint : now.goal.full.hints.all())
+    if (policy::IsSameObject(object.voxels, object.p_center_world, hint.voxels, hint.p_center_world,
+                             now.config.policy.object.merge_distance_m))
+      frames = std::max(frames, hint.frames);
+  return frames;
+}
+
+/// The most confident of the refuted claims that many frames showed; null if there is none.
+const policy::RejectedObject* BestRefuted(const Situation& now) {
+  const policy::ClaimTracker& claims = now.goal.full.claims;
+  const policy::RejectedObject* best = nullptr;
+  for (const policy::RejectedObject& object : claims.rejected)
+    if (!claims.SettledFor(object.poi_id) && (!best || object.confidence > best->confidence) &&
+        FramesOf(now, object) >= kSteady_frames)
+      best = &object;
+  return best;
+}
+
+/// Likewise of the hints. What was a POI was judged as such.
+const policy::LivePoi* BestHint(const Situation& now) {
+  const policy::ObjectConfig& object = now.config.policy.object;
+  const policy::LivePoi* best = nullptr;
+  for (const policy::LivePoi& hint : now.goal.full.hints.all())
+    if (!hint.is_discarded && hint.frames >= kSteady_frames &&
+        hint.confidence < object.detector_confidence &&
+        hint.confidence >= (best ? best->confidence : object.secondary_confidence))
+      best = &hint;
+  return best;
+}
+
+}  // namespace
+
+void SettleFor(StepState& now, int poi_id) {
+  const auto object = TakeBack(now, poi_id);
+  now.goal.events.push_back("back to the likeliest refuted claim, P " +
+                            TwoDigits(object.probability));
+}
+
+bool SettleForSteadySight(StepState& now) {
+  if (!DoubtsClaims(now.config) || JudgesByViews(now.config)) return false;
+  GoalState& goal = now.goal;
+  const auto say = [&](int frames, double confidence) {
+    goal.events.push_back("nothing left: back to what " + std::to_string(frames) +
+                          " frames showed, confidence " + TwoDigits(confidence));
+  };
+  if (const policy::RejectedObject* claim = BestRefuted(now)) {
+    say(FramesOf(now, *claim), claim->confidence);
+    TakeBack(now, claim->poi_id);
+    return true;
+  }
+  const policy::LivePoi* hint = BestHint(now);
+  if (!hint) return false;
+  say(hint->frames, hint->confidence);
+  const int hint_id = hint->id;
+  const int poi_id = goal.live.Adopt(*hint, now.config.policy.object);
+  goal.full.claims.settled_for.push_back({poi_id, now.agent.p_world});
+  goal.full.hints.Discard(hint_id);
+  return true;
+}
+
+double ConfidenceForStop(const Situation& now, int poi_id) {
+  const policy::ObjectConfig& object = now.config.policy.object;
+  const bool is_weak = !JudgesByViews(now.config) && now.goal.full.claims.SettledFor(poi_id);
+  return is_weak ? std::min(object.secondary_confidence, object.found_confidence)
+                 : object.found_confidence;
+}
+
+bool SettleForLikeliest(StepState& now) {
+  const policy::ClaimTracker& claims = now.goal.full.claims;
+  if (!JudgesByViews(now.config)) return SettleForSteadySight(now);
+  JudgeRejectedAgain(now.world, now.config, 0, &now.goal);
+  const auto likeliest = policy::LikeliestOfRejected(claims, now.config.verify);
+  if (!likeliest) return false;
+  now.goal.events.push_back("nothing left");
+  SettleFor(now, claims.rejected[*likeliest].poi_id);
+  return true;
+}
+
+}  // namespace crossnav::agent
