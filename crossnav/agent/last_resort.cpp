@@ -36,6 +36,16 @@ void ForgiveUnreachable(GoalState* goal) {
   });
 }
 
+/// The upper part of a door that stood elsewhere on an earlier day bars the way in the map.
+bool LookUpAtBars(StepState& now) {
+  if (now.world.map.config().clearing != "evidence") return false;
+  const CutOff cut_off = FindCutOff(now);
+  if (cut_off.IsEmpty() || !LookUp(now)) return false;
+  ForgiveUnreachable(&now.goal);
+  now.goal.events.push_back("cut off: " + Describe(cut_off) + "; looking up");
+  return true;
+}
+
 bool Squeeze(StepState& now) {
   const CutOff cut_off = FindCutOff(now);
   if (cut_off.IsEmpty()) return false;
@@ -112,10 +122,10 @@ bool SettleIfAllIsReached(StepState& now) {
 
 // A step out may end on another tread that no path leaves: it is tried several times.
 constexpr std::array kResorts = {
-    TakeGuesses,         SettleIfAllIsReached, LookAroundAgain, ForgetBumps, Squeeze, StepOut,
-    LeaveOutUnreachable, SettleForLikeliest,   SearchClosely,   StepOnSeats, StepOut, StepOut,
-    AskMemoryAgain,      TryAllAgain,          StepOut};
-constexpr std::size_t kOpening = 7;  // the first of them open ways, or leave out what has none
+    TakeGuesses, SettleIfAllIsReached, LookAroundAgain,    ForgetBumps,   LookUpAtBars, Squeeze,
+    StepOut,     LeaveOutUnreachable,  SettleForLikeliest, SearchClosely, StepOnSeats,  StepOut,
+    StepOut,     AskMemoryAgain,       TryAllAgain,        StepOut};
+constexpr std::size_t kOpening = 8;  // the first of them open ways, or leave out what has none
 
 }  // namespace
 

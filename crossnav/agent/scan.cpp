@@ -49,6 +49,21 @@ void LookAround(StepState& now) {
   now.world.full.looked_around_m.push_back(now.agent.p_world.z());
 }
 
+bool LookUp(StepState& now) {
+  constexpr double kUp_rad = DegToRad(30);  // chosen: from the camera to the agent's height, near
+  const ActionConfig& action = now.config.action;
+  if (action.max_pitch_deg == 0) return false;
+  std::deque<Action> turns;
+  AgentPose agent = now.agent;
+  while (const auto pitch = policy::PitchTowards(agent, kUp_rad, action)) {
+    turns.push_back(*pitch);
+    agent.pitch_rad += DegToRad(*pitch == Action::kLookUp ? action.pitch_deg : -action.pitch_deg);
+  }
+  for (const Action turn : FullTurn(agent, kUp_rad, action)) turns.push_back(turn);
+  BeginScan(now, std::move(turns));
+  return true;
+}
+
 std::deque<Action> GlanceFrom(const Situation& now, const geometry::VoxelKey& start) {
   const auto heading_rad =
       policy::GlanceHeading(now.world.ground, start, now.eye, DegToRad(now.config.sensor.hfov_deg),

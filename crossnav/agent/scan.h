@@ -23,6 +23,10 @@ bool HasEscaped(const Situation& now, const Scan& scan);
 /// Begins a full turn with the camera down at the ground.
 void LookAround(StepState& now);
 
+/// Begins a full turn with the camera up: what was overhead on an earlier day may be gone, and the
+/// camera that looks down at the ground does not see it. False if the camera is fixed.
+bool LookUp(StepState& now);
+
 /// Turns towards much unseen ground in sight that was not looked at from `start`. Empty if there is
 /// none.
 std::deque<Action> GlanceFrom(const Situation& now, const geometry::VoxelKey& start);

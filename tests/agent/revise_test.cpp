@@ -314,6 +314,33 @@ TEST(Revise, AnOpenedDoorIsWalkedThrough) {
   }
 }
 
+/// Regression: the camera that looks down at the ground cleared the lower part of a door that was
+/// open by now; the upper part shut the agent in, and five goals of a visit were not found.
+TEST(Revise, TheUpperPartOfADoorThatIsOpenTodayIsLookedAt) {
+  BoxWalker open = testing::TwoRooms();
+  Agent first(ConfigOf("revise"), FakeSuite(testing::CouchSight(kCouch)));
+  ASSERT_TRUE(first.SetGoal("couch").has_value());
+  ASSERT_EQ(RunAgent(first, open, 400).last_action, Action::kStop);
+  BoxWalker shut = testing::TwoRooms();
+  shut.rooms.solids.push_back(BoxOf(4, 0.4, 0, 4.12, 1.4, 2.05));
+  shut.pose.p_world = Vector3d(2.2, 0.9, 0);
+  shut.pose.yaw_rad = shut.pose.pitch_rad = 0;  // level, towards the door
+  ASSERT_TRUE(first.SetGoal("plant").has_value());
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(first.Step(shut.Look()).has_value());
+  const Night night = NightAfter(first);
+  open.pose = shut.pose;
+  open.pose.pitch_rad = DegToRad(-30);
+  Agent second(ConfigOf("revise"), FakeSuite(testing::CouchSight(kCouch)));
+  Wake(night, 1, &second);
+  ASSERT_TRUE(second.SetGoal("couch").has_value());
+  const Walk walk = RunAgent(second, open, 400);
+  EXPECT_EQ(walk.last_action, Action::kStop);
+  const auto looks = std::count_if(
+      walk.traces.begin(), walk.traces.end(),
+      [](const std::string& step) { return step.find("; looking up") != std::string::npos; });
+  EXPECT_EQ(looks, 1);
+}
+
 // The edges of treads fill their voxels in part, so that frames of the second day see through them.
 TEST(Revise, TheTreadsOfAnOldMapAreWalkedDown) {
   BoxWalker up = testing::OpenRisers();
