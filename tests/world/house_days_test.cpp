@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "crossnav/world/change/house_days.h"
+#include "crossnav/world/change/day_gate.h"
 
 #include <gtest/gtest.h>
 
@@ -69,8 +70,9 @@ void WallY(BoxHouse& house, double y, double a, double b, double door) {
 }
 
 /// Three rooms in a ring: 0 left, 1 right below, 2 right above. The doorway 0 - 1 has an open leaf.
-/// `boxed_in`: a sofa stands in a closed box of walls, so that nobody can see it.
-sim::Scene RingHouse(bool boxed_in = false) {
+/// `boxed_in`: a sofa stands in a closed box of walls, so that nobody can see it. `slit_m`: width
+/// of the only way to room 1.
+sim::Scene RingHouse(bool boxed_in = false, double slit_m = 0) {
   BoxHouse house;
   house.Floor(0, 0, 0, 4, 8);
   house.Floor(1, 4, 0, 8, 4);
@@ -101,6 +103,10 @@ sim::Scene RingHouse(bool boxed_in = false) {
     WallY(house, 4.9, 4.9, 5.5, -1);
     WallY(house, 5.5, 4.9, 5.5, -1);
     house.Wall({4.85, 4.85, 0.6}, {5.55, 5.55, 0.7});
+  }
+  if (slit_m > 0) {
+    house.Wall({5.55, 3.95, 0}, {6.45, 4.05, 2.5});
+    house.Wall({3.95, 1.5, 0}, {4.05, 2.45 - slit_m, 2.5});
   }
   return house.Finish();
 }
@@ -312,6 +318,28 @@ TEST(HouseDays, TheGateRefusesADayThatLosesACategory) {
   ASSERT_TRUE(quiet.has_value()) << quiet.error().Message();
   EXPECT_TRUE(quiet->list.changes.empty());
   EXPECT_EQ(quiet->missing, std::vector<ChangeKind>{ChangeKind::kRemoved});
+}
+
+/// Regression: a couch was put so that the way to the rest of a house was a few centimetres wider
+/// than the body; agents went in and never got out.
+TEST(HouseDays, AWayAsNarrowAsTheBodyIsNone) {
+  const DaysOptions options = Options({});
+  const sim::Scene first = RingHouse();
+  const auto view = ViewHouse(first, options.navmesh);
+  const auto before = sim::NavMesh::Build(first, WithRoomToSpare(options.navmesh));
+  ASSERT_TRUE(view && before);
+  for (const double slit_m : {0.5, 0.85}) {
+    const sim::Scene later = RingHouse(false, slit_m);
+    const auto body = sim::NavMesh::Build(later, options.navmesh);
+    const auto spare = sim::NavMesh::Build(later, WithRoomToSpare(options.navmesh));
+    ASSERT_TRUE(body && spare);
+    EXPECT_TRUE(body->Geodesic({1, 1, 0}, {7, 1, 0}).has_value()) << "the body fits";
+    const auto ok = CheckWays(*view, *before, *spare, {});
+    EXPECT_EQ(ok.has_value(), slit_m > 0.6) << slit_m;
+    const std::string reason = ok ? "" : ok.error().Message();
+    EXPECT_EQ(reason.find("as narrow as the body") != std::string::npos, !ok) << reason;
+    EXPECT_TRUE(CheckWays(*view, *spare, *spare, {}).has_value()) << "it was so before";
+  }
 }
 
 /// Regression: in a home that people drew no way leads from the largest room to the beds and the

@@ -37,21 +37,34 @@ std::optional<Vector3d> StartOn(const HouseView& first, const sim::NavMesh& navm
   return std::nullopt;
 }
 
+struct RoomReach {
+  int walkable = 0, reached = 0;  ///< points of the first day's ground
+  bool IsEnough() const { return walkable > 0 && reached >= kDayReachableShare * walkable; }
+};
+
+RoomReach ReachOf(const RoomView& room, const sim::NavMesh& navmesh, const Vector3d& start_world) {
+  constexpr std::size_t kEvery = 4;  // chosen: one point per .3 m, as in the generator's gate
+  RoomReach reach;
+  for (std::size_t i = 0; i < room.ground.size(); i += kEvery) {
+    const auto p = navmesh.Snap(room.ground[i], 0.05, 0.25);
+    if (!p) continue;
+    ++reach.walkable;
+    reach.reached += navmesh.Geodesic(start_world, *p).has_value() ? 1 : 0;
+  }
+  return reach;
+}
+
+std::string NameOf(const RoomView& room) {
+  return fmt::format("room {} on floor {}", room.region, room.floor);
+}
+
 Result<void> CheckRooms(const HouseView& first, const sim::NavMesh& navmesh, const ShutRooms& shut,
                         const Vector3d& start_world) {
-  constexpr std::size_t kEvery = 4;  // chosen: one point per .3 m, as in the generator's gate
   for (const RoomView& room : first.rooms) {
     if (IsShut(shut, room)) continue;
-    int walkable = 0, reached = 0;
-    for (std::size_t i = 0; i < room.ground.size(); i += kEvery) {
-      const auto p = navmesh.Snap(room.ground[i], 0.05, 0.25);
-      if (!p) continue;
-      ++walkable;
-      reached += navmesh.Geodesic(start_world, *p).has_value() ? 1 : 0;
-    }
-    const std::string where = fmt::format("room {} on floor {}", room.region, room.floor);
-    if (walkable == 0) return RefuseDay("no walkable ground in a room", where);
-    if (reached < kDayReachableShare * walkable) return RefuseDay("a room is cut off", where);
+    const RoomReach reach = ReachOf(room, navmesh, start_world);
+    if (reach.walkable == 0) return RefuseDay("no walkable ground in a room", NameOf(room));
+    if (!reach.IsEnough()) return RefuseDay("a room is cut off", NameOf(room));
   }
   return {};
 }
@@ -125,6 +138,27 @@ Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, con
   const sim::RayCaster caster(scene);
   if (auto ok = CheckChanged(scene, navmesh, caster, *start, day.changes); !ok) return ok;
   return CheckCategories(first, first_scene, scene, navmesh, caster, *start);
+}
+
+sim::NavMeshSettings WithRoomToSpare(sim::NavMeshSettings settings) {
+  constexpr double kSpare_m = 0.1;  // chosen: a voxel of the robot's map on each side
+  settings.agent_radius_m += kSpare_m;
+  return settings;
+}
+
+Result<void> CheckWays(const HouseView& first, const sim::NavMesh& first_spare,
+                       const sim::NavMesh& spare, const ShutRooms& shut) {
+  const auto start = StartOn(first, spare, shut), first_start = StartOn(first, first_spare, shut);
+  if (!first_start) return {};
+  if (!start) return RefuseDay("no ground with room to spare", "");
+  for (const RoomView& room : first.rooms) {
+    if (IsShut(shut, room)) continue;
+    // A home may have narrow ways from the first day on.
+    if (ReachOf(room, first_spare, *first_start).IsEnough() &&
+        !ReachOf(room, spare, *start).IsEnough())
+      return RefuseDay("the way to a room is as narrow as the body", NameOf(room));
+  }
+  return {};
 }
 
 }  // namespace crossnav::world

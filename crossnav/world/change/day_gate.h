@@ -25,4 +25,12 @@ struct JudgedDay {
 Result<void> CheckDay(const HouseView& first, const sim::Scene& first_scene, const JudgedDay& day,
                       const sim::NavMesh& navmesh);
 
+/// Settings for a body that is wider by the room that a way must leave it.
+sim::NavMeshSettings WithRoomToSpare(sim::NavMeshSettings settings);
+
+/// Error if a room, not in `shut`, that such a body could reach on the first day cannot be reached
+/// by it. `first_spare`, `spare`: navmeshes of the first day and of this one WithRoomToSpare.
+Result<void> CheckWays(const HouseView& first, const sim::NavMesh& first_spare,
+                       const sim::NavMesh& spare, const ShutRooms& shut);
+
 }  // namespace crossnav::world

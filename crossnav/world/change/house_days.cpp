@@ -50,7 +50,9 @@ Result<HouseCalendar> HouseCalendar::Begin(sim::Scene first, const DaysOptions& 
   Settle(*owned);
   auto view = ViewHouse(*owned, options.navmesh);
   if (!view) return tl::unexpected(view.error());
-  return HouseCalendar(std::move(owned), std::move(*view), options);
+  auto spare = sim::NavMesh::Build(*owned, WithRoomToSpare(options.navmesh));
+  if (!spare) return tl::unexpected(spare.error());
+  return HouseCalendar(std::move(owned), std::move(*view), std::move(*spare), options);
 }
 
 std::vector<ChangeKind> HouseCalendar::KindsOf(int attempt, Rng& rng) const {
@@ -86,6 +88,10 @@ Result<HouseDay> HouseCalendar::Draw(const HouseView& evening, int attempt) cons
       !ok) {
     return tl::unexpected(ok.error());
   }
+  auto spare = sim::NavMesh::Build(next.scene, WithRoomToSpare(options_.navmesh));
+  if (!spare) return tl::unexpected(spare.error());
+  if (auto ok = CheckWays(view_, first_spare_, *spare, next.shut); !ok)
+    return tl::unexpected(ok.error());
   return next;
 }
 

@@ -52,15 +52,21 @@ class HouseCalendar {
   const sim::Scene& first() const { return *first_; }
 
  private:
-  HouseCalendar(std::unique_ptr<sim::Scene> first, HouseView view, const DaysOptions& options)
-      : first_(std::move(first)), view_(std::move(view)), options_(options), evening_(*first_) {}
+  HouseCalendar(std::unique_ptr<sim::Scene> first, HouseView view, sim::NavMesh first_spare,
+                const DaysOptions& options)
+      : first_(std::move(first)),
+        view_(std::move(view)),
+        first_spare_(std::move(first_spare)),
+        options_(options),
+        evening_(*first_) {}
 
   Result<HouseDay> Draw(const HouseView& evening, int attempt) const;
   /// Kinds that an attempt makes.
   std::vector<ChangeKind> KindsOf(int attempt, Rng& rng) const;
 
   std::unique_ptr<sim::Scene> first_;
-  HouseView view_;  // of the first day
+  HouseView view_;            // of the first day
+  sim::NavMesh first_spare_;  // of the first day, with room to spare
   DaysOptions options_;
   sim::Scene evening_;          // of the previous day, without its boards
   std::vector<Change> barred_;  // on the previous day
