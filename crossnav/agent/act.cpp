@@ -26,7 +26,6 @@ constexpr double kArrived_m = 0.35;    // chosen: one forward step and a voxel
 constexpr double kAtEnd_m = 1.0;       // chosen: of the end of a path: a look from there will do
 constexpr int kLooksAtTarget = 6;      // chosen: half a turn, or less and a pitch
 constexpr std::size_t kSides = 3;      // chosen: looks at a remembered place, from pairwise sides
-constexpr double kLines_m = 0.5;       // chosen: two steps
 constexpr double kTouching_m = 0.001;  // chosen: beside a blocked column, not in it
 
 /// The next action along the path; nullopt at its end, or where no step helps.
@@ -65,9 +64,7 @@ std::optional<Action> LookAt(StepState& now, Pursued& pursued, const Vector3d& p
 }
 
 /// No step leads on from here; a few turns later the pursuit ends without progress.
-Action TurnWithoutProgress(StepState& now, Pursued& pursued) {
-  // No line through a passage is left.
-  now.world.ground.BlockContactsWithin(kLines_m, now.agent.p_world);
+Action TurnWithoutProgress(const Situation& now, Pursued& pursued) {
   pursued.route.idle_steps += now.config.policy.explore.progress_steps / 3;
   pursued.route.motion.clear();
   return Action::kTurnLeft;

@@ -52,7 +52,7 @@ void NoteBump(StepState& now) {
   const Vector3d p_contact =
       now.agent.p_world + (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead;
   planner::GroundMap& ground = now.world.ground;
-  ground.NoteContact(now.agent.p_world + kBeyond_m * ahead, p_contact);
+  ground.NoteContact(now.agent.p_world + kBeyond_m * ahead);
   // Through a narrow passage other lines are tried before a column is taken for closed.
   bool is_new =
       IsPassage(ground, p_contact, left) && ground.ContactsWithin(kPassage_m, p_contact) <= kLines;

@@ -343,41 +343,34 @@ bool GroundMap::ForgetBlockedAround(const Vector3d& p_world, double radius_m) {
     if (is_near) Touch(key.x, key.y);
     return is_near;
   });
-  const auto untouched = std::erase_if(contacts_, [&](const Contact& contact) {
-    return (contact.p_axis_world - p_world).norm() <= radius_m;
+  const auto untouched = std::erase_if(contacts_, [&](const Vector3d& p_contact_world) {
+    return (p_contact_world - p_world).norm() <= radius_m;
   });
   if (forgotten > 0) ++revision_;
   return forgotten + untouched > 0;
 }
 
-void GroundMap::NoteContact(const Vector3d& p_axis_world, const Vector3d& p_obstacle_world) {
-  contacts_.push_back({p_axis_world, p_obstacle_world});
-}
-
-bool GroundMap::BlockContactsWithin(double radius_m, const Vector3d& p_world) {
-  bool is_new = false;
-  for (const Contact& contact : contacts_)
-    if ((contact.p_axis_world - p_world).norm() <= radius_m)
-      is_new = Block(contact.p_obstacle_world) || is_new;
-  return is_new;
+void GroundMap::NoteContact(const Vector3d& p_world) {
+  contacts_.push_back(p_world);
 }
 
 bool GroundMap::PassesContact(const Eigen::Vector2d& p_from, const Eigen::Vector2d& p_to,
                               int z) const {
   constexpr double kSame_m = 0.04;  // chosen: positions that the motion search tells apart
   const Eigen::Vector2d step = p_to - p_from;
-  return std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& contact) {
-    if (std::abs(contact.p_axis_world.z() - z * voxel_m_) > climb_ * voxel_m_) return false;
-    const Eigen::Vector2d offset = contact.p_axis_world.head<2>() - p_from;
+  return std::any_of(contacts_.begin(), contacts_.end(), [&](const Vector3d& p_contact_world) {
+    if (std::abs(p_contact_world.z() - z * voxel_m_) > climb_ * voxel_m_) return false;
+    const Eigen::Vector2d offset = p_contact_world.head<2>() - p_from;
     const double share = std::clamp(offset.dot(step) / step.squaredNorm(), 0.0, 1.0);
     return (offset - share * step).norm() < kSame_m;
   });
 }
 
 int GroundMap::ContactsWithin(double radius_m, const Vector3d& p_world) const {
-  return static_cast<int>(std::count_if(
-      contacts_.begin(), contacts_.end(),
-      [&](const Contact& contact) { return (contact.p_axis_world - p_world).norm() <= radius_m; }));
+  return static_cast<int>(
+      std::count_if(contacts_.begin(), contacts_.end(), [&](const Vector3d& p_contact_world) {
+        return (p_contact_world - p_world).norm() <= radius_m;
+      }));
 }
 
 bool GroundMap::WasIn(const Vector3d& p_world) const {

@@ -69,14 +69,11 @@ class GroundMap {
   bool ForgetBlockedAround(const Vector3d& p_world, double radius_m);
   bool HasBlocked() const { return !blocked_.empty() || !contacts_.empty(); }
 
-  /// Notes a position that the body's axis did not get to, and where the obstacle seems to be,
-  /// until ForgetBlocked: finer than Block.
-  void NoteContact(const Vector3d& p_axis_world, const Vector3d& p_obstacle_world);
+  /// Notes a position that the body's axis did not get to, until ForgetBlocked: finer than Block.
+  void NoteContact(const Vector3d& p_world);
   /// Whether a step at height `z` between two positions passes one of them.
   bool PassesContact(const Eigen::Vector2d& p_from, const Eigen::Vector2d& p_to, int z) const;
   int ContactsWithin(double radius_m, const Vector3d& p_world) const;
-  /// Marks the columns of the obstacles of these. False if all were marked.
-  bool BlockContactsWithin(double radius_m, const Vector3d& p_world);
 
   /// Marks the column of `key` as ground without an answer: unobserved space there, at about that
   /// height, is no frontier.
@@ -149,11 +146,8 @@ class GroundMap {
   int first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;  // [tiles]
   std::vector<Tile> tiles_;
   std::set<VoxelKey> blocked_;
-  struct Contact {
-    Vector3d p_axis_world, p_obstacle_world;
-  };
-  std::vector<Contact> contacts_;
-  std::set<VoxelKey> walked_;  // places on rises that the body walked
+  std::vector<Vector3d> contacts_;  // world frame
+  std::set<VoxelKey> walked_;       // places on rises that the body walked
   std::unordered_set<VoxelKey, geometry::VoxelKeyHash> trail_;  // places of the body's axis
   std::unordered_set<VoxelKey, geometry::VoxelKeyHash> unanswered_;
   std::uint64_t revision_ = 0;
