@@ -14,26 +14,8 @@ namespace crossnav::agent {
 
 namespace {
 
-constexpr int kBumps = 6;            // chosen: without progress, before a pursuit is given up
-constexpr int kBumpsInVain = 2;      // chosen: the same, at marked places
-constexpr double kBeyond_m = 0.05;   // chosen: half a voxel on, where the body is no more
-constexpr double kPassage_m = 0.25;  // chosen: half of a narrow passage and a voxel
-constexpr int kLines = 4;            // chosen: through a passage
-
-/// Known obstacles on both sides of a place that lies ahead, or the body came through it: the
-/// obstacle is not as wide as a column.
-bool IsPassage(const planner::GroundMap& ground, const Vector3d& p_world, const Vector3d& left) {
-  constexpr int kBeside = 3;  // chosen: voxels on each side, a body's width and a half
-  if (ground.WasIn(p_world)) return true;
-  const int z = CellsFloor(p_world.z(), ground.voxel_m());
-  const auto is_closed = [&](double side) {
-    for (int k = 1; k <= kBeside; ++k)
-      if (ground.DistanceToObstacle(p_world + side * k * ground.voxel_m() * left, z, 0.01) <= 0)
-        return true;
-    return false;
-  };
-  return is_closed(1) && is_closed(-1);
-}
+constexpr int kBumps = 6;        // chosen: without progress, before a pursuit is given up
+constexpr int kBumpsInVain = 2;  // chosen: the same, at marked places
 
 }  // namespace
 
@@ -51,15 +33,11 @@ void NoteBump(StepState& now) {
   const double voxel_m = now.config.map.voxel_m;
   const Vector3d p_contact =
       now.agent.p_world + (now.config.map.agent_radius_m + 0.5 * voxel_m) * ahead;
-  planner::GroundMap& ground = now.world.ground;
-  ground.NoteContact(now.agent.p_world + kBeyond_m * ahead);
-  // Through a narrow passage other lines are tried before a column is taken for closed.
-  bool is_new =
-      IsPassage(ground, p_contact, left) && ground.ContactsWithin(kPassage_m, p_contact) <= kLines;
   // A bump at a marked place means that the obstacle is wider.
+  bool is_new = false;
   for (double aside_m = 0; aside_m <= 2 * voxel_m && !is_new; aside_m += voxel_m) {
-    is_new = ground.Block(p_contact + aside_m * left);
-    is_new = ground.Block(p_contact - aside_m * left) || is_new;
+    is_new = now.world.ground.Block(p_contact + aside_m * left);
+    is_new = now.world.ground.Block(p_contact - aside_m * left) || is_new;
   }
   if (Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity))) {
     pursued->route.motion.clear();

@@ -333,7 +333,6 @@ bool GroundMap::Block(const Vector3d& p_world) {
 void GroundMap::ForgetBlocked() {
   for (const VoxelKey& key : blocked_) Touch(key.x, key.y);
   blocked_.clear();
-  contacts_.clear();
   ++revision_;
 }
 
@@ -343,41 +342,8 @@ bool GroundMap::ForgetBlockedAround(const Vector3d& p_world, double radius_m) {
     if (is_near) Touch(key.x, key.y);
     return is_near;
   });
-  const auto untouched = std::erase_if(contacts_, [&](const Vector3d& p_contact_world) {
-    return (p_contact_world - p_world).norm() <= radius_m;
-  });
   if (forgotten > 0) ++revision_;
-  return forgotten + untouched > 0;
-}
-
-void GroundMap::NoteContact(const Vector3d& p_world) {
-  contacts_.push_back(p_world);
-}
-
-bool GroundMap::PassesContact(const Eigen::Vector2d& p_from, const Eigen::Vector2d& p_to,
-                              int z) const {
-  constexpr double kSame_m = 0.04;  // chosen: positions that the motion search tells apart
-  const Eigen::Vector2d step = p_to - p_from;
-  return std::any_of(contacts_.begin(), contacts_.end(), [&](const Vector3d& p_contact_world) {
-    if (std::abs(p_contact_world.z() - z * voxel_m_) > climb_ * voxel_m_) return false;
-    const Eigen::Vector2d offset = p_contact_world.head<2>() - p_from;
-    const double share = std::clamp(offset.dot(step) / step.squaredNorm(), 0.0, 1.0);
-    return (offset - share * step).norm() < kSame_m;
-  });
-}
-
-int GroundMap::ContactsWithin(double radius_m, const Vector3d& p_world) const {
-  return static_cast<int>(
-      std::count_if(contacts_.begin(), contacts_.end(), [&](const Vector3d& p_contact_world) {
-        return (p_contact_world - p_world).norm() <= radius_m;
-      }));
-}
-
-bool GroundMap::WasIn(const Vector3d& p_world) const {
-  const VoxelKey key = geometry::KeyOf(p_world, voxel_m_);
-  for (int dz = -climb_; dz <= climb_; ++dz)
-    if (trail_.contains({key.x, key.y, key.z + dz})) return true;
-  return false;
+  return forgotten > 0;
 }
 
 void GroundMap::NoteUnanswered(const VoxelKey& key) {
@@ -391,10 +357,8 @@ void GroundMap::NoteUnanswered(const VoxelKey& key) {
 
 void GroundMap::NoteStep(const Vector3d& p_from_world, const Vector3d& p_to_world) {
   const Vector3d offset = p_to_world - p_from_world;
-  const int samples = CellsCeil(2 * offset.head<2>().norm(), voxel_m_) + 1;
-  for (int i = 0; i <= samples; ++i)
-    trail_.insert(geometry::KeyOf(p_from_world + offset * i / samples, voxel_m_));
   if (std::abs(offset.z()) < kDoorstep_m) return;
+  const int samples = CellsCeil(2 * offset.head<2>().norm(), voxel_m_) + 1;
   const auto height_of = [this](double z_m) { return CellsNearest(z_m, voxel_m_); };
   const int lo = height_of(std::min(p_from_world.z(), p_to_world.z())) - 1;
   const int hi = height_of(std::max(p_from_world.z(), p_to_world.z())) + 1;

@@ -67,13 +67,7 @@ class GroundMap {
   void ForgetBlocked();
   /// Forgets the marks within `radius_m`. False if there were none.
   bool ForgetBlockedAround(const Vector3d& p_world, double radius_m);
-  bool HasBlocked() const { return !blocked_.empty() || !contacts_.empty(); }
-
-  /// Notes a position that the body's axis did not get to, until ForgetBlocked: finer than Block.
-  void NoteContact(const Vector3d& p_world);
-  /// Whether a step at height `z` between two positions passes one of them.
-  bool PassesContact(const Eigen::Vector2d& p_from, const Eigen::Vector2d& p_to, int z) const;
-  int ContactsWithin(double radius_m, const Vector3d& p_world) const;
+  bool HasBlocked() const { return !blocked_.empty(); }
 
   /// Marks the column of `key` as ground without an answer: unobserved space there, at about that
   /// height, is no frontier.
@@ -82,8 +76,6 @@ class GroundMap {
   /// Notes a step of the body between two foot positions. Rises along it are steps from then on, in
   /// both directions.
   void NoteStep(const Vector3d& p_from_world, const Vector3d& p_to_world);
-  /// Whether the body's axis was in this column, at about this height.
-  bool WasIn(const Vector3d& p_world) const;
   bool WasWalked(const VoxelKey& key) const { return walked_.contains(key); }
 
   int climb() const { return climb_; }
@@ -146,9 +138,7 @@ class GroundMap {
   int first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;  // [tiles]
   std::vector<Tile> tiles_;
   std::set<VoxelKey> blocked_;
-  std::vector<Vector3d> contacts_;  // world frame
-  std::set<VoxelKey> walked_;       // places on rises that the body walked
-  std::unordered_set<VoxelKey, geometry::VoxelKeyHash> trail_;  // places of the body's axis
+  std::set<VoxelKey> walked_;  // places on rises that the body walked
   std::unordered_set<VoxelKey, geometry::VoxelKeyHash> unanswered_;
   std::uint64_t revision_ = 0;
   mutable GroundPlaces places_;

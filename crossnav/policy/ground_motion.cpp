@@ -109,9 +109,6 @@ std::optional<double> StepPenalty(const GroundMap& ground, const Eigen::Vector2d
   const auto room = [&](const Eigen::Vector2d& p, int z) {
     return ground.DistanceToObstacle({p.x(), p.y(), z * voxel_m}, z, config.wanted_clearance_m);
   };
-  const Eigen::Vector2d to =
-      from + action.forward_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad));
-  if (ground.PassesContact(from, to, z_from)) return std::nullopt;
   const double room_before = room(from, z_from);
   double penalty = 0;
   int z = z_from;

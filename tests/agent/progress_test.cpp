@@ -193,46 +193,6 @@ TEST(Progress, AnAgentIsNotWalledInByItsBumps) {
   EXPECT_FALSE(ground.HasBlocked());
 }
 
-/// The agent heads east and does not move, `times` times.
-void Bump(Ground& given, int times) {
-  for (int i = 0; i < times; ++i) {
-    given.world.full.before_forward = given.now.agent;
-    NoteBump(given.now);
-  }
-}
-
-// Regression: a plant was put beside a door. The agent came in past it, bumped on the way out, took
-// the whole passage for closed and did not find what was elsewhere.
-TEST(Progress, ThePassageThatTheBodyCameThroughIsNotClosedByABump) {
-  Ground given;
-  const Vector3d p = given.now.agent.p_world;
-  given.world.ground.NoteStep(p + Vector3d(0.25, 0, 0), p);
-  Bump(given, 1);
-  EXPECT_TRUE(given.world.ground.IsStanding({16, 15, 1}));
-  const Eigen::Vector2d from = p.head<2>(), ahead(0.25, 0), aside(0, 0.06);
-  EXPECT_TRUE(given.world.ground.PassesContact(from, from + ahead, 0));
-  EXPECT_FALSE(given.world.ground.PassesContact(from + aside, from + aside + ahead, 0));
-  EXPECT_FALSE(given.world.ground.PassesContact(from + ahead, from + 2 * ahead, 0));
-  Bump(given, 4);
-  EXPECT_FALSE(given.world.ground.IsStanding({16, 15, 1})) << "it was moved meanwhile";
-}
-
-TEST(Progress, ThroughANarrowPassageOtherLinesAreTriedFirst) {
-  Ground given;
-  for (const int y : {13, 17})
-    for (int x = 14; x <= 19; ++x)
-      for (int z = 1; z <= 15; ++z)
-        test::SetState(given.world.map, {x, y, z}, geometry::VoxelState::kOccupied);
-  given.world.ground.Rebuild(given.world.map);
-  Bump(given, 4);
-  EXPECT_TRUE(given.world.ground.IsStanding({16, 15, 1}));
-  EXPECT_TRUE(given.world.ground.HasBlocked()) << "the lines are forgotten with the marks";
-  Bump(given, 1);
-  EXPECT_FALSE(given.world.ground.IsStanding({16, 15, 1}));
-  given.world.ground.ForgetBlocked();
-  EXPECT_FALSE(given.world.ground.HasBlocked());
-}
-
 // Regression: in a slot between a door leaf and a wall, where the map had no step left, the agent
 // turned on the spot to the end of the budget.
 TEST(Progress, WithoutAMarkToForgetAStepIsTriedInEveryHeading) {
