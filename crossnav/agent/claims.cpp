@@ -2,13 +2,13 @@
 #include "crossnav/agent/claims.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/core/category_table.h"
-#include "crossnav/core/check.h"
 
 namespace crossnav::agent {
 
@@ -17,12 +17,6 @@ using policy::ClaimVerdict;
 namespace {
 
 constexpr double kHintShare = 0.5;  // chosen: a hint costs a walk, a claim the episode
-
-std::string TwoDigits(double value) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
 
 /// Names that compete with the goal: all that do not mean it.
 std::vector<policy::NamedText> OthersThan(const std::string& goal, const World& world) {
@@ -40,11 +34,11 @@ bool HasSecondView(const Situation& now, const policy::LivePoi& poi) {
 
 std::string Describe(const std::string& goal, const policy::Verification& verification,
                      const std::optional<policy::MemoryOpinion>& opinion, int views) {
-  std::string text = goal + " " + TwoDigits(verification.confidence) + " in the frame";
+  std::string text = fmt::format("{} {:.2f} in the frame", goal, verification.confidence);
   if (opinion)
-    text += ", " + TwoDigits(opinion->goal) + " in memory, " + opinion->other + " " +
-            TwoDigits(opinion->best_other);
-  return text + ", views " + std::to_string(views);
+    text += fmt::format(", {:.2f} in memory, {} {:.2f}", opinion->goal, opinion->other,
+                        opinion->best_other);
+  return fmt::format("{}, views {}", text, views);
 }
 
 /// Without a second view the memory decides, and a failed view counts against the claim unless the
@@ -191,8 +185,8 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
   }
   std::string facts = Describe(goal.goal, verification, opinion, views);
   if (config.evidence == "views")
-    facts += ", P " + TwoDigits(policy::ProbabilityOf(summary, opinion, config)) + " of " +
-             std::to_string(summary.views) + (summary.shortness > 0 ? ", short" : "");
+    facts += fmt::format(", P {:.2f} of {}{}", policy::ProbabilityOf(summary, opinion, config),
+                         summary.views, summary.shortness > 0 ? ", short" : "");
   if (verdict == ClaimVerdict::kAgreed) goal.events.push_back("claim holds: " + facts);
   if (verdict == ClaimVerdict::kRefuted) goal.events.push_back("claim refuted: " + facts);
   if (verdict == ClaimVerdict::kWeak && !was_asked)
@@ -285,9 +279,10 @@ void Reject(StepState& now, const policy::LivePoi& poi) {
     const double probability = by_views ? ProbabilityOf(now, poi) : 0;
     goal.full.claims.rejected.push_back({poi.id, poi.voxels, poi.p_center_world, poi.confidence,
                                          views, probability, now.agent.p_world, now.world.step});
-    std::string event = "rejected: the claim at";
-    for (const double p : poi.p_center_world) event += " " + TwoDigits(p);
-    goal.events.push_back(event + " m" + (by_views ? ", P " + TwoDigits(probability) : ""));
+    const Vector3d& p = poi.p_center_world;
+    goal.events.push_back(fmt::format("rejected: the claim at {:.2f} {:.2f} {:.2f} m{}", p.x(),
+                                      p.y(), p.z(),
+                                      by_views ? fmt::format(", P {:.2f}", probability) : ""));
   }
   now.world.objects.Refute(SpacedName(goal.goal), poi.voxels);
   goal.live.Discard(poi.id);

@@ -2,8 +2,8 @@
 #include "crossnav/agent/settle.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <string>
+
+#include <fmt/format.h>
 
 #include "crossnav/agent/claims.h"
 #include "crossnav/core/check.h"
@@ -13,26 +13,6 @@ namespace crossnav::agent {
 namespace {
 
 constexpr int kSteady_frames = 10;  // chosen: a walk past it; noise shows fewer
-
-std::string TwoDigits(double value) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
-}  // namespace
-
-const policy::RejectedObject* LikeliestRefuted(const Situation& now, double least_probability) {
-  if (!JudgesByViews(now.config)) return nullptr;
-  const policy::RejectedObject* likeliest = nullptr;
-  for (const policy::RejectedObject& object : now.goal.full.claims.rejected)
-    if (object.probability >= (likeliest ? likeliest->probability : least_probability) &&
-        !now.goal.full.claims.SettledFor(object.poi_id))
-      likeliest = &object;
-  return likeliest;
-}
-
-namespace {
 
 /// Makes a rejected object a POI again. Returns it as it was rejected.
 policy::RejectedObject TakeBack(StepState& now, int poi_id) {
@@ -95,18 +75,28 @@ const policy::LivePoi* BestHint(const Situation& now) {
 
 }  // namespace
 
+const policy::RejectedObject* LikeliestRefuted(const Situation& now, double least_probability) {
+  if (!JudgesByViews(now.config)) return nullptr;
+  const policy::RejectedObject* likeliest = nullptr;
+  for (const policy::RejectedObject& object : now.goal.full.claims.rejected)
+    if (object.probability >= (likeliest ? likeliest->probability : least_probability) &&
+        !now.goal.full.claims.SettledFor(object.poi_id))
+      likeliest = &object;
+  return likeliest;
+}
+
 void SettleFor(StepState& now, int poi_id) {
   const auto object = TakeBack(now, poi_id);
-  now.goal.events.push_back("back to the likeliest refuted claim, P " +
-                            TwoDigits(object.probability));
+  now.goal.events.push_back(
+      fmt::format("back to the likeliest refuted claim, P {:.2f}", object.probability));
 }
 
 bool SettleForSteadySight(StepState& now) {
   if (!DoubtsClaims(now.config) || JudgesByViews(now.config)) return false;
   GoalState& goal = now.goal;
   const auto say = [&](int frames, double confidence) {
-    goal.events.push_back("nothing left: back to what " + std::to_string(frames) +
-                          " frames showed, confidence " + TwoDigits(confidence));
+    goal.events.push_back(fmt::format(
+        "nothing left: back to what {} frames showed, confidence {:.2f}", frames, confidence));
   };
   if (const policy::RejectedObject* claim = BestRefuted(now)) {
     say(FramesOf(now, *claim), claim->confidence);
