@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "crossnav/perception/goal_picture.h"
@@ -82,6 +83,30 @@ TEST(GroundTruth, DetectsTrueInstancesWithTheirTightBoxes) {
     EXPECT_EQ(v1, d.box.v1);
     EXPECT_EQ(w.scene.FindInstance(id)->category, "chair");
     EXPECT_EQ(d.mask_quality, 1);
+  }
+}
+
+TEST(GroundTruth, InstancesOfAFrameAreTheSumsOfItsPixels) {
+  TruthWorld w;
+  ASSERT_FALSE(w.simulator.Observe().depth_m.empty());
+  const Frame& frame = w.simulator.last_frame();
+  std::map<int, SeenInstance> expected;
+  for (int v = 0; v < frame.instance.height; ++v)
+    for (int u = 0; u < frame.instance.width; ++u)
+      if (const int id = frame.instance.At(u, v); id != 0)
+        expected[id].Add(u, v, frame.depth_m.At(u, v));
+  const std::map<int, SeenInstance> seen = InstancesIn(frame);
+  ASSERT_GE(expected.size(), 4U);
+  ASSERT_EQ(seen.size(), expected.size());
+  for (const auto& [id, want] : expected) {
+    ASSERT_TRUE(seen.contains(id));
+    const SeenInstance& got = seen.at(id);
+    EXPECT_EQ(got.pixels, want.pixels);
+    EXPECT_EQ(got.nearest_m, want.nearest_m);
+    EXPECT_EQ(got.box.u0, want.box.u0);
+    EXPECT_EQ(got.box.v0, want.box.v0);
+    EXPECT_EQ(got.box.u1, want.box.u1);
+    EXPECT_EQ(got.box.v1, want.box.v1);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -38,29 +39,61 @@ const Frame* FrameOf(const Simulator& simulator, const Observation& obs) {
   return same ? &frame : nullptr;
 }
 
+/// Calls `fn(u_begin, u_end, id)` for each run of one id in row `v`, columns `u0` to before `u1`.
+template <class Fn>
+void ForEachRun(const InstanceImage& image, int v, int u0, int u1, Fn&& fn) {
+  if (u0 >= u1) return;
+  const std::int32_t* row = &image.At(0, v);
+  for (int begin = u0; begin < u1;) {
+    const std::int32_t id = row[begin];
+    int end = begin + 1;
+    while (end < u1 && row[end] == id) ++end;
+    fn(begin, end, id);
+    begin = end;
+  }
+}
+
 tl::unexpected<Error> StaleFrame() {
   return Fail(ErrorCode::kMismatch,
               "ground-truth perception was asked about an observation that is not the simulator's "
               "last one");
 }
 
+/// The instances in the simulator's last frame, found once a frame: detectors are asked for many
+/// names.
+class LastInstances {
+ public:
+  explicit LastInstances(const Simulator& simulator) : simulator_(simulator) {}
+
+  const std::map<int, SeenInstance>& Get() {
+    if (frames_ != simulator_.frames()) {
+      instances_ = InstancesIn(simulator_.last_frame());
+      frames_ = simulator_.frames();
+    }
+    return instances_;
+  }
+
+ private:
+  const Simulator& simulator_;
+  std::int64_t frames_ = -1;
+  std::map<int, SeenInstance> instances_;
+};
+
 class GroundTruthDetector : public perception::Detector {
  public:
-  GroundTruthDetector(const Simulator& simulator, const GroundTruthConfig& config)
-      : simulator_(simulator), config_(config) {}
+  GroundTruthDetector(const Simulator& simulator, const GroundTruthConfig& config,
+                      std::shared_ptr<LastInstances> instances)
+      : simulator_(simulator), config_(config), instances_(std::move(instances)) {}
 
   Result<std::vector<Detection>> Detect(const Observation& obs, std::string_view goal) override {
-    const Frame* frame = FrameOf(simulator_, obs);
-    if (frame == nullptr) return StaleFrame();
-    std::map<int, SeenInstance> seen;  // by instance id, so that the order is fixed
-    for (const SceneInstance& instance : simulator_.scene().instances) {
-      const bool wanted = IsCategory(goal) ? instance.category == goal : instance.name == goal;
-      if (wanted) seen[instance.id];
-    }
-    if (!seen.empty()) Collect(*frame, seen);
+    if (FrameOf(simulator_, obs) == nullptr) return StaleFrame();
     std::vector<Detection> detections;
-    for (const auto& [id, s] : seen) {
-      if (auto detection = DetectionOf(s, simulator_.sensor(), config_))
+    for (const auto& [id, seen] : instances_->Get()) {  // by id, so that the order is fixed
+      const SceneInstance* instance = simulator_.scene().FindInstance(id);
+      if (instance == nullptr) continue;
+      const bool wanted = IsCategory(goal) ? instance->category == goal : instance->name == goal;
+      if (!wanted) continue;
+      if (auto detection = DetectionOf(seen, simulator_.sensor(), config_))
         detections.push_back(std::move(*detection));
     }
     std::stable_sort(detections.begin(), detections.end(),
@@ -69,32 +102,16 @@ class GroundTruthDetector : public perception::Detector {
   }
 
  private:
-  static void Collect(const Frame& frame, std::map<int, SeenInstance>& seen) {
-    std::int32_t last_id = 0;
-    SeenInstance* last = nullptr;
-    for (int v = 0; v < frame.instance.height; ++v) {
-      for (int u = 0; u < frame.instance.width; ++u) {
-        const std::int32_t id = frame.instance.At(u, v);
-        if (id == 0) continue;
-        if (id != last_id) {
-          const auto found = seen.find(id);
-          last = found == seen.end() ? nullptr : &found->second;
-          last_id = id;
-        }
-        if (last == nullptr) continue;
-        last->Add(u, v, frame.depth_m.At(u, v));
-      }
-    }
-  }
-
   const Simulator& simulator_;
   GroundTruthConfig config_;
+  std::shared_ptr<LastInstances> instances_;
 };
 
 /// Exactly the visible pixels of the instance that fills most of the box.
 class GroundTruthSegmenter : public perception::Segmenter {
  public:
-  explicit GroundTruthSegmenter(const Simulator& simulator) : simulator_(simulator) {}
+  GroundTruthSegmenter(const Simulator& simulator, std::shared_ptr<LastInstances> instances)
+      : simulator_(simulator), instances_(std::move(instances)) {}
 
   Result<void> Segment(const Observation& obs, Detection& detection) override {
     const Frame* frame = FrameOf(simulator_, obs);
@@ -118,47 +135,26 @@ class GroundTruthSegmenter : public perception::Segmenter {
   int InstanceOf(const Frame& frame, const PixelBox& box) const {
     std::map<int, int> count;
     for (int v = box.v0; v < box.v1; ++v) {
-      for (int u = box.u0; u < box.u1; ++u) ++count[frame.instance.At(u, v)];
+      ForEachRun(frame.instance, v, box.u0, box.u1,
+                 [&](int u0, int u1, std::int32_t id) { count[id] += u1 - u0; });
     }
     count.erase(0);
     // Walls and floors often fill more of the box than the object: prefer the instance that fits
     // the box.
-    const std::map<int, PixelBox> own = OwnBoxes(frame, count);
+    const std::map<int, SeenInstance>& seen = instances_->Get();
     int best = 0;
     double best_score = -1;
     for (const auto& [id, pixels] : count) {
       const SceneInstance* instance = simulator_.scene().FindInstance(id);
       const bool is_goal = instance != nullptr && !instance->category.empty();
-      const double score =
-          BoxOverlap(own.at(id), box) + (is_goal ? 0.5 : 0) + 1e-9 * static_cast<double>(pixels);
+      const double score = BoxOverlap(seen.at(id).box, box) + (is_goal ? 0.5 : 0) +
+                           1e-9 * static_cast<double>(pixels);
       if (score > best_score) {
         best = id;
         best_score = score;
       }
     }
     return best;
-  }
-
-  /// Boxes of the visible pixels of the instances in `count`.
-  static std::map<int, PixelBox> OwnBoxes(const Frame& frame, const std::map<int, int>& count) {
-    std::map<int, PixelBox> own;
-    for (const auto& [id, pixels] : count) own[id] = {1 << 30, 1 << 30, 0, 0};
-    std::int32_t last_id = -1;
-    PixelBox* last = nullptr;
-    for (int v = 0; v < frame.instance.height; ++v) {
-      for (int u = 0; u < frame.instance.width; ++u) {
-        const std::int32_t id = frame.instance.At(u, v);
-        if (id != last_id) {
-          const auto found = own.find(id);
-          last = found == own.end() ? nullptr : &found->second;
-          last_id = id;
-        }
-        if (last == nullptr) continue;
-        *last = {std::min(last->u0, u), std::min(last->v0, v), std::max(last->u1, u + 1),
-                 std::max(last->v1, v + 1)};
-      }
-    }
-    return own;
   }
 
   /// Intersection over union of two boxes.
@@ -170,6 +166,7 @@ class GroundTruthSegmenter : public perception::Segmenter {
   }
 
   const Simulator& simulator_;
+  std::shared_ptr<LastInstances> instances_;
 };
 
 class GroundTruthStairs : public perception::StairSegmenter {
@@ -188,9 +185,11 @@ class GroundTruthStairs : public perception::StairSegmenter {
     if (frame == nullptr) return StaleFrame();
     Image<float> probability(frame->instance.width, frame->instance.height, 0.0F);
     if (stairs_.empty()) return probability;
-    for (std::size_t i = 0; i < probability.data.size(); ++i) {
-      const std::int32_t id = frame->instance.data[i];
-      if (id != 0 && stairs_.count(id) != 0) probability.data[i] = kStairProbability;
+    for (int v = 0; v < probability.height; ++v) {
+      ForEachRun(frame->instance, v, 0, probability.width, [&](int u0, int u1, std::int32_t id) {
+        if (id == 0 || stairs_.count(id) == 0) return;
+        std::fill(&probability.At(u0, v), &probability.At(u0, v) + (u1 - u0), kStairProbability);
+      });
     }
     return probability;
   }
@@ -207,6 +206,23 @@ void SeenInstance::Add(int u, int v, float depth_m) {
   nearest_m = std::min(nearest_m, static_cast<double>(depth_m));
   box = {std::min(box.u0, u), std::min(box.v0, v), std::max(box.u1, u + 1),
          std::max(box.v1, v + 1)};
+}
+
+std::map<int, SeenInstance> InstancesIn(const Frame& frame) {
+  std::map<int, SeenInstance> seen;
+  for (int v = 0; v < frame.instance.height; ++v) {
+    ForEachRun(frame.instance, v, 0, frame.instance.width, [&](int u0, int u1, std::int32_t id) {
+      if (id == 0) return;
+      const float* depth_m = &frame.depth_m.At(0, v);
+      const float nearest_m = *std::min_element(depth_m + u0, depth_m + u1);
+      SeenInstance& s = seen[id];
+      s.pixels += u1 - u0;
+      s.nearest_m = std::min(s.nearest_m, static_cast<double>(nearest_m));
+      s.box = {std::min(s.box.u0, u0), std::min(s.box.v0, v), std::max(s.box.u1, u1),
+               std::max(s.box.v1, v + 1)};
+    });
+  }
+  return seen;
 }
 
 std::optional<Detection> DetectionOf(const SeenInstance& seen, const SensorConfig& sensor,
@@ -228,8 +244,9 @@ Result<perception::PerceptionSuite> GroundTruthPerception(const Simulator& simul
   auto reader = MakeGroundTruthPictureReader(simulator, config, std::move(pictures));
   if (!reader) return tl::unexpected(reader.error());
   perception::PerceptionSuite suite;
-  suite.detector = std::make_unique<GroundTruthDetector>(simulator, config);
-  suite.segmenter = std::make_unique<GroundTruthSegmenter>(simulator);
+  const auto instances = std::make_shared<LastInstances>(simulator);
+  suite.detector = std::make_unique<GroundTruthDetector>(simulator, config, instances);
+  suite.segmenter = std::make_unique<GroundTruthSegmenter>(simulator, instances);
   suite.stairs = std::make_unique<GroundTruthStairs>(simulator);
   suite.encoder = std::move(*encoder);
   suite.pictures = std::move(*reader);

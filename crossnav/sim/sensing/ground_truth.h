@@ -49,6 +49,9 @@ struct SeenInstance {
   void Add(int u, int v, float depth_m);
 };
 
+/// Views of all instances in a picture, by id; without id 0.
+std::map<int, SeenInstance> InstancesIn(const Frame& frame);
+
 /// The detection that ground truth makes of it, without a mask; empty where it is too small or too
 /// far away.
 std::optional<perception::Detection> DetectionOf(const SeenInstance& seen,

@@ -111,6 +111,7 @@ Observation Simulator::Observe() {
   observation.camera = sensor_.Intrinsics();
   observation.T_world_camera = CameraPose(agent_, sensor_.camera_height_m);
   frame_ = caster_.Render(observation.camera, observation.T_world_camera, channels_);
+  ++frames_;
   if (noise_) {
     observation.T_world_camera = CameraPose(noise_->believed(), sensor_.camera_height_m);
     noise_->Disturb(frame_, observation.camera, glass_);

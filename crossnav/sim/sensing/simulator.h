@@ -2,6 +2,7 @@
 // The robot in the scene: six discrete actions on the navmesh, and the camera. Deterministic.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -44,6 +45,7 @@ class Simulator {
 
   const AgentPose& agent() const { return agent_; }  ///< the true one
   const Frame& last_frame() const { return frame_; }
+  std::int64_t frames() const { return frames_; }  ///< rendered so far, the last one included
   const Scene& scene() const { return scene_; }
   const NavMesh& navmesh() const { return navmesh_; }
   const RayCaster& caster() const { return caster_; }
@@ -61,6 +63,7 @@ class Simulator {
   std::optional<SensorNoise> noise_;  // nothing = perfect
   std::set<std::int32_t> glass_;      // instances of glass, and mirrors; empty while perfect
   Frame frame_;
+  std::int64_t frames_ = 0;
   Channels channels_ = Channels::kAll;
 };
 
