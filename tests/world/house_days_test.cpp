@@ -268,6 +268,21 @@ TEST(HouseDays, AThingIsCarriedToAnotherFloor) {
   EXPECT_GT(day.list.changes[0].to->p_world.z(), 1.9);
 }
 
+TEST(HouseDays, OnlyTheOneInstanceOfItsCategoryChangesWhereThatIsAsked) {
+  DaysOptions options = Options({ChangeKind::kOtherFurniture});
+  const HouseDay by_name = DayOf(RingHouse(), options);
+  ASSERT_EQ(by_name.list.changes.size(), 1U);
+  EXPECT_EQ(by_name.list.changes[0].name, "vase");  // the only object with a name of its own
+  options.only_by_category = true;
+  const HouseDay none = DayOf(RingHouse(), options);
+  EXPECT_TRUE(none.list.changes.empty());
+  EXPECT_EQ(none.missing, options.kinds);
+  options.kinds = {ChangeKind::kOtherFloor};
+  const HouseDay chair = DayOf(TwoFlights(), options);
+  ASSERT_EQ(chair.list.changes.size(), 1U);
+  EXPECT_EQ(chair.list.changes[0].category, "chair");
+}
+
 TEST(HouseDays, AFlightIsBarredOnlyWhereAnotherLeadsUp) {
   const HouseDay day = DayOf(TwoFlights(), Options({ChangeKind::kFlightBarred}));
   ASSERT_EQ(day.list.changes.size(), 1U);

@@ -78,7 +78,8 @@ Result<HouseDay> HouseCalendar::Draw(const HouseView& evening, int attempt) cons
       next.missing.push_back(kind);
       continue;
     }
-    auto change = ChangeOnce({evening, options_.navmesh, kind}, next, rng);
+    auto change =
+        ChangeOnce({evening, options_.navmesh, kind, options_.only_by_category}, next, rng);
     if (!change) return tl::unexpected(change.error());
     if (!*change) next.missing.push_back(kind);
   }

@@ -29,6 +29,9 @@ struct DaysOptions {
   /// Where no draw passes the gate, draws with fewer and fewer kinds, the last one with none.
   /// False: an error; suites rely on it.
   bool may_be_fewer = false;
+  /// Only objects that are the one instance of their category change; kinds without such an object
+  /// are missing.
+  bool only_by_category = false;
 };
 
 /// A house on one day.

@@ -26,23 +26,27 @@ std::set<int> ChangedOf(const DayChanges& list) {
   return changed;
 }
 
+/// Whether the object's category is unique.
+bool IsOnlyOfCategory(const sim::Scene& scene, const sim::SceneInstance& object) {
+  return !object.category.empty() &&
+         std::count_if(scene.instances.begin(), scene.instances.end(),
+                       [&](const auto& i) { return i.category == object.category; }) == 1;
+}
+
 /// Whether the object's name or category is unique.
 bool IsOnly(const sim::Scene& scene, const sim::SceneInstance& object) {
-  const auto count = [&](const auto& is_same) {
-    return std::count_if(scene.instances.begin(), scene.instances.end(), is_same);
-  };
-  const bool by_name = count([&](const auto& i) { return i.name == object.name; }) == 1;
-  return by_name || (!object.category.empty() &&
-                     count([&](const auto& i) { return i.category == object.category; }) == 1);
+  return IsOnlyOfCategory(scene, object) ||
+         std::count_if(scene.instances.begin(), scene.instances.end(),
+                       [&](const auto& i) { return i.name == object.name; }) == 1;
 }
 
 /// Objects that may change, shuffled; goals of one instance first, then other goals.
-std::vector<int> Candidates(const Night& night, Rng& rng) {
+std::vector<int> Candidates(const Night& night, bool only_by_category, Rng& rng) {
   std::vector<int> candidates;
   for (const sim::SceneInstance& object : night.scene.instances) {
-    if (MayMove(night.view, object) && !night.changed.contains(object.id)) {
-      candidates.push_back(object.id);
-    }
+    if (!MayMove(night.view, object) || night.changed.contains(object.id)) continue;
+    if (only_by_category && !IsOnlyOfCategory(night.scene, object)) continue;
+    candidates.push_back(object.id);
   }
   rng.Shuffle(candidates);
   const auto rank = [&](int id) {
@@ -72,7 +76,7 @@ void SetRegion(sim::Scene& scene, int id, int region) {
 bool ChangeObject(const ChangeWish& wish, HouseDay& day, Rng& rng) {
   Night night{wish.evening, day.scene, std::make_unique<sim::RayCaster>(day.scene),
               ChangedOf(day.list)};
-  for (const int id : Candidates(night, rng)) {
+  for (const int id : Candidates(night, wish.only_by_category, rng)) {
     const sim::SceneInstance object = *day.scene.FindInstance(id);
     Change change = ChangeOf(wish.kind, object);
     if (wish.kind != ChangeKind::kAdded) change.from = PlaceOf(wish.evening, object);

@@ -13,6 +13,7 @@ struct ChangeWish {
   const HouseView& evening;
   const sim::NavMeshSettings& navmesh;
   ChangeKind kind;
+  bool only_by_category = false;  ///< of DaysOptions
 };
 
 /// Makes one change of the kind and adds it to the day's list. Unique objects come first, so that a
