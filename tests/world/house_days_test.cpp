@@ -283,6 +283,21 @@ TEST(HouseDays, OnlyTheOneInstanceOfItsCategoryChangesWhereThatIsAsked) {
   EXPECT_EQ(chair.list.changes[0].category, "chair");
 }
 
+TEST(HouseDays, OneInstanceOfEachCategoryThatPeopleMoveStaysWhereThatIsAsked) {
+  sim::Scene scene = RingHouse();
+  const auto count = [&](const char* category) {
+    return std::count_if(scene.instances.begin(), scene.instances.end(),
+                         [&](const auto& i) { return i.category == category; });
+  };
+  ASSERT_EQ(count("chair"), 2);
+  ASSERT_EQ(count("plant"), 2);
+  const std::size_t before = scene.instances.size();
+  ASSERT_TRUE(KeepOneOfEachCategory(scene, Options({}).navmesh));
+  EXPECT_EQ(count("chair"), 1);
+  EXPECT_EQ(count("plant"), 1);
+  EXPECT_EQ(scene.instances.size(), before - 2);
+}
+
 TEST(HouseDays, AFlightIsBarredOnlyWhereAnotherLeadsUp) {
   const HouseDay day = DayOf(TwoFlights(), Options({ChangeKind::kFlightBarred}));
   ASSERT_EQ(day.list.changes.size(), 1U);

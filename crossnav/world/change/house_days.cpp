@@ -2,12 +2,15 @@
 #include "crossnav/world/change/house_days.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "crossnav/core/read_file.h"
 #include "crossnav/world/change/day_gate.h"
 #include "crossnav/world/change/night.h"
+#include "crossnav/world/change/object_words.h"
+#include "crossnav/world/change/placement.h"
 #include "crossnav/world/change/scene_edit.h"
 #include "crossnav/world/scene/scene_writer.h"
 
@@ -142,6 +145,39 @@ Result<std::vector<DayReport>> WriteDays(const fs::path& house, const fs::path& 
     reports.push_back({*written, std::move(next->list), std::move(next->missing)});
   }
   return reports;
+}
+
+Result<void> KeepOneOfEachCategory(sim::Scene& scene, const sim::NavMeshSettings& navmesh) {
+  const auto view = ViewHouse(scene, navmesh);
+  if (!view) return tl::unexpected(view.error());
+  std::map<std::string, std::vector<const sim::SceneInstance*>> of_category;
+  for (const sim::SceneInstance& object : scene.instances) {
+    if (!object.category.empty() && IsMovable(object.name, object.category))
+      of_category[object.category].push_back(&object);
+  }
+  std::vector<int> surplus;
+  for (auto& [category, objects] : of_category) {
+    std::stable_partition(objects.begin(), objects.end(),
+                          [&](const auto* object) { return MayMove(*view, *object); });
+    for (std::size_t i = 1; i < objects.size(); ++i) {
+      const auto known = view->objects.find(objects[i]->id);
+      const bool has_load = known != view->objects.end() && known->second.is_carrier;
+      if (!has_load) surplus.push_back(objects[i]->id);
+    }
+  }
+  for (const int id : surplus) RemoveInstance(scene, id);
+  Settle(scene);
+  return {};
+}
+
+Result<void> RewriteWithOneOfEachCategory(const fs::path& house) {
+  auto scene = sim::LoadScene(house);
+  if (!scene) return tl::unexpected(scene.error());
+  if (auto ok = KeepOneOfEachCategory(*scene); !ok) return ok;
+  const fs::path folder = house.has_filename() ? house : house.parent_path();
+  const auto written = WriteScene(*scene, fs::absolute(folder).parent_path(), HouseTextOf(*scene));
+  if (!written) return tl::unexpected(written.error());
+  return {};
 }
 
 }  // namespace crossnav::world

@@ -88,4 +88,12 @@ Result<std::vector<DayReport>> WriteDays(const std::filesystem::path& house,
                                          const std::filesystem::path& out_dir,
                                          const DaysOptions& options);
 
+/// Removes all but one instance of each category that people move (chair, sofa, plant, screen).
+/// The instance that stays may move, if one may; instances with a load stay, too. Error: as
+/// ViewHouse.
+Result<void> KeepOneOfEachCategory(sim::Scene& scene, const sim::NavMeshSettings& navmesh = {});
+
+/// The same for the scene in the folder `house`.
+Result<void> RewriteWithOneOfEachCategory(const std::filesystem::path& house);
+
 }  // namespace crossnav::world
