@@ -212,7 +212,7 @@ std::span<const objects::ObjectRecord> Agent::records() const {
 /// The goal in 3D; as weak as a hint may be.
 std::vector<policy::Sighting> Agent::Impl::Lift(
     const std::vector<perception::Detection>& detections, const Observation& obs) {
-  const policy::ObjectConfig& object = config.policy.object;
+  const policy::ObjectConfig object = SightingRules(config);
   const double least =
       std::min(object.secondary_confidence, HintConfig(config.policy).detector_confidence);
   return policy::LiftDetections(detections, obs, config.map, object, least);

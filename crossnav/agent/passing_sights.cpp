@@ -9,9 +9,21 @@
 #include "crossnav/core/category_table.h"
 
 namespace crossnav::agent {
+namespace {
+
+constexpr int kSmallVoxels = 4;  // chosen: two sides of a thing of two voxels
+
+}  // namespace
 
 bool NoticesThings(const Config& config) {
   return config.policy.profile == "full" && !config.policy.planar;
+}
+
+policy::ObjectConfig SightingRules(const Config& config) {
+  policy::ObjectConfig rules = config.policy.object;
+  if (NoticesThings(config) && config.verify.evidence != "views")
+    rules.min_projected_voxels = std::min(rules.min_projected_voxels, kSmallVoxels);
+  return rules;
 }
 
 std::vector<std::string> NamesToNotice(const World& world, const std::string& goal) {
@@ -47,7 +59,7 @@ Result<std::vector<PassingSight>> LookInPassing(perception::PerceptionSuite& per
       if (auto ok = perception.segmenter->Segment(obs, detection); !ok)
         return tl::unexpected(ok.error());
     if (auto ok = CheckDetections(*found, obs); !ok) return tl::unexpected(ok.error());
-    auto sightings = policy::LiftDetections(*found, obs, config.map, config.policy.object,
+    auto sightings = policy::LiftDetections(*found, obs, config.map, SightingRules(config),
                                             config.policy.explore.hint_confidence);
     sights.push_back({std::move(name), std::move(*found), std::move(sightings)});
   }

@@ -67,6 +67,23 @@ TEST(Passing, AThingMetOnTheWayIsOnRecordAndIsWalkedToTheNextDay) {
   }
 }
 
+TEST(Passing, AThingThatTheGridCutsIntoFewVoxelsIsOnRecord) {
+  const Box3 small = BoxOf(2.905, 1.805, 0, 3.095, 1.995, 0.19);  // no side has ten voxels
+  const auto is_known = [&](const Config& config) {
+    BoxWalker walker = RoomsWith(small);
+    Agent agent(config, FakeSuite(CouchAndPlant(kCouch, small)));
+    FindCouch(agent, walker);
+    const Night night = NightAfter(agent);
+    return std::any_of(night.objects.begin(), night.objects.end(),
+                       [](const auto& record) { return record.category == "plant"; });
+  };
+  Config config = SmallConfig();
+  EXPECT_TRUE(is_known(config));
+  // Where no single frame is believed, ten voxels are asked for, as by the paper.
+  config.verify.evidence = "views";
+  EXPECT_FALSE(is_known(config));
+}
+
 TEST(Passing, AThingMetOnTheWayIsARememberedPlaceOfALaterGoal) {
   for (const bool use_history : {true, false}) {
     BoxWalker walker = RoomsWith(kPlant);
