@@ -85,11 +85,16 @@ void SearchField::Update(const VoxelMap& map, double level_m, const VoxelKey& lo
         cell.z < first.z || cell.z > last.z)
       return false;
     const auto it = sums.find(cell);
-    return it == sums.end() || !is_patch(it->second);
+    const bool is_lost = it == sums.end() || !is_patch(it->second);
+    if (is_lost) lost_[cell] = entry.second;
+    return is_lost;
   });
   for (const auto& [cell, sum] : sums) {
     if (!is_patch(sum)) continue;
-    SearchPatch& patch = patches_[cell];
+    const auto lost = lost_.find(cell);
+    SearchPatch& patch =
+        patches_.try_emplace(cell, lost == lost_.end() ? SearchPatch{} : lost->second)
+            .first->second;
     patch.p_world = sum.p_world / sum.count + Vector3d(0, 0, 0.5 * voxel_m);
     patch.height_m = patch.p_world.z() - level_m;
     patch.columns = sum.count;
@@ -105,8 +110,9 @@ void SearchField::Look(const Observation& obs, double range_m) {
 }
 
 void SearchField::BeginGoal() {
-  for (auto& [cell, patch] : patches_)
-    patch.low.for_goal_m = patch.high.for_goal_m = Looked{}.for_goal_m;
+  for (auto* patches : {&patches_, &lost_})
+    for (auto& [cell, patch] : *patches)
+      patch.low.for_goal_m = patch.high.for_goal_m = Looked{}.for_goal_m;
 }
 
 int ColumnsAround(const SearchField& field, const VoxelKey& cell) {

@@ -35,7 +35,7 @@ struct SearchPatch {
 class SearchField {
  public:
   /// The patches at `level_m` in the columns `lo` to `hi` (x and y) as the map is now. Looks at
-  /// patches that stay are kept.
+  /// patches are kept, also while the map does not show them.
   void Update(const geometry::VoxelMap& map, double level_m, const geometry::VoxelKey& lo,
               const geometry::VoxelKey& hi);
 
@@ -49,6 +49,7 @@ class SearchField {
 
  private:
   std::map<geometry::VoxelKey, SearchPatch> patches_;
+  std::map<geometry::VoxelKey, SearchPatch> lost_;  // not in the map now; their looks still count
 };
 
 /// Voxels of the level surface that the patch of `cell` is a part of, in its 3 x 3 cells.

@@ -140,5 +140,26 @@ TEST(SearchField, TheNearestLookIsKeptAndAGoalBeginsAnew) {
   EXPECT_EQ(in_run, looked);
 }
 
+/// Regression: where surfaces came and went with the map's evidence, an agent went to and fro
+/// between two floors to look at them again.
+TEST(SearchField, APatchThatTheMapLosesForAMomentWasLookedAt) {
+  SearchField field;
+  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Look(CameraLookingAlongX(0.3, 9), 3);
+  const auto count = [&] {
+    return std::count_if(field.patches().begin(), field.patches().end(), [](const auto& entry) {
+      return std::isfinite(entry.second.low.in_run_m);
+    });
+  };
+  const auto looked = count();
+  ASSERT_GT(looked, 10);
+  field.Update(VoxelMap(), 0, kLo, kHi);
+  EXPECT_TRUE(field.patches().empty());
+  field.BeginGoal();
+  field.Update(GroundWithATable(), 0, kLo, kHi);
+  EXPECT_EQ(count(), looked);
+  for (const auto& [cell, patch] : field.patches()) EXPECT_TRUE(std::isinf(patch.low.for_goal_m));
+}
+
 }  // namespace
 }  // namespace crossnav::policy
