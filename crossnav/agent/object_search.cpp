@@ -98,6 +98,17 @@ bool IsOnFloor(const World& world, double z_m) {
                      [&](const auto& floor) { return is_at(floor.height_m); });
 }
 
+/// Whether the agent is on a landing of a known house: from there the floor above would count as
+/// tops of furniture.
+bool IsOnLanding(const World& world) {
+  constexpr double kNewFloor_m = 2.0;  // chosen: as far from each known floor, it is another one
+  if (!world.revision) return false;
+  double least_m = kNewFloor_m;
+  for (const auto& floor : world.revision->graph.floors)
+    least_m = std::min(least_m, std::abs(floor.height_m - world.level_m));
+  return least_m > kOffLevel_m && least_m < kNewFloor_m;
+}
+
 /// Ground in an area that earlier days left unseen. Walls explain no more than a room's area.
 double LeftOver(double unseen_m2) {
   const double in_walls_m2 = std::min(unseen_m2, kRoom_m2);
@@ -289,7 +300,7 @@ void UpdateSearch(StepState& now) {
   const bool is_flat =
       std::abs(now.agent.p_world.z() - now.world.level_m) < kOffLevel_m && now.world.has_level;
   auto& search = now.goal.full.search;
-  if (now.world.step % kRefresh_steps == 0 && is_flat) UpdateAround(now);
+  if (now.world.step % kRefresh_steps == 0 && is_flat && !IsOnLanding(now.world)) UpdateAround(now);
   if (now.world.revision && now.world.step == 0) UpdateAllFloors(&now.world);
   now.world.full.field.Look(now.obs, now.config.policy.explore.inspect_range_m);
   BeginSearchWhereDue(now);

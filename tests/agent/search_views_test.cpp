@@ -85,6 +85,31 @@ TEST(SearchViews, WhatCostsMuchForItsProbabilityIsLeftOutOnlyAfterManyActions) {
   EXPECT_TRUE(PriceSearch(room.Now(), kStart).empty());
 }
 
+/// Regression: from a landing the floor above counted as tops of furniture, and high tops below as
+/// ground; a search went to and fro between both floors until the budget was spent.
+TEST(SearchViews, ALandingOfAKnownHouseHasNoPatchesOfItsOwn) {
+  const auto height_from_m = [](const std::vector<double>& floors_m, double level_m) {
+    RoomWithTop room(13);
+    room.world.revision.emplace();
+    for (const double height_m : floors_m) {
+      auto& floor = room.world.revision->graph.floors.emplace_back();
+      floor.height_m = height_m;
+    }
+    room.world.has_level = true;
+    room.world.level_m = level_m;
+    room.agent.p_world.z() = level_m;
+    room.world.step = room.goal.full.search->step = 6;
+    StepState now{room.config, room.world, room.goal,     room.agent,
+                  room.agent,  room.obs,   room.sightings};
+    UpdateSearch(now);
+    return room.world.full.field.patches()
+        .at(room.goal.full.search->shares.begin()->first)
+        .height_m;
+  };
+  EXPECT_NEAR(height_from_m({0.1, 2.9}, 1.5), 1.3, 0.1);
+  EXPECT_NEAR(height_from_m({0.1, 1.5}, 1.5), -0.1, 0.1);  // a floor
+}
+
 /// Regression: a thin floor lamp that no day had met counted as seen from 4 m.
 TEST(SearchViews, AThingThatWasNeverMetIsMissedFromAfarMoreOften) {
   const Config config;
