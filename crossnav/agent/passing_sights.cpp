@@ -44,6 +44,7 @@ std::vector<std::string> NamesToNotice(const World& world, const std::string& go
 Result<std::vector<PassingSight>> LookInPassing(perception::PerceptionSuite& perception,
                                                 const Observation& obs, const Config& config,
                                                 const std::string& goal, World* world) {
+  const policy::ObjectConfig rules = SightingRules(config);
   std::vector<PassingSight> sights;
   for (std::string& name : NamesToNotice(*world, goal)) {
     auto found = perception.detector->Detect(obs, name);
@@ -59,7 +60,7 @@ Result<std::vector<PassingSight>> LookInPassing(perception::PerceptionSuite& per
       if (auto ok = perception.segmenter->Segment(obs, detection); !ok)
         return tl::unexpected(ok.error());
     if (auto ok = CheckDetections(*found, obs); !ok) return tl::unexpected(ok.error());
-    auto sightings = policy::LiftDetections(*found, obs, config.map, SightingRules(config),
+    auto sightings = policy::LiftDetections(*found, obs, config.map, rules,
                                             config.policy.explore.hint_confidence);
     sights.push_back({std::move(name), std::move(*found), std::move(sightings)});
   }

@@ -16,9 +16,9 @@ namespace crossnav::agent {
 /// policy.profile = full: the other profiles are the paper's and the baseline's to the letter.
 bool NoticesThings(const Config& config);
 
-/// Rules of sightings. Where a single frame is believed (verify.evidence = frame), a small thing
-/// needs fewer voxels than the paper's ten: the side of a vase fills seven or eleven, depending on
-/// where the grid cuts it.
+/// Rules of sightings. Where a single frame is believed (verify.evidence other than views), a small
+/// thing needs fewer voxels than the paper's ten: one side of a vase fills seven, another eleven,
+/// depending on where the grid cuts it.
 policy::ObjectConfig SightingRules(const Config& config);
 
 /// Detections of a name in a frame, and their sightings in 3D.

@@ -201,11 +201,10 @@ class GroundTruthStairs : public perception::StairSegmenter {
 
 }  // namespace
 
-void SeenInstance::Add(int u, int v, float depth_m) {
-  ++pixels;
-  nearest_m = std::min(nearest_m, static_cast<double>(depth_m));
-  box = {std::min(box.u0, u), std::min(box.v0, v), std::max(box.u1, u + 1),
-         std::max(box.v1, v + 1)};
+void SeenInstance::AddRun(int u0, int u1, int v, float nearest_depth_m) {
+  pixels += u1 - u0;
+  nearest_m = std::min(nearest_m, static_cast<double>(nearest_depth_m));
+  box = {std::min(box.u0, u0), std::min(box.v0, v), std::max(box.u1, u1), std::max(box.v1, v + 1)};
 }
 
 std::map<int, SeenInstance> InstancesIn(const Frame& frame) {
@@ -213,13 +212,8 @@ std::map<int, SeenInstance> InstancesIn(const Frame& frame) {
   for (int v = 0; v < frame.instance.height; ++v) {
     ForEachRun(frame.instance, v, 0, frame.instance.width, [&](int u0, int u1, std::int32_t id) {
       if (id == 0) return;
-      const float* depth_m = &frame.depth_m.At(0, v);
-      const float nearest_m = *std::min_element(depth_m + u0, depth_m + u1);
-      SeenInstance& s = seen[id];
-      s.pixels += u1 - u0;
-      s.nearest_m = std::min(s.nearest_m, static_cast<double>(nearest_m));
-      s.box = {std::min(s.box.u0, u0), std::min(s.box.v0, v), std::max(s.box.u1, u1),
-               std::max(s.box.v1, v + 1)};
+      const float* row_m = &frame.depth_m.At(0, v);
+      seen[id].AddRun(u0, u1, v, *std::min_element(row_m + u0, row_m + u1));
     });
   }
   return seen;

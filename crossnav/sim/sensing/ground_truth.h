@@ -46,7 +46,9 @@ struct SeenInstance {
   double nearest_m = 1e30;  ///< depth of its nearest pixel
   perception::PixelBox box{1 << 30, 1 << 30, 0, 0};
 
-  void Add(int u, int v, float depth_m);
+  void Add(int u, int v, float depth_m) { AddRun(u, u + 1, v, depth_m); }
+  /// The pixels of row `v` from column `u0` to before `u1`.
+  void AddRun(int u0, int u1, int v, float nearest_depth_m);
 };
 
 /// Views of all instances in a picture, by id; without id 0.
