@@ -30,6 +30,7 @@ constexpr LifelongSuite kSuites[] = {{"crossnav-lifelong-1", 7001, 40, 3},
                                      {"crossnav-lifelong-1-drawn", 1, 27, 3, true},
                                      {"crossnav-lifelong-1-classes", 7001, 40, 3, false, true},
                                      {"crossnav-lifelong-1-val", 8101, 10, 3},
+                                     {"crossnav-lifelong-1-dev", 8111, 30, 3},
                                      {"crossnav-lifelong-1-mini", 8001, 1, 2}};
 constexpr std::uint64_t kSeedsAHouse = 5;  // chosen: that may be tried for each house
 Result<LifelongSuite> SuiteOf(const std::string& name) {
@@ -38,7 +39,7 @@ Result<LifelongSuite> SuiteOf(const std::string& name) {
   }
   return Fail(
       ErrorCode::kNotFound,
-      "no suite of this name; there are crossnav-lifelong-1, -drawn, -classes, -val and -mini",
+      "no suite of this name; there are crossnav-lifelong-1, -drawn, -classes, -val, -dev and -mini",
       name);
 }
 
