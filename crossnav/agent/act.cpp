@@ -10,6 +10,7 @@
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/scan.h"
+#include "crossnav/agent/settle.h"
 #include "crossnav/agent/shared_parts.h"
 #include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/category_table.h"
@@ -132,7 +133,7 @@ std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Ver
   // Once aimed, a wobble to either side gives the detector a few more frames.
   if (const auto wobble = static_cast<std::size_t>(poi.looked); wobble < kWobble.size())
     return ++poi.looked, kWobble[wobble];
-  if (AskForOtherSide(now, poi)) {
+  if (SettleForSightAt(now, poi) || AskForOtherSide(now, poi)) {
     End(now, Ending::kUndecided);
     return std::nullopt;
   }

@@ -92,7 +92,7 @@ std::vector<PricedCandidate> PriceCandidatesOrSearch(const Situation& now, const
                                                      ExplorationPrices* prices) {
   if (!now.goal.full.search) return PriceCandidates(now, start, prices);
   auto all = PriceSearch(now, start);
-  if (!all.empty() || IsSurelyAbsent(now) || IsSearchOver(now)) return all;
+  if (!all.empty() || IsSearchOver(now)) return all;
   if (now.world.revision && HasOpeningResort(now.goal)) return all;
   return PriceCandidates(now, start, prices);
 }

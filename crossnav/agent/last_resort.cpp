@@ -136,8 +136,7 @@ bool HasOpeningResort(const GoalState& goal) {
 bool TryLastResort(StepState& now) {
   GoalState& goal = now.goal;
   // Before a room or a floor is given up, closed ways are tried.
-  if (IsSurelyAbsent(now) ||
-      (IsSearchOver(now) && !(HasOpeningResort(goal) && IsPartCutOff(now)))) {
+  if (IsSearchOver(now) && !(HasOpeningResort(goal) && IsPartCutOff(now))) {
     if (SettleForSteadySight(now)) return true;
     goal.events.push_back("all explored; everywhere looked at, it is gone");
     return false;

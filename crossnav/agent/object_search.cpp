@@ -38,8 +38,8 @@ constexpr double kStay = 0.5;    // chosen: likewise of its room and floor: comi
 constexpr double kAround_m = 6;  // chosen: patches about the agent, a view and a step
 constexpr int kRefresh_steps = 6;    // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;  // chosen: of a search without a view left
-constexpr double kWorth_m = 400;     // chosen: for the probability; a corner of the next room
-constexpr double kCheap_m = 100;  // chosen: likewise, of an object that is gone with near certainty
+constexpr double kMostWorth_m = 400;  // chosen: for the chance of finding the goal
+constexpr double kWorth_m = 140;      // chosen: likewise where it is probably gone
 constexpr double kBeside_m = 0.5;  // chosen: the middle of a remembered place and the record's box
 constexpr double kCutOff = 0.05;   // chosen: a room or a floor, not corners
 constexpr double kClose = 0.6;     // chosen: of the range, near enough for small things
@@ -142,7 +142,6 @@ class SearchPrices {
       : now_(now),
         start_m_(now.config.policy.explore.start_m),
         known_m2_(KnownArea(now)),
-        is_absent_(IsSurelyAbsent(now)),
         is_over_(IsSearchOver(now)),
         views_(now),
         tours_(now),
@@ -194,7 +193,6 @@ class SearchPrices {
     std::vector<VoxelKey> path = search.PathTo(place);
     auto view = views_.From(place, path_m, ArrivalHeading(now_, path));
     if (!view) return;
-    if (is_absent_ && (view->cost_m + start_m_) / view->gain > kCheap_m) return;
     Candidate candidate;
     candidate.kind = CandidateKind::kSearchView;
     candidate.p_focus_world = FocusOf(now_, place, *view);
@@ -230,7 +228,7 @@ class SearchPrices {
 
   const Situation& now_;
   double start_m_, known_m2_;
-  bool is_absent_, is_over_;
+  bool is_over_;
   SearchViews views_;
   SearchTours tours_;
   ExplorationCandidates candidates_;
@@ -263,6 +261,15 @@ bool HasPlaceLeft(const Situation& now) {
   const auto& history = now.goal.history;
   return std::any_of(history.begin(), history.end(),
                      [&](const HistoryPoi& poi) { return IsToBeVisited(now, poi); });
+}
+
+/// Whether `price_m` is low for the chance of finding the goal. Prices are per share, and shares
+/// are probabilities from before the search.
+bool IsWorth(const Situation& now, double price_m) {
+  const double unseen = now.goal.full.search->unseen;
+  const double gone = objects::OddsOfAbsence(unseen);
+  const double limit_m = gone >= now.config.memory.absent_from ? kWorth_m : kMostWorth_m;
+  return price_m * unseen <= limit_m * (1 - gone);
 }
 
 /// Probabilities of the patches and of what is left to see.
@@ -350,8 +357,7 @@ std::vector<PricedCandidate> PriceSearch(const Situation& now, const VoxelKey& s
     prices.AddExplored(search, *place, path_m);
     prices.AddView(search, *place, path_m);
   }
-  const bool is_long = now.world.step - now.goal.begun_step >= now.config.memory.search_actions;
-  if (is_long && IsSearchOver(now) && prices.best() > kWorth_m) return {};
+  if (IsSearchOver(now) && !IsWorth(now, prices.best())) return {};
   return prices.Take();
 }
 
@@ -372,12 +378,6 @@ bool IsViewOpen(const Situation& now, const Candidate& view) {
 void SettleView(StepState& now, const Candidate& view) {
   if (auto& search = now.goal.full.search)
     search->settled.insert(view.beyond.begin(), view.beyond.end());
-}
-
-bool IsSurelyAbsent(const Situation& now) {
-  const auto& search = now.goal.full.search;
-  return search && now.world.revision && !HasPlaceBeyondReach(now) &&
-         objects::OddsOfAbsence(search->unseen) >= now.config.memory.absent_from;
 }
 
 bool IsPartCutOff(const Situation& now) {

@@ -33,8 +33,6 @@ bool IsViewOpen(const Situation& now, const policy::Candidate& view);
 /// The view was taken: patches that it was to show are looked at.
 void SettleView(StepState& now, const policy::Candidate& view);
 
-/// memory.mode = revise: nothing was found where nearly everything was looked at: the goal is gone.
-bool IsSurelyAbsent(const Situation& now);
 /// Rooms that may hold the goal have no way to them now.
 bool IsPartCutOff(const Situation& now);
 /// memory.mode = revise: most was looked at; the agent gives up where no view is left.

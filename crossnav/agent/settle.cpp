@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crossnav/agent/claims.h"
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/check.h"
 
 namespace crossnav::agent {
@@ -61,16 +62,55 @@ const policy::RejectedObject* BestRefuted(const Situation& now) {
   return best;
 }
 
-/// Likewise of the hints. What was a POI was judged as such.
-const policy::LivePoi* BestHint(const Situation& now) {
+/// Whether the hint is a POI, or was refuted as one. A single confident frame makes no POI.
+bool IsJudged(const Situation& now, const policy::LivePoi& hint) {
+  const policy::ObjectConfig& config = now.config.policy.object;
+  const auto is_same = [&](const auto& object) {
+    return policy::IsSameObject(hint.voxels, hint.p_center_world, object.voxels,
+                                object.p_center_world, config.merge_distance_m);
+  };
+  const auto& rejected = now.goal.full.claims.rejected;
+  const auto& pois = now.goal.live.all();
+  return std::any_of(rejected.begin(), rejected.end(), is_same) ||
+         std::any_of(pois.begin(), pois.end(), [&](const policy::LivePoi& poi) {
+           return poi.frames >= config.stable_frames && is_same(poi);
+         });
+}
+
+/// Likewise of the hints, within the voxels `around` (sorted; empty: anywhere).
+const policy::LivePoi* BestHint(const Situation& now,
+                                const std::vector<geometry::VoxelKey>& around = {}) {
   const policy::ObjectConfig& object = now.config.policy.object;
   const policy::LivePoi* best = nullptr;
-  for (const policy::LivePoi& hint : now.goal.full.hints.all())
-    if (!hint.is_discarded && hint.frames >= kSteady_frames &&
-        hint.confidence < object.detector_confidence &&
-        hint.confidence >= (best ? best->confidence : object.secondary_confidence))
-      best = &hint;
+  for (const policy::LivePoi& hint : now.goal.full.hints.all()) {
+    if (hint.is_discarded || hint.frames < kSteady_frames ||
+        hint.confidence < (best ? best->confidence : object.secondary_confidence))
+      continue;
+    const bool is_there =
+        around.empty() || std::any_of(hint.voxels.begin(), hint.voxels.end(), [&](const auto& key) {
+          return std::binary_search(around.begin(), around.end(), key);
+        });
+    if (is_there && !IsJudged(now, hint)) best = &hint;
+  }
   return best;
+}
+
+void SayBack(GoalState* goal, int frames, double confidence) {
+  goal->events.push_back(
+      fmt::format("back to what {} frames showed, confidence {:.2f}", frames, confidence));
+}
+
+void Adopt(StepState& now, const policy::LivePoi& hint) {
+  GoalState& goal = now.goal;
+  SayBack(&goal, hint.frames, hint.confidence);
+  const int hint_id = hint.id;
+  const int poi_id = goal.live.Adopt(hint, now.config.policy.object);
+  goal.full.claims.settled_for.push_back({poi_id, now.agent.p_world});
+  goal.full.hints.Discard(hint_id);
+}
+
+bool ActsOnSights(const Config& config) {
+  return DoubtsClaims(config) && !JudgesByViews(config);
 }
 
 }  // namespace
@@ -92,25 +132,23 @@ void SettleFor(StepState& now, int poi_id) {
 }
 
 bool SettleForSteadySight(StepState& now) {
-  if (!DoubtsClaims(now.config) || JudgesByViews(now.config)) return false;
-  GoalState& goal = now.goal;
-  const auto say = [&](int frames, double confidence) {
-    goal.events.push_back(fmt::format(
-        "nothing left: back to what {} frames showed, confidence {:.2f}", frames, confidence));
-  };
+  if (!ActsOnSights(now.config)) return false;
   if (const policy::RejectedObject* claim = BestRefuted(now)) {
-    say(FramesOf(now, *claim), claim->confidence);
+    SayBack(&now.goal, FramesOf(now, *claim), claim->confidence);
     TakeBack(now, claim->poi_id);
     return true;
   }
   const policy::LivePoi* hint = BestHint(now);
-  if (!hint) return false;
-  say(hint->frames, hint->confidence);
-  const int hint_id = hint->id;
-  const int poi_id = goal.live.Adopt(*hint, now.config.policy.object);
-  goal.full.claims.settled_for.push_back({poi_id, now.agent.p_world});
-  goal.full.hints.Discard(hint_id);
-  return true;
+  if (hint) Adopt(now, *hint);
+  return hint != nullptr;
+}
+
+bool SettleForSightAt(StepState& now, const HistoryPoi& place) {
+  if (!ActsOnSights(now.config) || !now.world.revision || !IsBelieved(now.world, now.goal, place))
+    return false;
+  const policy::LivePoi* hint = BestHint(now, place.voxels);
+  if (hint) Adopt(now, *hint);
+  return hint != nullptr;
 }
 
 double ConfidenceForStop(const Situation& now, int poi_id) {

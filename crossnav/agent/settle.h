@@ -18,6 +18,10 @@ void SettleFor(StepState& now, int poi_id);
 /// frames showed with the secondary confidence. False without either (verify.evidence = frame).
 bool SettleForSteadySight(StepState& now);
 
+/// memory.mode = revise, on a visit: record and frames agree. Settles for a hint at a believed
+/// record's place that many frames showed with the secondary confidence. False without one.
+bool SettleForSightAt(StepState& now, const HistoryPoi& place);
+
 /// Settles for the likeliest rejected object (verify.settle, verify.evidence = views) or the
 /// steadiest sight (frame). False without one.
 bool SettleForLikeliest(StepState& now);

@@ -79,11 +79,11 @@ TEST(CutOff, WhatIsInSightBehindANarrowGapIsNotGone) {
   TwoFloors given;
   given.world.revision.emplace();
   given.goal.full.search.emplace().unseen = 0;  // everywhere else was looked at
-  EXPECT_TRUE(IsSurelyAbsent(given.now));
+  EXPECT_TRUE(IsSearchOver(given.now));
   for (const int step : {1, 2})
     given.goal.live.Update({test::SightingOfWall({30, 10, 1})}, given.config.policy.object,
                            given.config.map.voxel_m, step);
-  EXPECT_FALSE(IsSurelyAbsent(given.now));
+  EXPECT_FALSE(IsSearchOver(given.now));
   ASSERT_TRUE(TryLastResort(given.now));
   EXPECT_NE(given.goal.events.back().find("narrow gaps are tried"), std::string::npos)
       << given.goal.events.back();
@@ -113,6 +113,27 @@ TEST(CutOff, WhatManyFramesShowedWeaklyIsNotGone) {
   while (TryLastResort(given.now)) {
   }
   EXPECT_EQ(given.goal.full.claims.settled_for.size(), 1U) << "once";
+}
+
+/// Regression: a bowl that 77 frames had shown was said to be gone, because one of them, with the
+/// confidence of a POI, counted as a judgement.
+TEST(CutOff, OneConfidentFrameAmongManyWeakOnesIsNoJudgement) {
+  TwoFloors given;
+  given.world.revision.emplace();
+  given.goal.full.search.emplace().unseen = 0;
+  const policy::ObjectConfig& object = given.config.policy.object;
+  policy::ObjectConfig weak = object;
+  weak.detector_confidence = given.config.policy.explore.hint_confidence;
+  policy::Sighting bowl = test::SightingOfWall({10, 10, 1});
+  for (int step = 0; step < 12; ++step) {
+    bowl.confidence = step == 5 ? object.detector_confidence + 0.01 : 0.65;
+    given.goal.live.Update({bowl}, object, given.config.map.voxel_m, step);
+    given.goal.full.hints.Update({bowl}, weak, given.config.map.voxel_m, step);
+  }
+  ASSERT_TRUE(given.goal.live.Stable(object).empty());
+  ASSERT_TRUE(TryLastResort(given.now));
+  EXPECT_NE(given.goal.events.back().find("back to what 12 frames showed"), std::string::npos)
+      << given.goal.events.back();
 }
 
 TEST(CutOff, AnUnreachableLevelIsNamedInTheDeclaration) {

@@ -68,8 +68,8 @@ TEST(SearchViews, ATopAboveTheCameraIsLookedAtLevel) {
 
 /// Regression: a television was given up 60 actions after its record was gone, in a room that
 /// nobody had looked into, because the way there was long for its probability.
-TEST(SearchViews, WhatCostsMuchForItsProbabilityIsLeftOutOnlyAfterManyActions) {
-  RoomWithTop room(4, 0.0042);
+TEST(SearchViews, WhatCostsMuchForItsChanceIsLeftOutOnlyWhereLittleIsUnseen) {
+  RoomWithTop room(4, 0.006);
   room.goal.full.search->notice_range_m = 0.9;  // nothing shows it from where the agent is
   for (int i = -1; i <= 20; ++i)
     for (int z = 0; z <= 14; ++z)
@@ -77,12 +77,14 @@ TEST(SearchViews, WhatCostsMuchForItsProbabilityIsLeftOutOnlyAfterManyActions) {
         test::SetState(room.world.map, wall, VoxelState::kOccupied);
   room.world.ground.Rebuild(room.world.map);
   room.world.revision.emplace();
-  room.goal.full.search->unseen = 0.1;  // and little is left to see
-  room.world.step = 1000;
-  room.goal.begun_step = 1000 - room.config.memory.search_actions + 1;
+  double& unseen = room.goal.full.search->unseen;
+  unseen = 0.15;  // and a third of the chance that it is there at all
   EXPECT_FALSE(PriceSearch(room.Now(), kStart).empty());
-  room.goal.begun_step -= 1;
+  unseen = 0.1;
   EXPECT_TRUE(PriceSearch(room.Now(), kStart).empty());
+  // The less is left, the more the same share is of it.
+  unseen = 0.01;
+  EXPECT_FALSE(PriceSearch(room.Now(), kStart).empty());
 }
 
 /// Regression: from a landing the floor above counted as tops of furniture, and high tops below as
