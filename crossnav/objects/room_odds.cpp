@@ -10,6 +10,7 @@ namespace crossnav::objects {
 namespace {
 
 constexpr double kMostCompany = 3.0;    // chosen: few rooms teach little
+constexpr double kRoomsToHalf = 4;      // chosen: with as many rooms that hold it, half is believed
 constexpr double kRemoved = 0.2;        // chosen: of what is not at its place, before any search
 constexpr double kTypicalArea_m2 = 15;  // chosen: of a room; larger ones hold more
 
@@ -77,6 +78,9 @@ std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
   const auto lost = LastLost(records, category);
   // That the object was in the room that it left is counted by the way, not as company.
   const RoomSets sets = RoomsByCategory(records, lost);
+  const auto mine = sets.find(category);
+  const double known = mine == sets.end() ? 0 : static_cast<double>(mine->second.size());
+  const double taught = known / (known + kRoomsToHalf);
   std::map<Way, std::map<int, double>> ways;
   for (const RoomPlace& room : rooms) {
     // Furniture of one room is no independent evidence: the mean of what each piece says.
@@ -87,7 +91,7 @@ std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
       log_company += std::log(CompanyOf(sets, rooms.size(), category, other));
       ++kinds;
     }
-    const double company = kinds > 0 ? std::exp(log_company / kinds) : 1;
+    const double company = kinds > 0 ? std::exp(taught * log_company / kinds) : 1;
     const double size = std::sqrt(std::max(1.0, room.area_m2) / kTypicalArea_m2);
     ways[WayTo(room, lost)][room.room] += size * company;
   }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace crossnav::objects {
 namespace {
 
@@ -52,6 +54,21 @@ TEST(RoomOdds, RoomsWithTheFurnitureThatUsuallyStandsBesideItAreLikelier) {
   EXPECT_GT(odds.at(2), 1.2 * odds.at(3));
   EXPECT_GT(Company(records, rooms, "plant", "sofa"), 1);
   EXPECT_LT(Company(records, rooms, "plant", "bathtub"), 1);
+}
+
+/// Regression: one plant beside a sofa made a room without a sofa seven times less likely, so that
+/// a search left it out.
+TEST(RoomOdds, OneRoomTeachesLittle) {
+  std::vector<ObjectRecord> records = {RecordOf("plant", 0, 0, 0.01), RecordOf("plant", 1, 0)};
+  for (const int room : {1, 2}) records.push_back(RecordOf("sofa", room, 0));
+  records.push_back(RecordOf("bathtub", 3, 0));
+  std::vector<RoomPlace> rooms = kRooms;
+  rooms[3].floor = 0;
+  const double raw =
+      Company(records, rooms, "plant", "sofa") / Company(records, rooms, "plant", "bathtub");
+  const auto once = RoomOdds(records, rooms, "plant");
+  EXPECT_GT(once.at(2), once.at(3));
+  EXPECT_LT(once.at(2), std::sqrt(raw) * once.at(3));
 }
 
 TEST(RoomOdds, OnlyTheLastPlaceOfAThingThatMovedTwiceCounts) {
