@@ -256,7 +256,7 @@ Result<void> LifelongReport(const SuiteOptions& options, Console& console) {
   std::vector<evaluation::VisitComparison> comparisons;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (std::size_t j = i + 1; j < runs.size(); ++j) {
-      auto comparison = evaluation::CompareVisits(runs[i], runs[j]);
+      auto comparison = evaluation::CompareVisits(runs[i], runs[j], {}, options.force);
       if (!comparison) return tl::unexpected(comparison.error());
       comparisons.push_back(std::move(*comparison));
     }

@@ -38,8 +38,8 @@ constexpr double kStay = 0.5;    // chosen: likewise of its room and floor: comi
 constexpr double kAround_m = 6;  // chosen: patches about the agent, a view and a step
 constexpr int kRefresh_steps = 6;     // chosen: as policy.explore.reconsider_steps
 constexpr double kMostUnseen = 0.2;   // chosen: of a search without a view left
-constexpr double kMostWorth_m = 400;  // chosen: for the chance of finding the goal
-constexpr double kWorth_m = 140;      // chosen: likewise where it is probably gone
+constexpr double kMostPrice_m = 400;  // chosen: for the chance of finding the goal
+constexpr double kLowPrice_m = 140;   // chosen: likewise where it is probably gone
 constexpr double kBeside_m = 0.5;  // chosen: the middle of a remembered place and the record's box
 constexpr double kCutOff = 0.05;   // chosen: a room or a floor, not corners
 constexpr double kClose = 0.6;     // chosen: of the range, near enough for small things
@@ -268,7 +268,7 @@ bool HasPlaceLeft(const Situation& now) {
 bool IsWorth(const Situation& now, double price_m) {
   const double unseen = now.goal.full.search->unseen;
   const double gone = objects::OddsOfAbsence(unseen);
-  const double limit_m = gone >= now.config.memory.absent_from ? kWorth_m : kMostWorth_m;
+  const double limit_m = gone >= now.config.memory.absent_from ? kLowPrice_m : kMostPrice_m;
   return price_m * unseen <= limit_m * (1 - gone);
 }
 

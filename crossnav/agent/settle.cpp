@@ -77,20 +77,21 @@ bool IsJudged(const Situation& now, const policy::LivePoi& hint) {
          });
 }
 
-/// Likewise of the hints, within the voxels `around` (sorted; empty: anywhere).
-const policy::LivePoi* BestHint(const Situation& now,
-                                const std::vector<geometry::VoxelKey>& around = {}) {
+bool IsAt(const policy::LivePoi& hint, const HistoryPoi& place) {
+  return std::any_of(place.voxels.begin(), place.voxels.end(), [&](const auto& key) {
+    return std::binary_search(hint.voxels.begin(), hint.voxels.end(), key);
+  });
+}
+
+/// Likewise of the hints, at `place` or (null) anywhere.
+const policy::LivePoi* BestHint(const Situation& now, const HistoryPoi* place = nullptr) {
   const policy::ObjectConfig& object = now.config.policy.object;
   const policy::LivePoi* best = nullptr;
   for (const policy::LivePoi& hint : now.goal.full.hints.all()) {
     if (hint.is_discarded || hint.frames < kSteady_frames ||
         hint.confidence < (best ? best->confidence : object.secondary_confidence))
       continue;
-    const bool is_there =
-        around.empty() || std::any_of(hint.voxels.begin(), hint.voxels.end(), [&](const auto& key) {
-          return std::binary_search(around.begin(), around.end(), key);
-        });
-    if (is_there && !IsJudged(now, hint)) best = &hint;
+    if ((!place || IsAt(hint, *place)) && !IsJudged(now, hint)) best = &hint;
   }
   return best;
 }
@@ -146,7 +147,7 @@ bool SettleForSteadySight(StepState& now) {
 bool SettleForSightAt(StepState& now, const HistoryPoi& place) {
   if (!ActsOnSights(now.config) || !now.world.revision || !IsBelieved(now.world, now.goal, place))
     return false;
-  const policy::LivePoi* hint = BestHint(now, place.voxels);
+  const policy::LivePoi* hint = BestHint(now, &place);
   if (hint) Adopt(now, *hint);
   return hint != nullptr;
 }

@@ -14,6 +14,7 @@
 #include "crossnav/agent/hints.h"
 #include "crossnav/agent/object_search.h"
 #include "crossnav/agent/poi_targets.h"
+#include "crossnav/agent/settle.h"
 #include "support/map_of_states.h"
 #include "support/sightings.h"
 
@@ -134,6 +135,44 @@ TEST(CutOff, OneConfidentFrameAmongManyWeakOnesIsNoJudgement) {
   ASSERT_TRUE(TryLastResort(given.now));
   EXPECT_NE(given.goal.events.back().find("back to what 12 frames showed"), std::string::npos)
       << given.goal.events.back();
+}
+
+/// Regression: an agent went away from a bowl on record that each frame of a visit showed weakly.
+TEST(CutOff, WeakFramesAreEnoughAtABelievedRecord) {
+  TwoFloors given;
+  policy::ObjectConfig weak = given.config.policy.object;
+  weak.detector_confidence = given.config.policy.explore.hint_confidence;
+  policy::Sighting bowl = test::SightingOfWall({10, 10, 1});
+  bowl.confidence = 0.65;
+  const auto see = [&](int from, int to) {
+    for (int step = from; step < to; ++step)
+      given.goal.full.hints.Update({bowl}, weak, given.config.map.voxel_m, step);
+  };
+  HistoryPoi place, other;
+  place.voxels = bowl.voxels;
+  other.voxels = test::SightingOfWall({2, 2, 1}).voxels;
+  given.goal.goal = "bowl";
+  objects::ObjectRecord record;
+  record.category = "bowl";
+  record.views = 5;
+  record.confidence = 0.9;
+  std::vector<objects::ObjectRecord> records;
+  for (const HistoryPoi* poi : {&place, &other}) {
+    record.voxels = poi->voxels;
+    objects::Measure(record, given.config.map.voxel_m);
+    records.push_back(record);
+  }
+  see(0, 10);
+  given.world.revision.emplace();
+  EXPECT_FALSE(SettleForSightAt(given.now, place)) << "nothing on record";
+  given.world.objects.Load(records);
+  EXPECT_FALSE(SettleForSightAt(given.now, other)) << "nothing seen there";
+  given.world.revision.reset();
+  EXPECT_FALSE(SettleForSightAt(given.now, place)) << "memory.mode = keep";
+  given.world.revision.emplace();
+  ASSERT_TRUE(SettleForSightAt(given.now, place));
+  ASSERT_EQ(given.goal.live.Stable(given.config.policy.object).size(), 1U);
+  EXPECT_FALSE(SettleForSightAt(given.now, place)) << "once";
 }
 
 TEST(CutOff, AnUnreachableLevelIsNamedInTheDeclaration) {

@@ -145,6 +145,19 @@ TEST(VisitReport, RunsOfOtherVisitsAreNotCompared) {
   VisitResults other = RunOf("none", 8);
   other.run.suite_hash = "else";
   EXPECT_FALSE(CompareVisits(RunOf("keep", 8), other).has_value());
+  EXPECT_FALSE(CompareVisits(RunOf("keep", 8), other, {}, true).has_value());
+}
+
+/// Regression: `suite report --force` did not compare lifelong runs of other settings.
+TEST(VisitReport, RunsOfOtherSettingsAreComparedByForceAndTheReportSaysSo) {
+  VisitResults other = RunOf("keep", 8);
+  other.run.config_hash = "else";
+  const VisitResults none = RunOf("none", 16);
+  EXPECT_FALSE(CompareVisits(none, other).has_value());
+  const auto comparison = CompareVisits(none, other, {}, true);
+  ASSERT_TRUE(comparison.has_value());
+  const std::string text = VisitReportMarkdown("suite", {none, other}, {*comparison});
+  EXPECT_NE(text.find("in pairs (settings differ)"), std::string::npos) << text;
 }
 
 TEST(VisitReport, AnAbsentGoalHasSuccessAndNoSpl) {

@@ -133,16 +133,19 @@ std::vector<std::pair<std::string, TrackFigures>> FiguresOf(const VisitResults& 
 }
 
 Result<VisitComparison> CompareVisits(const VisitResults& a, const VisitResults& b,
-                                      const BootstrapConfig& bootstrap) {
+                                      const BootstrapConfig& bootstrap, bool is_forced) {
   VisitRun same = b.run;
   same.memory_mode = a.run.memory_mode;
-  if (!(same == a.run)) {
+  const bool is_alike = same == a.run;
+  const bool is_comparable = is_alike || (is_forced && b.run.suite_hash == a.run.suite_hash);
+  if (!is_comparable) {
     return Fail(ErrorCode::kMismatch,
                 "cannot be compared with memory " + a.run.memory_mode +
-                    ": suite, settings, variant, perception or version differ",
+                    ": suite, settings, variant, perception or version differ (--force compares "
+                    "runs of one suite)",
                 "memory " + b.run.memory_mode);
   }
-  VisitComparison comparison{a.run.memory_mode, b.run.memory_mode, {}};
+  VisitComparison comparison{a.run.memory_mode, b.run.memory_mode, {}, !is_alike};
   for (const std::string_view track : kVisitTracks) {
     std::map<std::tuple<std::string, int, std::string>, const GoalRecord*> in_b;
     for (const auto& [visit, goal] : GoalsOf(b, track)) {
@@ -197,9 +200,10 @@ std::string VisitReportMarkdown(const std::string& suite, const std::vector<Visi
   }
   for (const VisitComparison& comparison : comparisons) {
     text += fmt::format(
-        "\n## {} against {}, in pairs\n\n| track | goals | houses | success, points | SPL, points "
+        "\n## {} against {}, in pairs{}\n\n| track | goals | houses | success, points | SPL, "
+        "points "
         "|\n|---|---|---|---|---|\n",
-        comparison.name_b, comparison.name_a);
+        comparison.name_b, comparison.name_a, comparison.is_forced ? " (settings differ)" : "");
     for (const auto& [track, d] : comparison.tracks) {
       text += fmt::format("| {} | {} | {} | {} | {} |\n", track, d.goals, d.houses,
                           Points(d.success), d.spl ? Points(*d.spl) : "-");
@@ -235,6 +239,7 @@ std::string VisitReportJson(const std::vector<VisitResults>& runs,
     }
     pairs.push_back({{"before", comparison.name_a},
                      {"after", comparison.name_b},
+                     {"settings_differ", comparison.is_forced},
                      {"tracks", std::move(tracks)}});
   }
   return Json({{"runs", std::move(list)}, {"comparisons", std::move(pairs)}}).dump(1);

@@ -42,11 +42,13 @@ struct TrackDifference {
 struct VisitComparison {
   std::string name_a, name_b;
   std::vector<std::pair<std::string, TrackDifference>> tracks;
+  bool is_forced = false;  ///< settings, perception or version differ
 };
 
-/// Error: runs of other visits, settings, perception or version.
+/// Error: runs of other visits; unless `is_forced`, also of other settings, perception or version.
 Result<VisitComparison> CompareVisits(const VisitResults& a, const VisitResults& b,
-                                      const BootstrapConfig& bootstrap = {});
+                                      const BootstrapConfig& bootstrap = {},
+                                      bool is_forced = false);
 
 std::string VisitReportMarkdown(const std::string& suite, const std::vector<VisitResults>& runs,
                                 const std::vector<VisitComparison>& comparisons);
