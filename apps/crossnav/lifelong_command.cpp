@@ -39,37 +39,83 @@ Result<std::string> ModeOf(const std::string& variant) {
 struct ChainSettings {
   const evaluation::RunConfig& config;
   const PerceptionSource& perception;
-  std::string mode;
+  evaluation::VisitRun run;
   const LifelongPlace& place;
-  fs::path run;
+
+  bool IsKept() const { return run.memory_mode != "none"; }
+  fs::path RunFolder() const { return place.runs() / run.memory_mode; }
+  /// Without a memory the mode has no effect: all modes share the first day.
+  fs::path FirstDay() const { return place.runs() / "first_day"; }
+  fs::path FirstMap(const std::string& house) const { return FirstDay() / (house + ".map"); }
+  fs::path Map(const std::string& house) const { return RunFolder() / "memory" / (house + ".map"); }
 };
 
-/// Plays one day; the memory goes on in the house's map file.
-Result<evaluation::VisitRecord> PlayDay(const evaluation::HouseVisit& visit,
+/// Plays one day. `map`: memory to begin with from the second day on, and to save to; empty = none.
+Result<evaluation::VisitRecord> PlayDay(const evaluation::HouseVisit& visit, const fs::path& map,
                                         const ChainSettings& chain) {
   auto context = evaluation::SceneContext::Load(chain.place.scenes(), visit.scene_id, chain.config);
   if (!context) return tl::unexpected(context.error());
-  const fs::path map = chain.run / "memory" / (visit.house + ".map");
   const std::string encoder = chain.perception.EncoderName();
   evaluation::VisitHooks hooks;
-  if (chain.mode != "none" && visit.day > 0) {
+  std::int64_t map_bytes = 0;
+  if (!map.empty() && visit.day > 0) {
     hooks.begin = [&](agent::Agent& agent) {
       return RestoreMemory(map, chain.config, encoder, agent);
     };
   }
-  if (chain.mode != "none") {
+  if (!map.empty()) {
     hooks.end = [&](const agent::Agent& agent) -> Result<void> {
       const auto saved = SaveMemoryOf(agent, map, encoder, visit.house);
       if (!saved) return tl::unexpected(saved.error());
+      std::error_code ignored;
+      map_bytes = static_cast<std::int64_t>(fs::file_size(map, ignored));
       return {};
     };
   }
   auto record =
       evaluation::PlayVisit(**context, visit, chain.config, hooks, chain.perception.Maker());
+  if (record) record->map_bytes = map_bytes;
+  return record;
+}
+
+/// Record of the first day, from a run of any mode with these settings, else played.
+Result<evaluation::VisitRecord> FirstDayRecord(const evaluation::HouseVisit& visit,
+                                               const ChainSettings& chain) {
+  const fs::path map = chain.FirstMap(visit.house);
+  const fs::path path = chain.FirstDay() / (visit.house + ".jsonl");
+  evaluation::VisitRun run = chain.run;
+  run.memory_mode = "first day";
+  std::error_code error;
+  if (fs::exists(map, error) && fs::exists(path, error)) {
+    const auto text = ReadFile(path);
+    if (!text) return tl::unexpected(text.error());
+    auto results = evaluation::ParseVisitResults(*text, path.string());
+    if (results && results->run == run && results->records.size() == 1)
+      return results->records.front();
+  }
+  // A run of another mode may be at the same day.
+  const fs::path part = chain.FirstDay() / (visit.house + "." + chain.run.memory_mode + ".map");
+  fs::remove(part, error);  // of an interrupted run: a save would add a revision to it
+  auto record = PlayDay(visit, part, chain);
   if (!record) return record;
-  std::error_code ignored;
-  const auto bytes = fs::file_size(map, ignored);
-  if (chain.mode != "none" && !ignored) record->map_bytes = static_cast<std::int64_t>(bytes);
+  fs::remove(path, error);  // of another run, like the map
+  fs::rename(part, map, error);
+  if (error) return Fail(ErrorCode::kIo, error.message(), map.string());
+  const std::string text = evaluation::VisitResultsText({run, {*record}});
+  if (auto ok = WriteFileAtomically(path, text); !ok) return tl::unexpected(ok.error());
+  return record;
+}
+
+/// Plays a day; after the first one the memory of the mode begins as a copy of the first day's.
+Result<evaluation::VisitRecord> DayRecord(const evaluation::HouseVisit& visit, bool is_first,
+                                          const ChainSettings& chain) {
+  if (!is_first) return PlayDay(visit, chain.IsKept() ? chain.Map(visit.house) : fs::path(), chain);
+  auto record = FirstDayRecord(visit, chain);
+  if (!record || !chain.IsKept()) return record;
+  std::error_code error;
+  fs::copy_file(chain.FirstMap(visit.house), chain.Map(visit.house),
+                fs::copy_options::overwrite_existing, error);
+  if (error) return Fail(ErrorCode::kIo, error.message(), chain.Map(visit.house).string());
   return record;
 }
 
@@ -78,7 +124,7 @@ std::string PlayHouse(const std::vector<evaluation::HouseVisit>& visits,
                       const ChainSettings& chain) {
   std::string lines;
   for (const evaluation::HouseVisit& visit : visits) {
-    auto record = PlayDay(visit, chain);
+    auto record = DayRecord(visit, &visit == &visits.front(), chain);
     if (!record) {
       evaluation::VisitRecord failed;
       failed.house = visit.house;
@@ -162,7 +208,8 @@ Result<void> PlayHouses(const std::vector<std::vector<evaluation::HouseVisit>>& 
     const bool is_played = answer.end == evaluation::ItemEnd::kDone;
     Add(is_played ? answer.text : evaluation::VisitLine(failed) + "\n", results);
     console.Progress(fmt::format("house {} of {}", ++done, open.size()));
-    return WriteFileAtomically(chain.run / "visits.jsonl", evaluation::VisitResultsText(results));
+    return WriteFileAtomically(chain.RunFolder() / "visits.jsonl",
+                               evaluation::VisitResultsText(results));
   };
   return evaluation::RunPool(task);
 }
@@ -217,16 +264,19 @@ Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& commo
         fmt::format("{} goals are no category and are left out: only ground truth knows them",
                     evaluation::LeaveOutNames(&file->visits)));
   const LifelongPlace place = LifelongPlaceOf(options);
-  const ChainSettings chain{*config, *perception, *mode, place, place.runs() / *mode};
-  const fs::path path = chain.run / "visits.jsonl";
+  const ChainSettings chain{*config,
+                            *perception,
+                            {file->content_hash, *mode, "full", settings,
+                             config->eval.perception + "-perception", CROSSNAV_VERSION},
+                            place};
+  const fs::path path = chain.RunFolder() / "visits.jsonl";
   if (auto ok = evaluation::CheckOutputFile(path, "--out"); !ok) return ok;
-  std::error_code error;
-  fs::create_directories(chain.run / "memory", error);
-  if (error) return Fail(ErrorCode::kIo, error.message(), (chain.run / "memory").string());
-  auto results = Started(path,
-                         {file->content_hash, *mode, "full", settings,
-                          config->eval.perception + "-perception", CROSSNAV_VERSION},
-                         console);
+  for (const fs::path& folder : {chain.RunFolder() / "memory", chain.FirstDay()}) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) return Fail(ErrorCode::kIo, error.message(), folder.string());
+  }
+  auto results = Started(path, chain.run, console);
   if (!results) return tl::unexpected(results.error());
   if (auto ok = PlayHouses(ByHouse(*file), options.jobs, chain, *results, console); !ok) return ok;
   console.EndProgress();

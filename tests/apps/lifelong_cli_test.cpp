@@ -18,6 +18,13 @@ constexpr const char* kSmallDays =
 
 using LifelongCli = Cli;
 
+std::vector<std::string> LinesOf(const test::fs::path& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
 TEST_F(LifelongCli, TheDemoFindsUpstairsWhatTheNightCarriedThere) {
   const Outcome demo = Run("demo lifelong --quiet --json --out demo" + std::string(kSmallDays));
   ASSERT_EQ(demo.exit_code, 0) << demo.err;
@@ -55,6 +62,52 @@ TEST_F(LifelongCli, AMemoryKeptThroughDaysOfChangeStaysBoundedAndSurvivesKilledS
   const Json info = Json::parse(Run("map info days.map --json").out);
   EXPECT_EQ(info["revision"], 4);
   EXPECT_EQ(Run(command).exit_code, 1) << "days begin with nothing";
+}
+
+TEST_F(LifelongCli, AllModesShareTheFirstDay) {
+  const test::fs::path suite = At("suites/crossnav-lifelong-1-mini");
+  test::fs::create_directories(suite);
+  test::fs::rename(At("scenes"), suite / "scenes");
+  Json visits = Json::array();
+  for (int day = 0; day < 2; ++day) {
+    visits.push_back(
+        {{"house", "00001-CrossnavHouse"},
+         {"day", day},
+         {"scene", "00001-CrossnavHouse"},
+         {"start", {5.3613, 7.3312, 0.05}},
+         {"yaw_rad", 0.0},
+         {"goals",
+          {{{"goal", "tv_monitor"}, {"track", day == 0 ? "first" : "static"}, {"floors", {0}}}}}});
+  }
+  test::WriteText(suite / "visits.json", Json({{"format", 1}, {"visits", visits}}).dump());
+  const auto play = [&](const std::string& variant, const std::string& settings) {
+    const Outcome run = Run("suite run crossnav-lifelong-1-mini --out suites --quiet --variant " +
+                            variant + kSmallDays + settings);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return LinesOf(suite / "runs" / variant / "visits.jsonl");
+  };
+  const auto kept = play("keep", "");
+  const auto first_map = suite / "runs/first_day/00001-CrossnavHouse.map";
+  const auto made = test::fs::last_write_time(first_map);
+  const auto revised = play("revise", ""), none = play("none", "");
+  ASSERT_EQ(kept.size(), 3U) << "the run and two days";
+  EXPECT_EQ(test::fs::last_write_time(first_map), made) << "played once";
+  EXPECT_EQ(revised.at(1), kept.at(1));
+  EXPECT_EQ(none.at(1), kept.at(1));
+  EXPECT_NE(none.at(2), kept.at(2)) << "a memory knows the way";
+  for (const char* mode : {"keep", "revise"}) {
+    const auto map = "suites/crossnav-lifelong-1-mini/runs/" + std::string(mode) +
+                     "/memory/00001-CrossnavHouse.map";
+    EXPECT_EQ(Json::parse(Run("map info " + map + " --json").out)["revision"], 2) << mode;
+  }
+  test::fs::remove(suite / "runs/keep/visits.jsonl");
+  const auto other = play("keep", " --set eval.action_budget=900");
+  EXPECT_NE(test::fs::last_write_time(first_map), made) << "other settings are another first day";
+  EXPECT_EQ(Json::parse(other.at(1))["goals"][0]["budget"], 900);
+  EXPECT_EQ(Json::parse(Run("map info suites/crossnav-lifelong-1-mini/runs/first_day/"
+                            "00001-CrossnavHouse.map --json")
+                            .out)["revision"],
+            1);
 }
 
 TEST_F(LifelongCli, DrawnHomesNeedTheirArchive) {
