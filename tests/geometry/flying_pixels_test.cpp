@@ -43,6 +43,39 @@ TEST(FlyingPixels, TheNoiseOfASurfaceIsKept) {
   EXPECT_GE(kept, 0.999 * kSide_px * kSide_px);
 }
 
+/// Literal reading of the definition.
+DepthImage ByDefinition(const DepthImage& depth_m, int min_neighbours) {
+  DepthImage kept = depth_m;
+  for (int v = 0; v < depth_m.height; ++v) {
+    for (int u = 0; u < depth_m.width; ++u) {
+      const float z_m = depth_m.At(u, v);
+      int confirming = 0;
+      for (int dv = -1; dv <= 1; ++dv)
+        for (int du = -1; du <= 1; ++du)
+          if ((du != 0 || dv != 0) && depth_m.Contains(u + du, v + dv) &&
+              std::abs(depth_m.At(u + du, v + dv) - z_m) <= (0.03F + 0.01F * z_m) * z_m)
+            ++confirming;
+      if (z_m > 0 && confirming < min_neighbours) kept.At(u, v) = 0;
+    }
+  }
+  return kept;
+}
+
+TEST(FlyingPixels, AgreeWithTheDefinitionInImagesOfAnySize) {
+  Rng rng(2);
+  for (const int width : {1, 2, 3, 5, 33, 64}) {
+    for (const int height : {1, 2, 3, 17}) {
+      DepthImage depth_m(width, height, 0.0F);
+      for (float& z_m : depth_m.data)
+        if (rng.Uniform() > 0.2) z_m = static_cast<float>(2 + 0.1 * rng.Normal());
+      for (const int min_neighbours : {0, 1, 2, 3, 8})
+        EXPECT_EQ(WithoutFlyingPixels(depth_m, min_neighbours).data,
+                  ByDefinition(depth_m, min_neighbours).data)
+            << width << " x " << height << ", " << min_neighbours;
+    }
+  }
+}
+
 TEST(FlyingPixels, WithoutANumberOfNeighboursEveryReadingIsKept) {
   DepthImage depth_m(3, 3, 0.0F);
   depth_m.At(1, 1) = 2;
