@@ -45,21 +45,22 @@ constexpr double kCutOff = 0.05;   // chosen: a room or a floor, not corners
 constexpr double kClose = 0.6;     // chosen: of the range, near enough for small things
 constexpr double kLeftOver = 0.2;  // chosen: of a room's area that earlier days left unseen; the
                                    // rest is in walls
-constexpr double kOffLevel_m = 0.3;  // chosen: a frontier this far off a floor is on furniture
 
-void UpdateAllFloors(World* world) {
-  const auto& graph = world->revision->graph;
+void UpdateAllFloors(StepState& now) {
+  const auto& graph = now.world.revision->graph;
+  const double eye_m = now.config.sensor.camera_height_m;
   for (std::size_t floor = 0; floor < graph.plans.size(); ++floor) {
     const auto& frame = graph.plans[floor].frame;
-    world->full.field.Update(world->map, graph.floors[floor].height_m, {frame.x0, frame.y0, 0},
-                             {frame.x0 + frame.width - 1, frame.y0 + frame.height - 1, 0});
+    now.world.full.field.Update(now.world.map, graph.floors[floor].height_m, eye_m,
+                                {frame.x0, frame.y0, 0},
+                                {frame.x0 + frame.width - 1, frame.y0 + frame.height - 1, 0});
   }
 }
 
 void UpdateAround(StepState& now) {
   const double voxel_m = now.config.map.voxel_m;
   const Vector3d reach(kAround_m, kAround_m, 0);
-  now.world.full.field.Update(now.world.map, now.world.level_m,
+  now.world.full.field.Update(now.world.map, now.world.level_m, now.config.sensor.camera_height_m,
                               geometry::KeyOf(now.agent.p_world - reach, voxel_m),
                               geometry::KeyOf(now.agent.p_world + reach, voxel_m));
 }
@@ -88,25 +89,6 @@ double KnownArea(const Situation& now) {
   for (const auto& [cell, patch] : now.world.full.field.patches())
     if (patch.height_m < kFurnitureTop_m) area_m2 += patch.columns * voxel_m * voxel_m;
   return std::max(area_m2, 1.0);
-}
-
-bool IsOnFloor(const World& world, double z_m) {
-  const auto is_at = [&](double level_m) { return std::abs(z_m - level_m) <= kOffLevel_m; };
-  if (std::any_of(world.levels_m.begin(), world.levels_m.end(), is_at)) return true;
-  return world.revision &&
-         std::any_of(world.revision->graph.floors.begin(), world.revision->graph.floors.end(),
-                     [&](const auto& floor) { return is_at(floor.height_m); });
-}
-
-/// Whether the agent is on a landing of a known house: from there the floor above would count as
-/// tops of furniture.
-bool IsOnLanding(const World& world) {
-  constexpr double kNewFloor_m = 2.0;  // chosen: as far from each known floor, it is another one
-  if (!world.revision) return false;
-  double least_m = kNewFloor_m;
-  for (const auto& floor : world.revision->graph.floors)
-    least_m = std::min(least_m, std::abs(floor.height_m - world.level_m));
-  return least_m > kOffLevel_m && least_m < kNewFloor_m;
 }
 
 /// Ground in an area that earlier days left unseen. Walls explain no more than a room's area.
@@ -287,10 +269,10 @@ void Weigh(const World& world, const GoalState& goal, ObjectSearch* search) {
 void BeginSearchWhereDue(StepState& now) {
   auto& search = now.goal.full.search;
   if (search || !now.world.revision || HasPlaceLeft(now)) return;
+  UpdateRooms(&now.world);
   LocateObjects(&now.world);
   const std::string category = KnownAs(now.world.objects.records(), now.goal.goal);
   search.emplace();
-  search->odds = RoomOdds(now.world.objects.records(), now.world.revision->rooms, category);
   search->was_noticed = WasNoticedThroughout(now.world, now.goal.goal);
   const NoticeRanges ranges = RangesOfNotice(now.world, now.goal, now.config);
   search->notice_range_m = ranges.probably_m;
@@ -300,18 +282,21 @@ void BeginSearchWhereDue(StepState& now) {
   search->is_tall = sides_m.z() >= SearchPatch::kHigh_m;
   search->is_wide = sides_m.head<2>().maxCoeff() >= kWide_m;
   search->hidden = PatchesOutOfSight(now, *search);
+  search->odds = OddsOf(now.world, now.goal);
   Weigh(now.world, now.goal, &*search);
 }
 
 void UpdateSearch(StepState& now) {
-  const bool is_flat =
-      std::abs(now.agent.p_world.z() - now.world.level_m) < kOffLevel_m && now.world.has_level;
   auto& search = now.goal.full.search;
-  if (now.world.step % kRefresh_steps == 0 && is_flat && !IsOnLanding(now.world)) UpdateAround(now);
-  if (now.world.revision && now.world.step == 0) UpdateAllFloors(&now.world);
+  if (now.world.step % kRefresh_steps == 0 && StandsOnFloor(now)) UpdateAround(now);
+  if (now.world.revision && now.world.step == 0) UpdateAllFloors(now);
   now.world.full.field.Look(now.obs, now.config.policy.explore.inspect_range_m);
   BeginSearchWhereDue(now);
   if (!search || (search->step >= 0 && now.world.step - search->step < kRefresh_steps)) return;
+  if (!search->odds.empty() && UpdateRooms(&now.world)) {
+    LocateObjects(&now.world);
+    search->odds = OddsOf(now.world, now.goal);
+  }
   Weigh(now.world, now.goal, &*search);
 }
 

@@ -6,8 +6,11 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "crossnav/agent/carriers.h"
 #include "crossnav/objects/alias.h"
+#include "crossnav/objects/room_odds.h"
 #include "crossnav/scenegraph/build_graph.h"
 
 namespace crossnav::agent {
@@ -84,36 +87,63 @@ std::map<VoxelKey, double> SharesBeside(const World& world, const GoalState& goa
   return beside;
 }
 
-}  // namespace
+struct Place {
+  int room = 0;  ///< 0 without a graph
+  double weight = 0;
+};
 
-std::map<VoxelKey, double> SharesOf(const World& world, const GoalState& goal,
-                                    const std::map<int, double>& odds) {
+/// Patches that are in a room, by the columns on which the goal may stand.
+std::map<VoxelKey, Place> PlacesFor(const World& world, const GoalState& goal) {
   const std::string category = KnownAs(world.objects.records(), goal.goal);
   const auto height_m = UsualHeight(world, category);
   const double base_m2 = LeastBase(world, category);
-  std::map<VoxelKey, double> shares;
-  std::map<VoxelKey, int> rooms;
-  std::map<int, double> in_room;
+  const Carriers carriers(world);
+  std::map<VoxelKey, Place> places;
   for (const auto& [cell, patch] : world.full.field.patches()) {
     if (goal.full.search->hidden.contains(cell)) continue;
-    double share = patch.columns * FitOf(world, cell, base_m2);
-    if (height_m && (*height_m > kFurnitureTop_m) != (patch.height_m > kFurnitureTop_m))
-      share *= kOtherKind;
+    Place place;
     if (world.revision) {
       const auto& graph = world.revision->graph;
       const auto floor = FloorAt(graph, patch.p_world);
       const auto room = floor ? RoomAt(graph, *floor, patch.p_world) : std::nullopt;
       if (!room) continue;
-      rooms[cell] = *room;
-      in_room[*room] += share;
-    } else {
-      in_room[0] += share;
+      place.room = *room;
     }
-    shares[cell] = share;
+    const bool is_top = patch.height_m > kFurnitureTop_m;
+    place.weight = patch.columns * FitOf(world, cell, base_m2);
+    if (is_top) place.weight *= carriers.WeightAt(patch.p_world);
+    if (height_m && (*height_m > kFurnitureTop_m) != is_top) place.weight *= kOtherKind;
+    places[cell] = place;
+  }
+  return places;
+}
+
+}  // namespace
+
+std::map<int, double> OddsOf(const World& world, const GoalState& goal) {
+  const double column_m2 = world.objects.voxel_m() * world.objects.voxel_m();
+  std::map<int, double> areas_m2;
+  for (const auto& [cell, place] : PlacesFor(world, goal))
+    areas_m2[place.room] += place.weight * column_m2;
+  std::vector<objects::RoomPlace> rooms;
+  for (const auto& room : world.revision->graph.rooms)
+    rooms.push_back({room.id, room.floor, areas_m2[room.id]});
+  const auto& records = world.objects.records();
+  return RoomOdds(records, rooms, KnownAs(records, goal.goal));
+}
+
+std::map<VoxelKey, double> SharesOf(const World& world, const GoalState& goal,
+                                    const std::map<int, double>& odds) {
+  const std::map<VoxelKey, Place> places = PlacesFor(world, goal);
+  std::map<VoxelKey, double> shares;
+  std::map<int, double> in_room;
+  for (const auto& [cell, place] : places) {
+    shares[cell] = place.weight;
+    in_room[place.room] += place.weight;
   }
   const std::map<VoxelKey, double> beside = SharesBeside(world, goal, shares);
   for (auto& [cell, share] : shares) {
-    const int room = world.revision ? rooms[cell] : 0;
+    const int room = places.at(cell).room;
     const auto it = odds.find(room);
     share *= (odds.empty() ? 1 : it == odds.end() ? 0 : it->second) / in_room[room];
   }

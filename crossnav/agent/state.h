@@ -70,8 +70,10 @@ struct OneMapWorld {
 
 /// A loaded memory under memory.mode = revise: the rooms that it knows.
 struct Revision {
-  scenegraph::SceneGraph graph;
-  std::vector<objects::RoomPlace> rooms;
+  scenegraph::SceneGraph loaded;          ///< of the map as it was loaded
+  scenegraph::SceneGraph graph;           ///< of the map now, with the rooms that today has shown
+  std::vector<objects::RoomPlace> rooms;  ///< of `graph`
+  std::int64_t known_voxels = 0;          ///< of the map when `graph` was made
 };
 
 /// Survives a change of goal.

@@ -24,7 +24,10 @@ constexpr double kUnknown = 0.6;           // chosen: of the range of things tha
 constexpr double kUnknownMissed = 0.3;     // chosen: chance that such a thing is missed beyond it
 constexpr int kLeastViews = 2;             // chosen: frames of a record, as for a live POI
 constexpr double kFirst = 2;               // chosen: more than the places that count alike
-constexpr double kIsMoved = 0.8;           // chosen: chance that a new object is a known one moved
+constexpr double kOffLevel_m = 0.3;        // chosen: of one floor
+constexpr double kNewFloor_m = 2.0;  // chosen: as far from each known floor, it is another one
+constexpr double kGrown = 0.02;      // chosen: of a map that shows a new room
+constexpr double kIsMoved = 0.8;     // chosen: chance that a new object is a known one moved
 
 double ShareOfSurfaces(const World& world, const std::vector<VoxelKey>& voxels) {
   const auto count = std::count_if(voxels.begin(), voxels.end(), [&](const VoxelKey& key) {
@@ -77,7 +80,7 @@ HistoryPoi PlaceOf(const ObjectRecord& record, double score) {
 /// Whether the record is new today in a room that was known before: something was carried there.
 bool HasAppeared(const ObjectRecord& record, const World& world) {
   if (record.first_seen_day != world.day || !world.revision) return false;
-  const auto& graph = world.revision->graph;
+  const auto& graph = world.revision->loaded;
   const auto floor = FloorAt(graph, record.centre_world_m);
   return floor && RoomAt(graph, *floor, record.centre_world_m);
 }
@@ -101,6 +104,11 @@ double BestScore(const std::vector<HistoryPoi>& places) {
   double best = 1;
   for (const HistoryPoi& place : places) best = std::max(best, place.score);
   return best;
+}
+
+void CutRooms(const World& world, Revision* revision) {
+  revision->graph = scenegraph::BuildGraph(world.map, world.memory, world.flights);
+  revision->known_voxels = world.map.Stats().known;
 }
 
 bool HasRecord(const World& world, const std::string& category) {
@@ -168,10 +176,36 @@ Result<void> CountEvidence(geometry::VoxelMap* map) {
 
 Revision RevisionOf(const World& world) {
   Revision revision;
-  revision.graph = scenegraph::BuildGraph(world.map, world.memory, world.flights);
-  for (const auto& room : revision.graph.rooms)
-    revision.rooms.push_back({room.id, room.floor, room.area_m2});
+  CutRooms(world, &revision);
+  revision.loaded = revision.graph;
   return revision;
+}
+
+bool UpdateRooms(World* world) {
+  if (!world->revision) return false;
+  const auto known = static_cast<double>(world->map.Stats().known);
+  if (known < (1 + kGrown) * static_cast<double>(world->revision->known_voxels)) return false;
+  CutRooms(*world, &*world->revision);
+  return true;
+}
+
+bool IsOnFloor(const World& world, double z_m) {
+  const auto is_at = [&](double level_m) { return std::abs(z_m - level_m) <= kOffLevel_m; };
+  if (std::any_of(world.levels_m.begin(), world.levels_m.end(), is_at)) return true;
+  return world.revision &&
+         std::any_of(world.revision->graph.floors.begin(), world.revision->graph.floors.end(),
+                     [&](const auto& floor) { return is_at(floor.height_m); });
+}
+
+bool StandsOnFloor(const Situation& now) {
+  const World& world = now.world;
+  if (!world.has_level || std::abs(now.agent.p_world.z() - world.level_m) >= kOffLevel_m)
+    return false;
+  if (!world.revision) return true;
+  double least_m = kNewFloor_m;
+  for (const auto& floor : world.revision->graph.floors)
+    least_m = std::min(least_m, std::abs(floor.height_m - world.level_m));
+  return least_m <= kOffLevel_m || least_m >= kNewFloor_m;  // between both it is a landing
 }
 
 void LocateObjects(World* world) {

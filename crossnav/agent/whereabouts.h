@@ -35,6 +35,17 @@ NoticeRanges RangesOfNotice(const World& world, const GoalState& goal, const Con
 /// The rooms of a loaded map.
 Revision RevisionOf(const World& world);
 
+/// Makes the rooms anew where the map has grown. Returns whether they are others now.
+bool UpdateRooms(World* world);
+
+/// Whether a height is a floor of the house, as far as it is known. A frontier that is not on one
+/// is on furniture.
+bool IsOnFloor(const World& world, double z_m);
+
+/// Whether the agent is on a floor: from stairs and landings the floor above would count as tops of
+/// furniture.
+bool StandsOnFloor(const Situation& now);
+
 /// Floor and room of every record by the loaded map.
 void LocateObjects(World* world);
 

@@ -9,10 +9,10 @@
 namespace crossnav::objects {
 namespace {
 
-constexpr double kMostCompany = 3.0;    // chosen: few rooms teach little
-constexpr double kRoomsToHalf = 4;      // chosen: with as many rooms that hold it, half is believed
-constexpr double kRemoved = 0.2;        // chosen: of what is not at its place, before any search
-constexpr double kTypicalArea_m2 = 15;  // chosen: of a room; larger ones hold more
+constexpr double kMostCompany = 3.0;   // chosen: few rooms teach little
+constexpr double kRoomsToHalf = 4;     // chosen: with as many rooms that hold it, half is believed
+constexpr double kRemoved = 0.2;       // chosen: of what is not at its place, before any search
+constexpr double kLeastArea_m2 = 0.1;  // chosen: a room that seems full may hold it, too
 
 using RoomSets = std::map<std::string, std::set<int>>;
 
@@ -92,7 +92,7 @@ std::map<int, double> RoomOdds(std::span<const ObjectRecord> records,
       ++kinds;
     }
     const double company = kinds > 0 ? std::exp(taught * log_company / kinds) : 1;
-    const double size = std::sqrt(std::max(1.0, room.area_m2) / kTypicalArea_m2);
+    const double size = std::sqrt(std::max(kLeastArea_m2, room.area_m2));  // larger ones hold more
     ways[WayTo(room, lost)][room.room] += size * company;
   }
   // How far things are carried is unknown: each way counts alike, however many rooms it leads to.

@@ -17,7 +17,7 @@ namespace crossnav::objects {
 struct RoomPlace {
   int room = -1;   ///< id in the graph
   int floor = -1;  ///< id in the graph
-  double area_m2 = 0;
+  double area_m2 = 0;  ///< on which the object may stand
 };
 
 /// Probability that an object of `category` that is not at any of its known places is in each of

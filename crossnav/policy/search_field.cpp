@@ -19,6 +19,7 @@ constexpr double kHeadRoom_m = 0.5;  // chosen: less is the space under a bed or
 constexpr int kLeastColumns = 4;     // chosen: a quarter of a patch; less is an edge ...
 constexpr int kLeastEdge = 2;        // chosen: ... and of tops as high as the camera all that shows
 constexpr double kLowTop_m = 0.3;    // chosen: lower ones show from above
+constexpr double kLevel_m = 0.15;    // chosen: one surface, to a voxel and a half
 constexpr double kSlack_m = 0.12;    // chosen: half a thing on the patch; less than a wall
 constexpr double kLeastDepth_m = 0.1;  // chosen: least depth in a picture
 
@@ -33,6 +34,32 @@ bool IsSupport(VoxelMap::Cursor& cursor, const VoxelKey& key, int head_room_vox)
   for (int dz = 1; dz <= head_room_vox; ++dz)
     if (geometry::IsSurface(cursor.At({key.x, key.y, key.z + dz}).state)) return false;
   return true;
+}
+
+/// Columns of a cell whose surface is about level.
+struct CellSum {
+  Vector3d p_world = Vector3d::Zero();  ///< sum of the voxels' centres
+  int count = 0;
+
+  void Add(const Vector3d& p) {
+    p_world += p;
+    ++count;
+  }
+  double MeanHeight() const { return p_world.z() / count; }
+};
+using CellSums = std::map<VoxelKey, CellSum>;
+
+/// Whether the surface of `cell` goes on in `sums`, in the same cell or one beside it.
+bool GoesOn(const CellSums& sums, const VoxelKey& cell, double height_m) {
+  for (int dx = -1; dx <= 1; ++dx)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dz = -1; dz <= 1; ++dz) {  // a top may lie at the border of two cells
+        const auto it = sums.find({cell.x + dx, cell.y + dy, cell.z + dz});
+        if (it != sums.end() && it->second.count >= kLeastEdge &&
+            std::abs(it->second.MeanHeight() - height_m) <= kLevel_m)
+          return true;
+      }
+  return false;
 }
 
 /// Notes a look at `p_camera`, a point in the camera's frame.
@@ -54,28 +81,36 @@ void LookAt(const Vector3d& p_camera, const Observation& obs, double range_m, Lo
 
 }  // namespace
 
-void SearchField::Update(const VoxelMap& map, double level_m, const VoxelKey& lo,
+void SearchField::Update(const VoxelMap& map, double level_m, double eye_m, const VoxelKey& lo,
                          const VoxelKey& hi) {
   const double voxel_m = map.config().voxel_m;
   // Whole cells only: half a patch at the edge of the box would be another patch.
   const VoxelKey from{lo.x & ~3, lo.y & ~3, geometry::KeyOf({0, 0, level_m - kBelow_m}, voxel_m).z};
   const VoxelKey to{hi.x | 3, hi.y | 3, geometry::KeyOf({0, 0, level_m + kHighest_m}, voxel_m).z};
   const int head_room_vox = CellsFloor(kHeadRoom_m, voxel_m);
-  struct Sum {
-    Vector3d p_world = Vector3d::Zero();
-    int count = 0;
-  };
-  std::map<VoxelKey, Sum> sums;
+  const int eye_z = geometry::KeyOf({0, 0, level_m + eye_m}, voxel_m).z;
+  CellSums sums, unseen;
   VoxelMap::Cursor cursor(map);
   map.ForEachInBox(from, to, [&](const VoxelKey& key, const geometry::Voxel& voxel) {
     // Stairs are surfaces of other states: nothing stands on a tread.
-    if (voxel.state != VoxelState::kOccupied || !IsSupport(cursor, key, head_room_vox)) return;
-    Sum& sum = sums[CellOf(key)];
-    sum.p_world += CenterOf(key, voxel_m);
-    ++sum.count;
+    if (voxel.state == VoxelState::kOccupied && IsSupport(cursor, key, head_room_vox))
+      sums[CellOf(key)].Add(CenterOf(key, voxel_m));
+    const VoxelKey below{key.x, key.y, key.z - 1};
+    if (below.z < eye_z || geometry::IsSurface(voxel.state) ||
+        voxel.state == VoxelState::kUnknown || cursor.At(below).state != VoxelState::kUnknown ||
+        !IsSupport(cursor, below, head_room_vox))
+      return;
+    unseen[CellOf(below)].Add(CenterOf(below, voxel_m));
   });
-  const auto is_patch = [&](const Sum& sum) {
-    const bool is_low = sum.p_world.z() / sum.count < level_m + kLowTop_m;
+  CellSums hidden;
+  for (const auto& [cell, sum] : unseen)
+    if (GoesOn(sums, cell, sum.MeanHeight())) hidden[cell] = sum;
+  for (const auto& [cell, sum] : hidden) {
+    sums[cell].p_world += sum.p_world;
+    sums[cell].count += sum.count;
+  }
+  const auto is_patch = [&](const CellSum& sum) {
+    const bool is_low = sum.MeanHeight() < level_m + kLowTop_m;
     return sum.count >= (is_low ? kLeastColumns : kLeastEdge);
   };
   const VoxelKey first = CellOf(from), last = CellOf(to);
@@ -116,7 +151,6 @@ void SearchField::BeginGoal() {
 }
 
 int ColumnsAround(const SearchField& field, const VoxelKey& cell) {
-  constexpr double kLevel_m = 0.15;  // chosen: a voxel and a half
   const double z_m = field.patches().at(cell).p_world.z();
   int columns = 0;
   for (int dx = -1; dx <= 1; ++dx)

@@ -35,9 +35,10 @@ struct SearchPatch {
 class SearchField {
  public:
   /// The patches at `level_m` in the columns `lo` to `hi` (x and y) as the map is now. Looks at
-  /// patches are kept, also while the map does not show them.
-  void Update(const geometry::VoxelMap& map, double level_m, const geometry::VoxelKey& lo,
-              const geometry::VoxelKey& hi);
+  /// patches are kept, also while the map does not show them. Of a top higher than the camera,
+  /// which is `eye_m` above the level, an edge shows: it goes on under seen air.
+  void Update(const geometry::VoxelMap& map, double level_m, double eye_m,
+              const geometry::VoxelKey& lo, const geometry::VoxelKey& hi);
 
   /// Notes the distance of the points within `range_m` that this frame shows.
   void Look(const Observation& obs, double range_m);

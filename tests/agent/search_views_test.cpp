@@ -37,7 +37,7 @@ struct RoomWithTop {
           test::SetState(world.map, hi = {x, y, z}, VoxelState::kOccupied);
     world.ground.Rebuild(world.map);
     world.level_m = 0.1;
-    world.full.field.Update(world.map, world.level_m, {16, 8, 0}, hi);
+    world.full.field.Update(world.map, world.level_m, 0.88, {16, 8, 0}, hi);
     ObjectSearch& search = goal.full.search.emplace();
     search.notice_range_m = search.sure_range_m = 5;
     search.is_tall = true;

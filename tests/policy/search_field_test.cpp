@@ -13,8 +13,9 @@ namespace {
 
 using geometry::VoxelKey;
 using geometry::VoxelMap;
+using geometry::VoxelState;
 
-constexpr double kVoxel_m = 0.1;
+constexpr double kVoxel_m = 0.1, kEye_m = 0.88;
 constexpr VoxelKey kLo{0, 0, 0}, kHi{39, 39, 0};
 
 /// A camera 0.9 m above the ground at (0.2, 2.0) that looks along x, tilted down by `down_rad`.
@@ -66,7 +67,7 @@ int CountTops(const SearchField& field) {
 
 TEST(SearchField, GroundAndTopsOfFurnitureArePatches) {
   SearchField field;
-  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Update(GroundWithATable(), 0, kEye_m, kLo, kHi);
   EXPECT_GE(CountTops(field), 4);
   EXPECT_GE(static_cast<int>(field.patches().size()) - CountTops(field), 60);
   for (const auto& [cell, patch] : field.patches())
@@ -84,14 +85,36 @@ TEST(SearchField, TheEdgeOfAHighTopIsAPatch) {
   test::AddGround(map, 0, 0, 2, 1, 0);
   test::AddGround(map, 0, 0, 2, 1, 9);
   SearchField field;
-  field.Update(map, 0.1, kLo, kHi);
+  field.Update(map, 0.1, kEye_m, kLo, kHi);
   ASSERT_EQ(field.patches().size(), 1U) << "ground needs more";
   EXPECT_NEAR(field.patches().begin()->second.height_m, 0.9, 1e-6);
 }
 
+/// Regression: a chest of drawers higher than the camera, seen from its side, had a patch of three
+/// columns, and the monitor on it no place to stand.
+TEST(SearchField, ATopHigherThanTheCameraGoesOnBehindItsEdge) {
+  const auto columns_of = [](int edge_z) {
+    VoxelMap map;
+    test::AddGround(map, 0, 4, 12, 8, 0);
+    for (int y = 4; y < 8; ++y) {
+      for (int z = 1; z <= edge_z; ++z) test::SetState(map, {4, y, z}, VoxelState::kOccupied);
+      for (int x = 5; x < 12; ++x)  // its inside, and all below its top behind the edge
+        for (int z = 0; z < edge_z; ++z) test::SetState(map, {x, y, z}, VoxelState::kUnknown);
+    }
+    SearchField field;
+    field.Update(map, 0.1, kEye_m, kLo, kHi);
+    int columns = 0;
+    for (const auto& [cell, patch] : field.patches())
+      if (patch.height_m > 0.25) columns += patch.columns;
+    return columns;
+  };
+  EXPECT_EQ(columns_of(10), 4 + 4 * 3 + 4 * 4) << "edge, its cell and the cell behind it";
+  EXPECT_EQ(columns_of(6), 4) << "a lower top shows from above: behind it is a shadow";
+}
+
 TEST(SearchField, APatchBehindASurfaceWasNotLookedAt) {
   SearchField field;
-  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Update(GroundWithATable(), 0, kEye_m, kLo, kHi);
   field.Look(CameraLookingAlongX(0.3, 1.0), 5);  // a wall a metre ahead
   int near = 0;
   for (const auto& [cell, patch] : field.patches()) {
@@ -108,7 +131,7 @@ TEST(SearchField, APatchAtTheBackOfAThinWallWasNotLookedAt) {
   VoxelMap map;
   test::AddGround(map, 16, 18, 20, 22, 0);
   SearchField field;
-  field.Update(map, 0.1, kLo, kHi);
+  field.Update(map, 0.1, kEye_m, kLo, kHi);
   ASSERT_FALSE(field.patches().empty());
   const policy::SearchPatch& patch = field.patches().begin()->second;
   const Observation obs = CameraLookingAlongX(0.3, 1);
@@ -121,7 +144,7 @@ TEST(SearchField, APatchAtTheBackOfAThinWallWasNotLookedAt) {
 
 TEST(SearchField, TheNearestLookIsKeptAndAGoalBeginsAnew) {
   SearchField field;
-  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Update(GroundWithATable(), 0, kEye_m, kLo, kHi);
   field.Look(CameraLookingAlongX(0.3, 9), 3);
   int looked = 0;
   for (const auto& [cell, patch] : field.patches()) {
@@ -132,7 +155,7 @@ TEST(SearchField, TheNearestLookIsKeptAndAGoalBeginsAnew) {
   }
   ASSERT_GT(looked, 10);
   field.BeginGoal();
-  field.Update(GroundWithATable(), 0, kLo, kHi);  // the same map: looks of the run stay
+  field.Update(GroundWithATable(), 0, kEye_m, kLo, kHi);  // the same map: looks of the run stay
   int in_run = 0;
   for (const auto& [cell, patch] : field.patches()) {
     EXPECT_TRUE(std::isinf(patch.low.for_goal_m));
@@ -145,7 +168,7 @@ TEST(SearchField, TheNearestLookIsKeptAndAGoalBeginsAnew) {
 /// between two floors to look at them again.
 TEST(SearchField, APatchThatTheMapLosesForAMomentWasLookedAt) {
   SearchField field;
-  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Update(GroundWithATable(), 0, kEye_m, kLo, kHi);
   field.Look(CameraLookingAlongX(0.3, 9), 3);
   const auto count = [&] {
     return std::count_if(field.patches().begin(), field.patches().end(), [](const auto& entry) {
@@ -154,10 +177,10 @@ TEST(SearchField, APatchThatTheMapLosesForAMomentWasLookedAt) {
   };
   const auto looked = count();
   ASSERT_GT(looked, 10);
-  field.Update(VoxelMap(), 0, kLo, kHi);
+  field.Update(VoxelMap(), 0, kEye_m, kLo, kHi);
   EXPECT_TRUE(field.patches().empty());
   field.BeginGoal();
-  field.Update(GroundWithATable(), 0, kLo, kHi);
+  field.Update(GroundWithATable(), 0, kEye_m, kLo, kHi);
   EXPECT_EQ(count(), looked);
   for (const auto& [cell, patch] : field.patches()) EXPECT_TRUE(std::isinf(patch.low.for_goal_m));
 }
