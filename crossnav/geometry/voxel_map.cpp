@@ -12,6 +12,7 @@
 #include "crossnav/geometry/grazing_surface.h"
 #include "crossnav/geometry/integrate.h"
 #include "crossnav/geometry/map_data.h"
+#include "crossnav/geometry/tread_sight.h"
 
 namespace crossnav::geometry {
 
@@ -73,7 +74,10 @@ const EndVoxels& VoxelMap::Integrate(const DepthImage& depth_m, const CameraIntr
     CollectFreeByProjection(*data_, frame, bounds);
   else
     CollectFreeByWalking(*data_, frame);
-  if (is_real) SpareSurfacesInGaps(*data_, frame);
+  if (is_real) {
+    SpareTreads(*data_, frame);
+    SpareSurfacesInGaps(*data_, frame);
+  }
   MergeFrame(*data_);
   return data_->ends;
 }

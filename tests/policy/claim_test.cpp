@@ -325,7 +325,7 @@ TEST(Rejected, TheLikeliestIsTheAnswerWhereItOutweighsTheOthers) {
   EXPECT_EQ(LikeliestOfRejected(book, config), 1U);
   reject(4, 0.29);
   EXPECT_EQ(LikeliestOfRejected(book, config), std::nullopt) << "three that are as likely";
-  book.settled_for = {{3, {}}, {4, {}}};
+  book.settled_for = {{3, Vector3d::Zero()}, {4, Vector3d::Zero()}};
   EXPECT_EQ(LikeliestOfRejected(book, config), 1U);
   config.settle = 1;
   EXPECT_EQ(LikeliestOfRejected(book, config), std::nullopt);

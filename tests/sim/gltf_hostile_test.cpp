@@ -141,17 +141,17 @@ TEST(HostileGltf, EveryNumberOfTheJsonReplacedByAnExtremeOneIsRefusedOrConsisten
     std::size_t stop = at;
     while (std::isdigit(static_cast<unsigned char>(text[stop])) != 0) ++stop;
     for (const char* number : {"-1", "4294967295", "9223372036854775807", "0", "1e30"}) {
-      std::string json = text.substr(20, at - 20) + number;
+      std::string chunk = text.substr(20, at - 20) + number;
       const std::size_t json_size = bytes[12] | bytes[13] << 8;
-      json += text.substr(stop, 20 + json_size - stop);
-      while (json.size() % 4 != 0) json += ' ';
+      chunk += text.substr(stop, 20 + json_size - stop);
+      while (chunk.size() % 4 != 0) chunk += ' ';
       std::vector<std::uint8_t> glb(bytes.begin(), bytes.begin() + 12);
       const auto word = [&glb](std::size_t w) {
         for (int i = 0; i < 4; ++i) glb.push_back(static_cast<std::uint8_t>(w >> (8 * i)));
       };
-      word(json.size());
+      word(chunk.size());
       word(0x4E4F534A);
-      glb.insert(glb.end(), json.begin(), json.end());
+      glb.insert(glb.end(), chunk.begin(), chunk.end());
       glb.insert(glb.end(), bytes.begin() + 20 + static_cast<long>(json_size), bytes.end());
       for (int i = 0; i < 4; ++i)
         glb[8 + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(glb.size() >> (8 * i));

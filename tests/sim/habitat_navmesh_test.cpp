@@ -122,7 +122,9 @@ TEST_F(HabitatNavMeshFile, TruncatedOrAlteredIsAnErrorAndNeverACrash) {
           static_cast<char>(rng.Uniform() * 256);
     WriteText(path(), altered);
     const auto read = NavMesh::ReadHabitat(path(), {});
-    if (!read) EXPECT_NE(read.error().Message().find("two.navmesh"), std::string::npos);
+    if (!read) {
+      EXPECT_NE(read.error().Message().find("two.navmesh"), std::string::npos);
+    }
   }
   EXPECT_FALSE(NavMesh::ReadHabitat(folder_.path() / "none.navmesh", {}));
 }

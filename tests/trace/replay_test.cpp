@@ -74,7 +74,9 @@ TEST(Replay, KeepsTheGraphWhereItChanged) {
   for (std::size_t i = 0; i < replay->steps.size(); ++i) {
     const auto &read = replay->steps[i].graph, &written = Sample().frames[i].graph;
     ASSERT_EQ(read.has_value(), written.has_value()) << i;
-    if (read) EXPECT_EQ(ToJson(*read), ToJson(*written));
+    if (read) {
+      EXPECT_EQ(ToJson(*read), ToJson(*written));
+    }
   }
   const std::string page = ReplayPage(*replay);
   EXPECT_NE(page.find("\"graphs\":[{\"index\":10,"), std::string::npos);

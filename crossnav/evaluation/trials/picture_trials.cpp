@@ -82,7 +82,9 @@ Result<PictureTrial> JudgePicture(const StagePicture& picture, const sim::SceneI
   goal.goal = pictured->category;
   goal.text = std::move(*text);
   goal.pictured = std::move(*pictured);
-  PictureTrial trial{instance.category, goal.goal};
+  PictureTrial trial;
+  trial.category = instance.category;
+  trial.read_as = goal.goal;
   double best = -1e9;
   for (const objects::ObjectRecord& record : world.objects.Confirmed()) {
     if (record.category != SpacedName(goal.goal)) continue;
