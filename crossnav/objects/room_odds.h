@@ -15,8 +15,8 @@
 namespace crossnav::objects {
 
 struct RoomPlace {
-  int room = -1;   ///< id in the graph
-  int floor = -1;  ///< id in the graph
+  int room = -1;       ///< id in the graph
+  int floor = -1;      ///< id in the graph
   double area_m2 = 0;  ///< on which the object may stand
 };
 
