@@ -278,6 +278,11 @@ Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& commo
   }
   auto results = Started(path, chain.run, console);
   if (!results) return tl::unexpected(results.error());
+  if (!fs::is_empty(chain.FirstDay()))
+    console.Log(
+        fmt::format("first days of these settings are taken from {}; remove it after a "
+                    "change of the program",
+                    chain.FirstDay().string()));
   if (auto ok = PlayHouses(ByHouse(*file), options.jobs, chain, *results, console); !ok) return ok;
   console.EndProgress();
   console.Print(FiguresText(*results) + path.string() + "\n");

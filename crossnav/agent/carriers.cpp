@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "crossnav/agent/search_shares.h"
-#include "crossnav/scenegraph/build_graph.h"
+#include "crossnav/agent/whereabouts.h"
 
 namespace crossnav::agent {
 namespace {
@@ -15,18 +14,8 @@ using objects::ObjectRecord;
 
 constexpr double kThingsToHalf = 4;   // chosen: with as many things on tops, half is believed
 constexpr double kMostWeight = 3.0;   // chosen: few things teach little
-constexpr double kHighest_m = 1.5;    // chosen: as of policy::SearchField
 constexpr double kReach_vox = 1.5;    // chosen: a thing hides the surface below it
 constexpr double kOneThing_m = 0.25;  // chosen: two records this near are names of one thing
-
-/// Height of its base above the floor; nullopt = the graph has no floor there.
-std::optional<double> BaseHeight(const World& world, const ObjectRecord& record) {
-  if (!world.revision) return std::nullopt;
-  const auto floor = FloorAt(world.revision->graph, record.centre_world_m);
-  if (!floor) return std::nullopt;
-  return record.box_world_m.min().z() -
-         world.revision->graph.floors[static_cast<std::size_t>(*floor)].height_m;
-}
 
 bool IsOn(const ObjectRecord& furniture, const Vector3d& p_world, double voxel_m) {
   const double reach_m = kReach_vox * voxel_m;
@@ -41,7 +30,7 @@ bool IsOn(const ObjectRecord& furniture, const Vector3d& p_world, double voxel_m
 
 Carriers::Carriers(const World& world) : voxel_m_(world.objects.voxel_m()) {
   for (const ObjectRecord& record : world.objects.records()) {
-    const auto base_m = BaseHeight(world, record);
+    const auto base_m = HeightAboveFloor(world, record);
     if (base_m && *base_m <= kFurnitureTop_m && record.views > 0 && !world.objects.IsGone(record))
       furniture_.push_back(&record);
   }
@@ -68,8 +57,9 @@ Carriers::Carriers(const World& world) : voxel_m_(world.objects.voxel_m()) {
 std::vector<Vector3d> Carriers::FeetOfThingsOnTops(const World& world) const {
   std::vector<Vector3d> feet_world;
   for (const ObjectRecord& record : world.objects.records()) {
-    const auto base_m = BaseHeight(world, record);
-    if (!base_m || *base_m <= kFurnitureTop_m || *base_m > kHighest_m || record.views == 0)
+    const auto base_m = HeightAboveFloor(world, record);
+    if (!base_m || *base_m <= kFurnitureTop_m || *base_m > policy::SearchPatch::kHighestTop_m ||
+        record.views == 0)
       continue;
     Vector3d p_foot = record.box_world_m.center();
     p_foot.z() = record.box_world_m.min().z();

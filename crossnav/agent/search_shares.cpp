@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crossnav/agent/carriers.h"
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/objects/alias.h"
 #include "crossnav/objects/room_odds.h"
 #include "crossnav/scenegraph/build_graph.h"
@@ -31,11 +32,10 @@ std::optional<double> UsualHeight(const World& world, const std::string& categor
   double sum_m = 0;
   int count = 0;
   for (const objects::ObjectRecord& record : world.objects.records()) {
-    if (record.category != category || record.views == 0 || !world.revision) continue;
-    const auto& floors = world.revision->graph.floors;
-    const auto floor = FloorAt(world.revision->graph, record.centre_world_m);
-    if (!floor) continue;
-    sum_m += record.box_world_m.min().z() - floors[static_cast<std::size_t>(*floor)].height_m;
+    if (record.category != category || record.views == 0) continue;
+    const auto height_m = HeightAboveFloor(world, record);
+    if (!height_m) continue;
+    sum_m += *height_m;
     ++count;
   }
   return count > 0 ? std::optional(sum_m / count) : std::nullopt;

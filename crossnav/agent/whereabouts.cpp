@@ -174,6 +174,14 @@ Result<void> CountEvidence(geometry::VoxelMap* map) {
   return {};
 }
 
+std::optional<double> HeightAboveFloor(const World& world, const ObjectRecord& record) {
+  if (!world.revision) return std::nullopt;
+  const auto& graph = world.revision->graph;
+  const auto floor = FloorAt(graph, record.centre_world_m);
+  if (!floor) return std::nullopt;
+  return record.box_world_m.min().z() - graph.floors[static_cast<std::size_t>(*floor)].height_m;
+}
+
 Revision RevisionOf(const World& world) {
   Revision revision;
   CutRooms(world, &revision);

@@ -21,6 +21,9 @@ bool IsRevising(const Config& config);
 /// (map.clearing = evidence).
 Result<void> CountEvidence(geometry::VoxelMap* map);
 
+/// Of the record's base above the floor of the house [m]; nullopt = no floor is known there.
+std::optional<double> HeightAboveFloor(const World& world, const objects::ObjectRecord& record);
+
 /// Largest sides of the category's records [m]; zero without a record.
 Vector3d UsualSides(const World& world, const std::string& category);
 

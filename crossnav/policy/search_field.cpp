@@ -14,7 +14,6 @@ using geometry::VoxelMap;
 using geometry::VoxelState;
 
 constexpr double kBelow_m = 0.15;    // chosen: ground is known to a voxel
-constexpr double kHighest_m = 1.5;   // chosen: higher tops are shelves under the ceiling
 constexpr double kHeadRoom_m = 0.5;  // chosen: less is the space under a bed or a table
 constexpr int kLeastColumns = 4;     // chosen: a quarter of a patch; less is an edge ...
 constexpr int kLeastEdge = 2;        // chosen: ... and of tops as high as the camera all that shows
@@ -49,17 +48,23 @@ struct CellSum {
 };
 using CellSums = std::map<VoxelKey, CellSum>;
 
-/// Whether the surface of `cell` goes on in `sums`, in the same cell or one beside it.
-bool GoesOn(const CellSums& sums, const VoxelKey& cell, double height_m) {
+/// Calls visit(value) for the cells around `cell` and itself: a top may lie at the border of two.
+template <class Value, class F>
+void ForEachAround(const std::map<VoxelKey, Value>& cells, const VoxelKey& cell, F&& visit) {
   for (int dx = -1; dx <= 1; ++dx)
     for (int dy = -1; dy <= 1; ++dy)
-      for (int dz = -1; dz <= 1; ++dz) {  // a top may lie at the border of two cells
-        const auto it = sums.find({cell.x + dx, cell.y + dy, cell.z + dz});
-        if (it != sums.end() && it->second.count >= kLeastEdge &&
-            std::abs(it->second.MeanHeight() - height_m) <= kLevel_m)
-          return true;
-      }
-  return false;
+      for (int dz = -1; dz <= 1; ++dz)
+        if (const auto it = cells.find({cell.x + dx, cell.y + dy, cell.z + dz}); it != cells.end())
+          visit(it->second);
+}
+
+/// Whether the surface of `cell` goes on in `sums`, in the same cell or one beside it.
+bool GoesOn(const CellSums& sums, const VoxelKey& cell, double height_m) {
+  bool goes_on = false;
+  ForEachAround(sums, cell, [&](const CellSum& sum) {
+    goes_on |= sum.count >= kLeastEdge && std::abs(sum.MeanHeight() - height_m) <= kLevel_m;
+  });
+  return goes_on;
 }
 
 /// Notes a look at `p_camera`, a point in the camera's frame.
@@ -86,7 +91,8 @@ void SearchField::Update(const VoxelMap& map, double level_m, double eye_m, cons
   const double voxel_m = map.config().voxel_m;
   // Whole cells only: half a patch at the edge of the box would be another patch.
   const VoxelKey from{lo.x & ~3, lo.y & ~3, geometry::KeyOf({0, 0, level_m - kBelow_m}, voxel_m).z};
-  const VoxelKey to{hi.x | 3, hi.y | 3, geometry::KeyOf({0, 0, level_m + kHighest_m}, voxel_m).z};
+  const VoxelKey to{hi.x | 3, hi.y | 3,
+                    geometry::KeyOf({0, 0, level_m + SearchPatch::kHighestTop_m}, voxel_m).z};
   const int head_room_vox = CellsFloor(kHeadRoom_m, voxel_m);
   const int eye_z = geometry::KeyOf({0, 0, level_m + eye_m}, voxel_m).z;
   CellSums sums, unseen;
@@ -102,10 +108,10 @@ void SearchField::Update(const VoxelMap& map, double level_m, double eye_m, cons
       return;
     unseen[CellOf(below)].Add(CenterOf(below, voxel_m));
   });
-  CellSums hidden;
-  for (const auto& [cell, sum] : unseen)
-    if (GoesOn(sums, cell, sum.MeanHeight())) hidden[cell] = sum;
-  for (const auto& [cell, sum] : hidden) {
+  std::erase_if(unseen, [&](const auto& entry) {
+    return !GoesOn(sums, entry.first, entry.second.MeanHeight());
+  });
+  for (const auto& [cell, sum] : unseen) {
     sums[cell].p_world += sum.p_world;
     sums[cell].count += sum.count;
   }
@@ -153,13 +159,9 @@ void SearchField::BeginGoal() {
 int ColumnsAround(const SearchField& field, const VoxelKey& cell) {
   const double z_m = field.patches().at(cell).p_world.z();
   int columns = 0;
-  for (int dx = -1; dx <= 1; ++dx)
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dz = -1; dz <= 1; ++dz) {  // a top may lie at the border of two cells
-        const auto it = field.patches().find({cell.x + dx, cell.y + dy, cell.z + dz});
-        if (it != field.patches().end() && std::abs(it->second.p_world.z() - z_m) <= kLevel_m)
-          columns += it->second.columns;
-      }
+  ForEachAround(field.patches(), cell, [&](const SearchPatch& patch) {
+    if (std::abs(patch.p_world.z() - z_m) <= kLevel_m) columns += patch.columns;
+  });
   return columns;
 }
 

@@ -27,6 +27,7 @@ struct SearchPatch {
   Looked low;                           ///< at the air just above it
   Looked high;                          ///< where a chair or a lamp would reach
 
+  static constexpr double kHighestTop_m = 1.5;  // chosen: higher tops are shelves under the ceiling
   static constexpr double kLow_m = 0.15, kHigh_m = 0.45;  // chosen: a vase, the back of a chair
   Vector3d LowPoint() const { return p_world + Vector3d(0, 0, kLow_m); }
   Vector3d HighPoint() const { return p_world + Vector3d(0, 0, kHigh_m); }
