@@ -34,14 +34,30 @@ inline void Commit(RTCScene scene) {
   alone.execute([scene] { rtcCommitScene(scene); });
 }
 
-/// Closest hit of one ray.
-inline void IntersectOne(RTCScene scene, RTCRayHit* ray) {
 #if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(scene, ray, nullptr);
+using RayContext = RTCRayQueryContext;
+inline constexpr RTCSceneFlags kFilterOfRays = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 #else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene, &context, ray);
+using RayContext = RTCIntersectContext;
+inline constexpr RTCSceneFlags kFilterOfRays = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+
+/// Follows one ray through a scene with the flag kFilterOfRays. `filter` gets the hits, `context`
+/// is its `arguments->context`.
+inline void IntersectOne(RTCScene scene, RTCRayHit* ray, RTCFilterFunctionN filter,
+                         RayContext* context) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcInitRayQueryContext(context);
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+  arguments.filter = filter;
+  arguments.context = context;
+  rtcIntersect1(scene, ray, &arguments);
+#else
+  rtcInitIntersectContext(context);
+  context->filter = filter;
+  rtcIntersect1(scene, context, ray);
 #endif
 }
 

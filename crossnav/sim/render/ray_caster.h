@@ -14,8 +14,8 @@
 
 namespace crossnav::sim {
 
-/// AVX2 on newer processors, too: the surface hit at a common edge depends on the instruction set,
-/// and an episode must be the same on every machine.
+/// AVX2 on newer processors, too: whether a ray meets the edge of a surface depends on the
+/// instruction set, and an episode must be the same on every machine.
 inline constexpr const char* kInstructions = "avx2";
 
 struct RayHit {
@@ -40,7 +40,7 @@ class RayCaster {
   Frame Render(const CameraIntrinsics& camera, const Pose& T_world_camera,
                Channels channels = Channels::kAll) const;
 
-  /// First surface along the ray, within `max_m`.
+  /// First surface along the ray, within `max_m`; of several in one plane, the first in the mesh.
   std::optional<RayHit> Cast(const Vector3d& p_world, const Vector3d& direction,
                              double max_m) const;
 
