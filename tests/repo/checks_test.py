@@ -39,9 +39,17 @@ class Checks(unittest.TestCase):
         self.assertIn(expected, output)
 
     def test_a_good_tree_passes(self):
-        for check in ("includes", "budgets", "docs"):
+        for check in ("includes", "budgets", "docs", "draws"):
             status, output = self.run_check(check, {})
             self.assertEqual(status, 0, output)
+
+    def test_two_random_numbers_in_one_call_are_found_and_lists_pass(self):
+        for call in ("Vector2d p(rng.Uniform(0, 1), rng.Uniform(0, 1));", "Add(Make(rng), rng_.Int(1, 2));"):
+            self.assert_found("draws", {"crossnav/core/pose.cpp": SPDX + call + "\n"},
+                              "pose.cpp:2: two random numbers")
+        listed = "Vector2d p{rng.Uniform(0, 1), rng.Uniform(0, 1)}; Add(a, Make(rng, 3));\n"
+        status, output = self.run_check("draws", {"crossnav/core/pose.cpp": SPDX + listed})
+        self.assertEqual(status, 0, output)
 
     def test_the_agent_including_the_simulator_is_found(self):
         self.assert_found("includes", {"crossnav/agent/agent.cpp":

@@ -153,8 +153,8 @@ FalseWorld Furniture(Rng& rng) {
     auto model = world::MakeFurniture(kLow[rng.Below(std::size(kLow))], rng);
     CROSSNAV_CHECK(model.has_value(), "no such furniture");
     const int column = i % 3, row = i / 3;
-    const Vector3d p(1.2 + 1.8 * column + rng.Uniform(-0.1, 0.1),
-                     1.4 + 2.2 * row + rng.Uniform(-0.1, 0.1), 0);
+    const double off_y = rng.Uniform(-0.1, 0.1), off_x = rng.Uniform(-0.1, 0.1);
+    const Vector3d p(1.2 + 1.8 * column + off_x, 1.4 + 2.2 * row + off_y, 0);
     if (i == 0) made.p_seen_world = p + Vector3d(0, 0, model->Size().z() + 0.1);
     Place(made, std::move(*model), p, rng.Uniform(0, 2 * std::numbers::pi));
   }
@@ -226,9 +226,8 @@ FalseWorld PlaceAtWall(world::ObjectModel model, Rng& rng) {
 /// A low seat with its back to a wall: a step that leads nowhere.
 FalseWorld Seat(Rng& rng) {
   const double seat_m = rng.Uniform(0.22, 0.45), back_m = rng.Uniform(0.55, 0.95);
-  return PlaceAtWall(Terrace("couch", {{rng.Uniform(0.4, 0.6), seat_m}, {0.18, back_m}},
-                             0.5 * rng.Uniform(0.7, 2.0)),
-                     rng);
+  const double half_m = 0.5 * rng.Uniform(0.7, 2.0), deep_m = rng.Uniform(0.4, 0.6);
+  return PlaceAtWall(Terrace("couch", {{deep_m, seat_m}, {0.18, back_m}}, half_m), rng);
 }
 
 /// Two or three pieces in a row, each within a step of the piece before.

@@ -21,8 +21,7 @@ Pose DrawOdometry(Rng& rng) {
   Pose T = Pose::Identity();
   T.linear() =
       Eigen::AngleAxisd(rng.Uniform(0, DegToRad(360)), Vector3d::UnitZ()).toRotationMatrix();
-  T.translation() = Vector3d(rng.Uniform(-kMove_m, kMove_m), rng.Uniform(-kMove_m, kMove_m),
-                             rng.Uniform(-kMove_m, kMove_m));
+  for (const int axis : {2, 1, 0}) T.translation()[axis] = rng.Uniform(-kMove_m, kMove_m);
   return T;
 }
 

@@ -144,8 +144,10 @@ StairWorld MakeSplitLevel(Rng& rng) {
   passage.width_m = 1.1;
   passage.center_m = middle_m - wall->a.y();
   CROSSNAV_CHECK(world::AddOpening(*wall, passage), "a passage finds no place");
-  AddGoal(plan, world::MakeSofa(rng), {rng.Uniform(3.5, 4.8), 0.6, made.lower_m}, sunken);
-  AddGoal(plan, world::MakeChair(rng), {rng.Uniform(-4.2, -2.0), 0.6, 0}, hall);
+  const double sofa_x = rng.Uniform(3.5, 4.8);
+  AddGoal(plan, world::MakeSofa(rng), {sofa_x, 0.6, made.lower_m}, sunken);
+  const double chair_x = rng.Uniform(-4.2, -2.0);
+  AddGoal(plan, world::MakeChair(rng), {chair_x, 0.6, 0}, hall);
   return made;
 }
 

@@ -109,9 +109,8 @@ class Chooser {
     const auto heights = navmesh_.HeightsAt(x, y, box.min.z() - 0.5, box.max.z() + 0.5);
     if (heights.empty()) return std::nullopt;
     FramePlace place{{{x, y, OneOf(heights)}, 0, 0}, Height()};
-    const Vector3d target(rng_.Uniform(box.min.x(), box.max.x()),
-                          rng_.Uniform(box.min.y(), box.max.y()),
-                          rng_.Uniform(box.min.z(), box.max.z()));
+    Vector3d target;
+    for (const int axis : {2, 1, 0}) target[axis] = rng_.Uniform(box.min[axis], box.max[axis]);
     if (!Sees(place, target, stairs.id) && !rng_.Chance(0.1)) return std::nullopt;
     const double turn = DegToRad(rng_.Uniform(-kTurn_deg, kTurn_deg));
     place.pose.yaw_rad = WrapAngle(std::atan2(target.y() - y, target.x() - x) + turn);

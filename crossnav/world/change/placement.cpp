@@ -246,8 +246,8 @@ class Placer {
 
   std::optional<Standing> TryTop(const sim::SceneInstance& top) {
     const int turn = rng_.Int(0, 3);
-    Vector3d p(rng_.Uniform(top.box.min.x(), top.box.max.x()),
-               rng_.Uniform(top.box.min.y(), top.box.max.y()), top.box.max.z());
+    Vector3d p = top.box.max;
+    for (const int axis : {1, 0}) p[axis] = rng_.Uniform(top.box.min[axis], top.box.max[axis]);
     const auto below = SurfaceBelow(caster_, p + Vector3d(0, 0, 0.02), object_.id, 1.5);
     if (!below || below->instance != top.id) return std::nullopt;
     p.z() = below->p_world.z();

@@ -188,7 +188,7 @@ class RoomFiller {
   bool TryMiddle(Group& group) {
     for (int attempt = 0; attempt < kPieceTries; ++attempt) {
       const double yaw = rng_.Below(4) * pi / 2;
-      const Vector2d p(rng_.Uniform(inner_.x0, inner_.x1), rng_.Uniform(inner_.y0, inner_.y1));
+      const Vector2d p = inner_.Draw(rng_);
       const Pose T = PoseAt(p, yaw, 0);
       const Rect around = RectAt(T, group.body).Grown(0.55);
       if (!Fits(group, T, around)) continue;
@@ -247,8 +247,8 @@ class RoomFiller {
       const Vector3d size = below.Size();
       auto model = source_.Make(kSmall[rng_.Below(std::size(kSmall))], rng_);
       Pose T = plan_.furniture[i].T_world_object;
-      T.translate(Vector3d(rng_.Uniform(-0.3, 0.3) * size.x(), rng_.Uniform(-0.25, 0.25) * size.y(),
-                           below.top_m));
+      const double off_y = rng_.Uniform(-0.25, 0.25), off_x = rng_.Uniform(-0.3, 0.3);
+      T.translate(Vector3d(off_x * size.x(), off_y * size.y(), below.top_m));
       const Box3 box = BoxAt(*model, T);
       const bool is_free = std::none_of(bodies_.begin(), bodies_.end(), [&](const Box3& b) {
         const Vector3d shared = box.max.cwiseMin(b.max) - box.min.cwiseMax(b.min);

@@ -92,8 +92,9 @@ ObjectModel MakePlant(Rng& rng) {
     const double t = (i + 0.5) / leaves;
     const double z = crown0 + t * (height * 0.92 - crown0);
     b.Colour(Shade(leaf, 0.8 + 0.1 * (i % 5)));
-    AddLeaf(b.mesh, {0, 0, z}, i * 2.399963 + rng.Uniform(-0.3, 0.3),
-            rng.Uniform(0.26, 0.42) * (1.15 - 0.5 * t), rng.Uniform(0.08, 0.26));
+    const double lift = rng.Uniform(0.08, 0.26), length_m = rng.Uniform(0.26, 0.42);
+    AddLeaf(b.mesh, {0, 0, z}, i * 2.399963 + rng.Uniform(-0.3, 0.3), length_m * (1.15 - 0.5 * t),
+            lift);
   }
   return b.Finish();
 }

@@ -36,7 +36,8 @@ ObjectModel MakeDiningTable(Rng& rng) {
     b.SetTop(h);
     return b.Finish();
   }
-  AddTable(b, rng.Uniform(1.2, 1.8), rng.Uniform(0.8, 0.95), rng.Uniform(0.73, 0.77), 0.035);
+  const double h = rng.Uniform(0.73, 0.77), d = rng.Uniform(0.8, 0.95), w = rng.Uniform(1.2, 1.8);
+  AddTable(b, w, d, h, 0.035);
   return b.Finish();
 }
 

@@ -59,7 +59,8 @@ struct Maker {
     } else {
       OnTop(g, "laptop", *desk, {0, 0, 0});
     }
-    g.Add(std::move(*chair), {rng.Uniform(-0.1, 0.1), y, 0}, pi + rng.Uniform(-0.3, 0.3));
+    const double yaw_rad = pi + rng.Uniform(-0.3, 0.3);
+    g.Add(std::move(*chair), {rng.Uniform(-0.1, 0.1), y, 0}, yaw_rad);
     g.Add(std::move(*desk), Vector3d::Zero());
     g.clear_front_m = 0.3;
     return g;

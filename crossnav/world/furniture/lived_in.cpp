@@ -29,7 +29,8 @@ class Dweller {
     const int count = rng_.Int(1, 2 + static_cast<int>(in.Area() / 5));
     for (int i = 0; i < count; ++i) {
       const auto model = source_.Make(kThings[rng_.Below(std::size(kThings))], rng_);
-      const Vector3d p(rng_.Uniform(in.x0, in.x1), rng_.Uniform(in.y0, in.y1), space_.floor_m);
+      const Vector2d at = in.Draw(rng_);
+      const Vector3d p(at.x(), at.y(), space_.floor_m);
       const double yaw_rad = rng_.Uniform(0, 2 * pi);
       if (model) TryPut(*model, StandAt(p, yaw_rad));
     }
@@ -50,8 +51,8 @@ class Dweller {
       Scale(*plant, rng_.Uniform(0.2, 0.4) / plant->Size().z());
       Pose T = below.T_world_object;
       const Vector3d size = below.model.Size();
-      T.translate(Vector3d(rng_.Uniform(-0.3, 0.3) * size.x(), rng_.Uniform(-0.25, 0.25) * size.y(),
-                           top_m + 0.001));
+      const double off_y = rng_.Uniform(-0.25, 0.25), off_x = rng_.Uniform(-0.3, 0.3);
+      T.translate(Vector3d(off_x * size.x(), off_y * size.y(), top_m + 0.001));
       TryPut(*plant, T);
     }
   }
@@ -90,9 +91,8 @@ class Dweller {
 
  private:
   Pose Anywhere() {
-    const Rect& in = space_.inner;
-    const Vector3d p(rng_.Uniform(in.x0, in.x1), rng_.Uniform(in.y0, in.y1), space_.floor_m);
-    return StandAt(p, rng_.Uniform(0, 2 * pi));
+    const Vector2d p = space_.inner.Draw(rng_);
+    return StandAt({p.x(), p.y(), space_.floor_m}, rng_.Uniform(0, 2 * pi));
   }
 
   /// As on a sill or a board, the back to one of the four walls.
@@ -101,7 +101,7 @@ class Dweller {
     const double yaw_rad = 0.5 * pi * rng_.Int(0, 3);
     const Vector2d front(-std::sin(yaw_rad), std::cos(yaw_rad));
     const double depth_m = 0.5 * model.Size().y() + 0.005;
-    Vector2d p(rng_.Uniform(in.x0, in.x1), rng_.Uniform(in.y0, in.y1));
+    Vector2d p = in.Draw(rng_);
     if (front.x() > 0.5) p.x() = in.x0 + depth_m;
     if (front.x() < -0.5) p.x() = in.x1 - depth_m;
     if (front.y() > 0.5) p.y() = in.y0 + depth_m;

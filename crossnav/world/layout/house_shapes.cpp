@@ -101,7 +101,7 @@ void RoundCorners(HousePlan& plan, std::size_t index, Rng& rng) {
 void AddColumn(HousePlan& plan, std::size_t index, Rng& rng) {
   constexpr int kColumnSides = 12;
   const Rect inner = plan.rooms[index].rects[0].Grown(-1.3);
-  const Vector2d c(rng.Uniform(inner.x0, inner.x1), rng.Uniform(inner.y0, inner.y1));
+  const Vector2d c = inner.Draw(rng);
   const double radius_m = rng.Uniform(0.12, 0.28);
   const Rect around = Rect{c.x(), c.y(), c.x(), c.y()}.Grown(radius_m + 0.6);
   if (IsInUse(plan, plan.rooms[index].level, around)) return;

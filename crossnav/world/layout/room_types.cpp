@@ -66,7 +66,8 @@ RoomType Fitting(RoomType type, double area_m2) {
 
 template <std::size_t N>
 Rgb8 OneOf(const Rgb8 (&colours)[N], Rng& rng) {
-  return Shade(Pick(colours, rng), rng.Uniform(0.94, 1.05));
+  const double shade = rng.Uniform(0.94, 1.05);
+  return Shade(Pick(colours, rng), shade);
 }
 
 }  // namespace

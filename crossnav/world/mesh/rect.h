@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crossnav/core/pose.h"
+#include "crossnav/core/rng.h"
 
 namespace crossnav::world {
 
@@ -21,6 +22,11 @@ struct Rect {
   Vector2d Center() const { return {0.5 * (x0 + x1), 0.5 * (y0 + y1)}; }
   bool Contains(const Vector2d& p) const {
     return p.x() >= x0 && p.x() <= x1 && p.y() >= y0 && p.y() <= y1;
+  }
+  /// Uniform.
+  Vector2d Draw(Rng& rng) const {
+    const double y = rng.Uniform(y0, y1);
+    return {rng.Uniform(x0, x1), y};
   }
   /// Grown on all sides; negative shrinks.
   Rect Grown(double by_m) const { return {x0 - by_m, y0 - by_m, x1 + by_m, y1 + by_m}; }

@@ -70,15 +70,18 @@ void PaintLandscape(Painter& p, Rng& rng) {
   const int horizon = rng.Int(kHeight_px / 3, 2 * kHeight_px / 3);
   const Rgb8 sky = rng.Chance(0.3) ? Rgb8{236, 150, 90} : Rgb8{96, 150, 214};
   p.Gradient(0, horizon + 12, sky, {226, 232, 236});
-  p.Ellipse(rng.Uniform(10, kWidth_px - 10), rng.Uniform(6, horizon), 6, 6, {250, 240, 200});
+  const double sun_v = rng.Uniform(6, horizon);
+  p.Ellipse(rng.Uniform(10, kWidth_px - 10), sun_v, 6, 6, {250, 240, 200});
   p.Hills(horizon, 6, Blend({70, 96, 120}, {90, 120, 70}, rng.Uniform()), rng);
   p.Hills(horizon + 12, 5, Blend({60, 110, 50}, {150, 140, 70}, rng.Uniform()), rng);
   if (rng.Chance(0.5)) p.Gradient(horizon + 22, kHeight_px, {60, 110, 160}, {30, 60, 100});
 }
 
 void PaintSpeaker(Painter& p, Rng& rng) {
-  p.Gradient(0, kHeight_px, AnyColour(rng, 40, 160), AnyColour(rng, 20, 110));
-  p.Rectangle(rng.Int(66, 80), 8, 122, 46, AnyColour(rng));
+  const Rgb8 bottom = AnyColour(rng, 20, 110);
+  p.Gradient(0, kHeight_px, AnyColour(rng, 40, 160), bottom);
+  const Rgb8 board = AnyColour(rng);
+  p.Rectangle(rng.Int(66, 80), 8, 122, 46, board);
   const Rgb8 skin = Blend({238, 196, 166}, {110, 72, 50}, rng.Uniform());
   const double u = rng.Uniform(30, 46);
   p.Ellipse(u, 74, 24, 28, AnyColour(rng, 20, 120));
@@ -88,7 +91,8 @@ void PaintSpeaker(Painter& p, Rng& rng) {
 }
 
 void PaintText(Painter& p, Rng& rng) {
-  p.Gradient(0, kHeight_px, AnyColour(rng, 30, 120), AnyColour(rng, 30, 120));
+  const Rgb8 bottom = AnyColour(rng, 30, 120);
+  p.Gradient(0, kHeight_px, AnyColour(rng, 30, 120), bottom);
   for (int i = 0; i < 2; ++i) {
     const int u0 = 6 + 60 * i, v1 = rng.Int(50, 66);
     p.Rectangle(u0, 6, u0 + 54, v1, {236, 236, 238});
@@ -100,7 +104,8 @@ void PaintText(Painter& p, Rng& rng) {
 }
 
 void PaintShapes(Painter& p, Rng& rng) {
-  p.Gradient(0, kHeight_px, AnyColour(rng, 90, 240), AnyColour(rng, 90, 240));
+  const Rgb8 bottom = AnyColour(rng, 90, 240);
+  p.Gradient(0, kHeight_px, AnyColour(rng, 90, 240), bottom);
   for (int i = rng.Int(4, 9); i > 0; --i) {
     const double u = rng.Uniform(0, kWidth_px), v = rng.Uniform(0, kHeight_px);
     const double a = rng.Uniform(6, 26), b = rng.Uniform(6, 26);
@@ -150,7 +155,8 @@ sim::Texture MakeOutdoorTexture(Rng& rng) {
   p.Gradient(0, horizon + 8, {170, 200, 232}, {238, 243, 246});
   for (int i = rng.Int(1, 4); i > 0; --i) {
     const double u = rng.Uniform(0, kWidth_px), v = rng.Uniform(8, 46);
-    p.Ellipse(u, v, rng.Uniform(14, 30), rng.Uniform(3, 7), {246, 248, 250});
+    const double high_px = rng.Uniform(3, 7);
+    p.Ellipse(u, v, rng.Uniform(14, 30), high_px, {246, 248, 250});
   }
   p.Hills(horizon, 6, {150, 176, 160}, rng);
   for (int i = rng.Int(0, 2); i > 0; --i) {  // houses across the street
@@ -165,8 +171,8 @@ sim::Texture MakeOutdoorTexture(Rng& rng) {
     const double r = rng.Uniform(6, 16);
     p.Rectangle(static_cast<int>(u) - 1, static_cast<int>(v), static_cast<int>(u) + 1,
                 static_cast<int>(v + r + 8), {96, 78, 62});
-    p.Ellipse(u, v, r, r * rng.Uniform(0.9, 1.4),
-              Blend({104, 146, 84}, {66, 110, 66}, rng.Uniform()));
+    const Rgb8 leaves = Blend({104, 146, 84}, {66, 110, 66}, rng.Uniform());
+    p.Ellipse(u, v, r, r * rng.Uniform(0.9, 1.4), leaves);
   }
   return p.Done();
 }

@@ -187,9 +187,9 @@ void AddNoise(sim::TriangleMesh& mesh, const ScanDamage& damage) {
       key = MixSeed(key, static_cast<std::uint64_t>(std::llround(v[i] * 1000.0F) + 1000000));
     }
     Rng place(key);
-    v += Vector3f(static_cast<float>(place.Normal()), static_cast<float>(place.Normal()),
-                  static_cast<float>(place.Normal())) *
-         static_cast<float>(damage.noise_m);
+    for (const int axis : {2, 1, 0}) {
+      v[axis] += static_cast<float>(place.Normal()) * static_cast<float>(damage.noise_m);
+    }
   }
 }
 
@@ -198,11 +198,13 @@ void AddFragments(sim::Scene& scene, const ScanDamage& damage, Rng rng) {
   Box3 box;
   for (const auto& v : mesh.vertices) box.Add(v.cast<double>());
   for (int i = 0; i < damage.floaters; ++i) {
-    const Vector3d c(rng.Uniform(box.min.x(), box.max.x()), rng.Uniform(box.min.y(), box.max.y()),
-                     rng.Uniform(box.min.z() + kOverHead_m, box.max.z()));
+    Vector3d c, low = box.min + kOverHead_m * Vector3d::UnitZ();
+    for (const int axis : {2, 1, 0}) c[axis] = rng.Uniform(low[axis], box.max[axis]);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int k = 0; k < 3; ++k) {
-      const Vector3d p = c + kFragment_m * Vector3d(rng.Normal(), rng.Normal(), rng.Normal());
+      Vector3d off;
+      for (const int axis : {2, 1, 0}) off[axis] = rng.Normal();
+      const Vector3d p = c + kFragment_m * off;
       mesh.vertices.push_back(p.cast<float>());
       if (!mesh.uvs.empty()) mesh.uvs.push_back({0, 0});
       if (!mesh.vertex_colours.empty()) mesh.vertex_colours.push_back({255, 255, 255});
