@@ -19,7 +19,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from program import SMALL, children, rss_mb, run, skip_unless_long  # noqa: E402
 
 SUITE = "crossnav-mfmon-1"
-HASH = "477eb1d457e9580b"
+HASH = "27df13e17780c352"
 DRAWN = 10000
 QUIET_S = 60  # the longest that progress may be silent
 GROWTH_MB = 60  # between the first and the last third of an evaluation, houses being of any size
