@@ -69,10 +69,10 @@ Result<void> Play(const Demonstration& demo, const std::string& scene_id, const 
   return Fail(ErrorCode::kInvalid, "the built-in episode was not completed", files.folder.string());
 }
 
-/// One other_floor change of the embedded house: its only sofa goes upstairs.
+/// A night that carries the only sofa of the embedded house upstairs.
 Result<world::DayReport> NightOf(const fs::path& house) {
   world::DaysOptions options;
-  options.seed = 2;  // chosen: the sofa
+  options.seed = 2;  // chosen: the first seed that draws the sofa
   options.kinds = {world::ChangeKind::kOtherFloor};
   auto days = world::WriteDays(house, {}, options);
   if (!days) return tl::unexpected(days.error());

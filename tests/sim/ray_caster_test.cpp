@@ -83,8 +83,8 @@ TEST(RayCaster, RaysMeetTheSameWithOtherInstructions) {
   }
 }
 
-// The days of a lifelong suite were others on an AMD than on an Intel processor: rays along the
-// ground meet surfaces in one plane, at common edges and exactly at their limit.
+// The days of a lifelong suite were others on an AMD than on an Intel processor: the processor's
+// estimates decided which of several surfaces in one plane a ray meets.
 TEST(RayCaster, OfSurfacesInOnePlaneTheFirstIsHitWithEveryInstructionSet) {
   MicroScene m;
   const int floor = m.Begin("floor");
@@ -100,10 +100,10 @@ TEST(RayCaster, OfSurfacesInOnePlaneTheFirstIsHitWithEveryInstructionSet) {
     const RayCaster caster(scene, instructions);
     Rng rng(9);
     for (int i = 0; i < 20000; ++i) {
-      const Vector3d to(0.15 * rng.Int(1, 14), 0.15 * rng.Int(1, 14), 0);
+      const Vector3d to{0.15 * rng.Int(1, 14), 0.15 * rng.Int(1, 14), 0};
       Vector3d from = to;
       from.z() = 0.01 * rng.Int(1, 300);
-      if (i % 2 == 0) from += Vector3d(rng.Uniform(-1, 1), rng.Uniform(-1, 1), 0);
+      if (i % 2 == 0) from += Vector3d{rng.Uniform(-1, 1), rng.Uniform(-1, 1), 0};
       const auto hit = caster.Cast(from, to - from, 10);
       ASSERT_TRUE(hit.has_value()) << instructions;
       ASSERT_EQ(hit->instance, floor) << instructions << ", ray " << i;

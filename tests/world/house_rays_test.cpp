@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays in a generated house, where surfaces lie in one plane, objects touch, and rays along the
+// Rays in a furnished house, where surfaces lie in one plane, objects touch, and rays along the
 // axes of the world meet edges.
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "crossnav/core/rng.h"
 #include "crossnav/sim/render/ray_caster.h"
-#include "crossnav/world/house/house_generator.h"
+#include "crossnav/world/house/embedded_house.h"
 #include "support/temp_folder.h"
 
 namespace crossnav::world {
@@ -18,23 +18,19 @@ std::optional<sim::RayHit> CastOne(const sim::RayCaster& caster, const Box3& hou
   const auto on_grid = [&](int axis) {
     return std::round(rng.Uniform(house.min[axis], house.max[axis]) / 0.15) * 0.15;
   };
-  const Vector3d from(on_grid(0), on_grid(1), on_grid(2) + 0.1 * rng.Int(0, 2));
+  const Vector3d from{on_grid(0), on_grid(1), on_grid(2) + 0.1 * rng.Int(0, 2)};
   Vector3d direction = Vector3d::Zero();
   const int axis = rng.Int(0, 3);
   if (axis < 3) direction[axis] = rng.Chance(0.5) ? 1 : -1;
-  if (axis == 3) direction = Vector3d(rng.Normal(), rng.Normal(), rng.Normal());
+  if (axis == 3) direction = Vector3d{rng.Normal(), rng.Normal(), rng.Normal()};
   return caster.Cast(from, direction, 0.1 * rng.Int(1, 60));
 }
 
 TEST(HouseRays, MeetTheSameWithEstimatesOfOtherProcessors) {
   const test::TempFolder dir;
-  HouseParams params;
-  params.seed = 5;
-  params.floors = 2;
-  params.area_m2 = 90;
-  const auto report = GenerateHouse(params, dir.path());
-  ASSERT_TRUE(report.has_value()) << report.error().Message();
-  const auto scene = sim::LoadScene(report->folder);
+  const auto folder = WriteEmbeddedHouse(dir.path());
+  ASSERT_TRUE(folder.has_value()) << folder.error().Message();
+  const auto scene = sim::LoadScene(*folder);
   ASSERT_TRUE(scene.has_value()) << scene.error().Message();
   Box3 house;
   for (const Vector3f& p : scene->mesh.vertices) house.Add(p.cast<double>());

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <mutex>
-#include <tuple>
 #include <utility>
 
 #include "crossnav/core/check.h"
@@ -81,8 +80,9 @@ struct RayCaster::Impl {
     Commit(rays.get());
   }
 
-  /// A ray on its way. Embree finds the triangles; their order is decided here, because Embree's
-  /// distances differ in their last bits between processors, and surfaces often lie in one plane.
+  /// A ray with its nearest meeting so far. Embree finds triangles; their order is decided here,
+  /// because Embree's distances differ in their last bits between processors, and surfaces often
+  /// lie in one plane.
   struct Traveller : RayContext {
     const Impl* impl = nullptr;
     float max_m = 0;
@@ -163,14 +163,18 @@ std::optional<RayHit> RayCaster::Cast(const Vector3d& p_world, const Vector3d& d
                                       double max_m) const {
   const double length = direction.norm();
   if (!p_world.allFinite() || !(length > 0) || !std::isfinite(length)) return std::nullopt;
-  const Vector3f o = p_world.cast<float>(), d = (direction / length).cast<float>();
+  const Vector3f d = (direction / length).cast<float>();
   Impl::Traveller traveller;
   traveller.impl = impl_.get();
   traveller.max_m = static_cast<float>(max_m);
   traveller.reach_m = traveller.max_m + kTie_m;
   RTCRayHit ray{};
-  std::tie(ray.ray.org_x, ray.ray.org_y, ray.ray.org_z) = std::tie(o.x(), o.y(), o.z());
-  std::tie(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z) = std::tie(d.x(), d.y(), d.z());
+  ray.ray.org_x = static_cast<float>(p_world.x());
+  ray.ray.org_y = static_cast<float>(p_world.y());
+  ray.ray.org_z = static_cast<float>(p_world.z());
+  ray.ray.dir_x = d.x();
+  ray.ray.dir_y = d.y();
+  ray.ray.dir_z = d.z();
   ray.ray.tfar = traveller.reach_m;
   ray.ray.mask = ~0U;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;

@@ -23,7 +23,7 @@ struct Rect {
   bool Contains(const Vector2d& p) const {
     return p.x() >= x0 && p.x() <= x1 && p.y() >= y0 && p.y() <= y1;
   }
-  /// Uniform.
+  /// A point drawn uniformly.
   Vector2d Draw(Rng& rng) const {
     const double y = rng.Uniform(y0, y1);
     return {rng.Uniform(x0, x1), y};
