@@ -22,17 +22,18 @@ constexpr std::size_t kWindow = 30;  // chosen: places of the path that are sear
 
 /// Cost-to-go [m] to the end of the path's near part, for every position from which that end is
 /// reachable. The search goes from that end to the agent. A path steps down where no step up is
-/// known, so that the search may need rises like seats, or a nearer end.
+/// known, so that the search may need rises like seats, or a nearer end: a way back elsewhere would
+/// lead the agent away from the path.
 class CostToGo {
  public:
   CostToGo(const GroundMap& ground, const planner::PlannerConfig& planner,
            const std::vector<VoxelKey>& path, planner::GroundRules rules)
       : ground_(ground), search_(From(path, kWindow, planner, rules)) {
-    if (search_.CostOf(path.front())) return;
+    if (GoesAlong(path, kWindow)) return;
     rules.may_step_on_seats = true;
     for (std::size_t places = kWindow; places > 1; places /= 2) {
       search_ = From(path, places, planner, rules);
-      if (search_.CostOf(path.front())) return;
+      if (GoesAlong(path, places)) return;
     }
   }
   double At(const Eigen::Vector2d& p, int z) const {
@@ -63,6 +64,12 @@ class CostToGo {
     if (std::abs(dx) == 1) return is_ground(dx, y);
     if (std::abs(dy) == 1) return is_ground(x, dy);
     return false;
+  }
+
+  bool GoesAlong(const std::vector<VoxelKey>& path, std::size_t places) const {
+    const auto end = path.begin() + static_cast<std::ptrdiff_t>(std::min(path.size(), places));
+    return std::all_of(path.begin(), end,
+                       [&](const VoxelKey& key) { return search_.CostOf(key).has_value(); });
   }
 
   planner::GroundSearch From(const std::vector<VoxelKey>& path, std::size_t places,

@@ -80,6 +80,31 @@ TEST(GroundMotion, StepsDownWhereNoStepUpIsKnown) {
   EXPECT_FALSE(MotionAlong(ground, path, agent, {}, {}, {}).empty());
 }
 
+// Regression: the cost-to-go led back up and down another flight beside it, so that the agent
+// turned around on the path (house 8107 of crossnav-lifelong-1-val).
+TEST(GroundMotion, StaysOnAPathThatHasItsWayBackElsewhere) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 12, 12, 0);
+  AddGround(map, 12, 0, 13, 12, 3);
+  AddGround(map, 13, 0, 29, 12, 4);
+  AddGround(map, 29, 0, 30, 12, 7);
+  AddGround(map, 30, 0, 40, 12, 8);
+  const auto path = PathOver(GroundOf(map), {32, 5, 9}, {4, 5, 1});
+  ASSERT_FALSE(path.empty());
+  AddGround(map, 0, 12, 12, 36, 0);
+  AddGround(map, 30, 12, 40, 36, 8);
+  for (int tread = 0; tread < 9; ++tread)
+    AddGround(map, 12 + 2 * tread, 24, 14 + 2 * tread, 36, tread);
+  const auto ground = GroundOf(map);
+  ASSERT_FALSE(PathOver(ground, {4, 5, 1}, {32, 5, 9}).empty());
+  AgentPose agent;
+  agent.p_world = {3.25, 0.55, 0.9};
+  agent.yaw_rad = DegToRad(180);
+  for (const Action action : MotionAlong(ground, path, agent, {}, {}, {})) Do(action, agent);
+  EXPECT_LT(agent.p_world.x(), 2);
+  EXPECT_NEAR(agent.p_world.y(), 0.55, 0.4);
+}
+
 // Regression: a path that doubles back behind a wall came near its own end: with cost-to-go by
 // distance to the path no step helped, and the agent stood still (found in house 8).
 TEST(GroundMotion, LeavesAPocketWithAPathThatDoublesBackBehindAThinWall) {
