@@ -122,8 +122,9 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
   if (wish.object.empty()) return std::nullopt;
   const planner::GroundMap& ground = now.world.ground;
   const double voxel_m = now.config.map.voxel_m;
-  const policy::ViewTest view(now.world.map, wish.object, wish.range_m, now.config.policy.approach,
-                              now.config.sensor.camera_height_m);
+  policy::ViewTest view(now.world.map, wish.object, wish.range_m, now.config.policy.approach,
+                        now.config.sensor.camera_height_m);
+  if (wish.is_through_seen_air) view.AskForSeenAir();
   std::optional<ObjectStorey> storey;
   if (wish.is_on_storey) storey.emplace(now, wish.object, wish.p_center_world);
   const auto is_wanted = [&](const VoxelKey& key) {
@@ -216,14 +217,18 @@ bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi,
                   policy.poi.blacklist_xy_m, policy.explore.max_choices);
 }
 
-/// Where to look at the place from, from farther away if need be.
+/// Where to look at the place from, from farther away if need be. It has been seen: a view through
+/// seen air exists as a rule, while the nearest place may lie behind a wall that was not seen.
 std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
                                    const HistoryPoi& poi) {
   const double range_m = now.config.policy.approach.range_m;
-  for (const double within_m : {range_m - kSlack_m, 2 * range_m})
-    if (auto target = NearestView(
-            now, start, {poi.voxels, within_m, {}, poi.p_looked_world, poi.p_center_world, true}))
-      return target;
+  ViewWish wish{poi.voxels, 0, {}, poi.p_looked_world, poi.p_center_world, true};
+  for (const bool is_through_seen_air : {true, false})
+    for (const double within_m : {range_m - kSlack_m, 2 * range_m}) {
+      wish.range_m = within_m;
+      wish.is_through_seen_air = is_through_seen_air;
+      if (auto target = NearestView(now, start, wish)) return target;
+    }
   return std::nullopt;
 }
 

@@ -104,6 +104,23 @@ bool VoxelMap::HasLineOfSight(const Vector3d& a_world, const Vector3d& b_world) 
   return is_clear;
 }
 
+bool VoxelMap::IsSeenThrough(const Vector3d& a_world, const Vector3d& b_world,
+                             int most_unseen) const {
+  const double voxel_m = data_->config.voxel_m;
+  const VoxelKey start = KeyOf(a_world, voxel_m), end = KeyOf(b_world, voxel_m);
+  bool is_clear = true;
+  int unseen = 0;
+  Cursor cursor(*this);
+  WalkRay(a_world / voxel_m, b_world / voxel_m, [&](const VoxelKey& key) {
+    if (key == start || key == end) return true;
+    const VoxelState state = cursor.At(key).state;
+    unseen += state == VoxelState::kUnknown ? 1 : 0;
+    is_clear = !IsSurface(state) && unseen <= most_unseen;
+    return is_clear;
+  });
+  return is_clear;
+}
+
 MapStats VoxelMap::Stats() const {
   MapStats stats;
   for (const GridEntry& entry : data_->grid.entries()) {

@@ -93,6 +93,9 @@ class VoxelMap {
   /// True if no surface voxel lies strictly between the two points' voxels.
   bool HasLineOfSight(const Vector3d& a_world, const Vector3d& b_world) const;
 
+  /// The same, with at most `most_unseen` unobserved voxels in between.
+  bool IsSeenThrough(const Vector3d& a_world, const Vector3d& b_world, int most_unseen) const;
+
   MapStats Stats() const;
 
   /// Grows with every change of a derived state; equal values mean an unchanged map.

@@ -80,7 +80,9 @@ class GroundSearch {
     return nodes_[index];
   }
   void Expand(std::int32_t from_place);
+  void ExpandOblique(const From& from, const GroundPlaces::Steps& steps);
   void Relax(const From& from, std::int32_t to, const Price& price);
+  void RelaxTo(const From& from, std::int32_t to, double edge);
 
   const GroundMap* ground_;
   const PlannerConfig* config_;

@@ -12,29 +12,14 @@ namespace {
 
 using geometry::CenterOf;
 
+constexpr int kMostUnseen = 2;  // chosen: [voxels] of a ray through seen air; less than a wall
+
 /// At most `count` voxels spread evenly over the sorted list.
 std::vector<VoxelKey> Sample(const std::vector<VoxelKey>& voxels, std::size_t count) {
   if (voxels.size() <= count) return voxels;
   std::vector<VoxelKey> sample;
   for (std::size_t i = 0; i < count; ++i) sample.push_back(voxels[i * voxels.size() / count]);
   return sample;
-}
-
-/// Line of sight to a voxel of the object: the ray stops one and a half voxels short, since the
-/// object's own surface must not hide the voxel.
-bool CanSee(const VoxelMap& map, const Vector3d& p_eye, const VoxelKey& target) {
-  const double voxel_m = map.config().voxel_m;
-  const Vector3d p_target = CenterOf(target, voxel_m);
-  const double length = (p_target - p_eye).norm();
-  if (length < 2 * voxel_m) return true;
-  return map.HasLineOfSight(p_eye, p_target + (p_eye - p_target) * (1.5 * voxel_m / length));
-}
-
-double VisibleShare(const VoxelMap& map, const Vector3d& p_eye,
-                    const std::vector<VoxelKey>& sample) {
-  const auto seen = std::count_if(sample.begin(), sample.end(),
-                                  [&](const VoxelKey& key) { return CanSee(map, p_eye, key); });
-  return static_cast<double>(seen) / static_cast<double>(sample.size());
 }
 
 /// Share of the object's voxels within reach of the depth image that are neither outside the image
@@ -92,6 +77,18 @@ ViewTest::ViewTest(const VoxelMap& map, const std::vector<VoxelKey>& object, dou
   hi_ = hi_ + VoxelKey{reach, reach, reach};
 }
 
+/// The ray stops one and a half voxels short, since the object's own surface must not hide the
+/// voxel.
+bool ViewTest::IsInSight(const Vector3d& p_eye, const VoxelKey& target) const {
+  const double voxel_m = map_.config().voxel_m;
+  const Vector3d p_target = CenterOf(target, voxel_m);
+  const double length_m = (p_target - p_eye).norm();
+  if (length_m < 2 * voxel_m) return true;
+  const Vector3d p_end = p_target + (p_eye - p_target) * (1.5 * voxel_m / length_m);
+  return needs_seen_air_ ? map_.IsSeenThrough(p_eye, p_end, kMostUnseen)
+                         : map_.HasLineOfSight(p_eye, p_end);
+}
+
 bool ViewTest::IsView(const VoxelKey& key) const {
   if (key.x < lo_.x || key.x > hi_.x || key.y < lo_.y || key.y > hi_.y || key.z < lo_.z ||
       key.z > hi_.z)
@@ -100,7 +97,11 @@ bool ViewTest::IsView(const VoxelKey& key) const {
   Vector3d p_foot = CenterOf(key, voxel_m);
   p_foot.z() = geometry::MinCornerOf(key, voxel_m).z();
   if (!IsWithin(range_m_, object_, p_foot, camera_height_m_, voxel_m, stray_share_)) return false;
-  return VisibleShare(map_, p_foot + Vector3d(0, 0, camera_height_m_), sample_) >= min_visibility_;
+  const Vector3d p_eye = p_foot + Vector3d(0, 0, camera_height_m_);
+  const auto in_sight = std::count_if(sample_.begin(), sample_.end(), [&](const VoxelKey& key) {
+    return IsInSight(p_eye, key);
+  });
+  return static_cast<double>(in_sight) / static_cast<double>(sample_.size()) >= min_visibility_;
 }
 
 std::vector<VoxelKey> Viewpoints(const VoxelMap& map, const std::vector<VoxelKey>& object,

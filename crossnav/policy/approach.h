@@ -23,6 +23,8 @@ class ViewTest {
  public:
   ViewTest(const VoxelMap& map, const std::vector<VoxelKey>& object, double range_m,
            const ApproachConfig& config, double camera_height_m);
+  /// From now on unobserved space may hide the object: a wall whose surface was never seen.
+  void AskForSeenAir() { needs_seen_air_ = true; }
   /// Standing at `key`: the object is within range and in free line of sight.
   bool IsView(const VoxelKey& key) const;
   /// Views lie within this box, both corners included.
@@ -30,9 +32,12 @@ class ViewTest {
   const VoxelKey& hi() const { return hi_; }
 
  private:
+  bool IsInSight(const Vector3d& p_eye, const VoxelKey& target) const;
+
   const VoxelMap& map_;
   const std::vector<VoxelKey>& object_;
   double range_m_, camera_height_m_, min_visibility_, stray_share_;
+  bool needs_seen_air_ = false;
   std::vector<VoxelKey> sample_;
   VoxelKey lo_, hi_;  // box of the object, grown by the range
 };

@@ -227,6 +227,27 @@ TEST(GroundSearch, TheFrontOfASeatIsNoTread) {
   EXPECT_TRUE(CostsFrom(GroundOf(stair), {1, 1, 1}).contains({6, 1, 5}));
 }
 
+/// Least clearance of an oblique step over four level places, both its orders; nullopt where it is
+/// none.
+std::optional<Clearance> ObliqueRoom(const GroundMap& ground, const VoxelKey& from, int dx, int dy) {
+  if (std::abs(dx * dy) != 2) return std::nullopt;
+  const int sx = dx > 0 ? 1 : -1, sy = dy > 0 ? 1 : -1;
+  const int ax = dx - sx, ay = dy - sy;  // the step along an axis
+  const VoxelKey beside{from.x + ax, from.y + ay, from.z};
+  const VoxelKey ahead{from.x + sx, from.y + sy, from.z};
+  const auto is_level = [&](const VoxelKey& key, int x, int y) {
+    int z = 0;
+    return ground.OutcomeOf(key, x, y, &z) == StepOutcome::kGround && z == from.z;
+  };
+  if (!is_level(from, ax, ay) || !is_level(from, sx, sy) || !is_level(beside, sx, sy) ||
+      !is_level(ahead, ax, ay))
+    return std::nullopt;
+  const Clearance room =
+      std::max({ground.ClearanceOf(beside), ground.ClearanceOf(ahead),
+                ground.ClearanceOf({from.x + dx, from.y + dy, from.z})});
+  return room == Clearance::kPinch ? std::nullopt : std::optional(room);
+}
+
 /// Bellman and Ford's relaxation until nothing changes, over a dictionary: slow and simple.
 std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& start, int side) {
   const PlannerConfig config;
@@ -235,14 +256,17 @@ std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& s
     is_changing = false;
     const auto known = costs;
     for (const auto& [from, cost] : known)
-      for (int dx = -1; dx <= 1; ++dx)
-        for (int dy = -1; dy <= 1; ++dy) {
-          int z = 0;
-          if ((dx == 0 && dy == 0) || ground.OutcomeOf(from, dx, dy, &z) != StepOutcome::kGround)
+      for (int dx = -2; dx <= 2; ++dx)
+        for (int dy = -2; dy <= 2; ++dy) {
+          const bool is_near = std::max(std::abs(dx), std::abs(dy)) == 1;
+          const auto oblique = ObliqueRoom(ground, from, dx, dy);
+          int z = from.z;
+          if (!oblique &&
+              (!is_near || ground.OutcomeOf(from, dx, dy, &z) != StepOutcome::kGround))
             continue;
           const VoxelKey to{from.x + dx, from.y + dy, z};
           if (to.x < 0 || to.y < 0 || to.x >= side || to.y >= side) continue;
-          const Clearance room = ground.ClearanceOf(to);
+          const Clearance room = oblique.value_or(ground.ClearanceOf(to));
           if (room == Clearance::kPinch && ground.ClearanceOf(from) != Clearance::kPinch) continue;
           const double next = cost + GroundEdgeCost(from, to, room, ground.climb(), config);
           const auto it = costs.find(to);
@@ -276,6 +300,31 @@ TEST(GroundSearch, CostsEqualPlainRelaxationOnRandomGround) {
     ASSERT_EQ(costs.size(), plain.size()) << seed;
     for (const auto& [key, cost] : plain) EXPECT_NEAR(costs.at(key), cost, 1e-9);
   }
+}
+
+TEST(GroundSearch, IsNearlyStraightInEachDirection) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 60, 60, 0);
+  const GroundMap ground = GroundOf(map);
+  const auto costs = CostsFrom(ground, {30, 30, 1});
+  for (const auto& [key, cost] : costs) {
+    if (std::max(std::abs(key.x - 30), std::abs(key.y - 30)) > 20) continue;
+    EXPECT_LE(cost, 1.028 * geometry::VoxelDistance(key, {30, 30, 1}) + 1e-9);
+  }
+}
+
+TEST(GroundSearch, ThePathOfAnObliqueStepHasItsPlaceBetween) {
+  VoxelMap map;
+  AddGround(map, 0, 0, 30, 30, 0);
+  const GroundMap ground = GroundOf(map);
+  GroundSearch search(ground, PlannerConfig(), {5, 5, 1});
+  const VoxelKey to{25, 15, 1};
+  while (const auto key = search.Next())
+    if (*key == to) break;
+  const auto path = search.PathTo(to);
+  ASSERT_GT(path.size(), 1u);
+  for (std::size_t i = 1; i < path.size(); ++i)
+    EXPECT_LT(geometry::VoxelDistance(path[i - 1], path[i]), 1.5);
 }
 
 // Searches cache a place until a change near it.
