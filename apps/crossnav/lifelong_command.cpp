@@ -19,6 +19,7 @@
 #include "memory_files.h"
 #include "perception_source.h"
 #include "session.h"
+#include "visit_replay.h"
 
 namespace crossnav::app {
 namespace {
@@ -41,6 +42,7 @@ struct ChainSettings {
   const PerceptionSource& perception;
   evaluation::VisitRun run;
   const LifelongPlace& place;
+  bool keeps_replays = false;  ///< of visits with a goal that was not found
 
   bool IsKept() const { return run.memory_mode != "none"; }
   fs::path RunFolder() const { return place.runs() / run.memory_mode; }
@@ -51,8 +53,9 @@ struct ChainSettings {
 };
 
 /// Plays one day. `map`: memory to begin with from the second day on, and to save to; empty = none.
+/// Replays that are kept lie in `folder`.
 Result<evaluation::VisitRecord> PlayDay(const evaluation::HouseVisit& visit, const fs::path& map,
-                                        const ChainSettings& chain) {
+                                        const fs::path& folder, const ChainSettings& chain) {
   auto context = evaluation::SceneContext::Load(chain.place.scenes(), visit.scene_id, chain.config);
   if (!context) return tl::unexpected(context.error());
   const std::string encoder = chain.perception.EncoderName();
@@ -72,9 +75,15 @@ Result<evaluation::VisitRecord> PlayDay(const evaluation::HouseVisit& visit, con
       return {};
     };
   }
+  auto replay = VisitReplay::Open(chain.keeps_replays ? folder / "replays" : fs::path(), **context,
+                                  visit, chain.config, chain.run);
+  if (!replay) return tl::unexpected(replay.error());
+  hooks.observer = replay->observer();
   auto record =
       evaluation::PlayVisit(**context, visit, chain.config, hooks, chain.perception.Maker());
-  if (record) record->map_bytes = map_bytes;
+  if (!record) return record;
+  if (auto ok = replay->Finish(*record); !ok) return tl::unexpected(ok.error());
+  record->map_bytes = map_bytes;
   return record;
 }
 
@@ -96,7 +105,7 @@ Result<evaluation::VisitRecord> FirstDayRecord(const evaluation::HouseVisit& vis
   // A run of another mode may be at the same day.
   const fs::path part = chain.FirstDay() / (visit.house + "." + chain.run.memory_mode + ".map");
   fs::remove(part, error);  // of an interrupted run: a save would add a revision to it
-  auto record = PlayDay(visit, part, chain);
+  auto record = PlayDay(visit, part, chain.FirstDay(), chain);
   if (!record) return record;
   fs::remove(path, error);  // of another run, like the map
   fs::rename(part, map, error);
@@ -109,7 +118,9 @@ Result<evaluation::VisitRecord> FirstDayRecord(const evaluation::HouseVisit& vis
 /// Plays a day; after the first one the memory of the mode begins as a copy of the first day's.
 Result<evaluation::VisitRecord> DayRecord(const evaluation::HouseVisit& visit, bool is_first,
                                           const ChainSettings& chain) {
-  if (!is_first) return PlayDay(visit, chain.IsKept() ? chain.Map(visit.house) : fs::path(), chain);
+  if (!is_first)
+    return PlayDay(visit, chain.IsKept() ? chain.Map(visit.house) : fs::path(), chain.RunFolder(),
+                   chain);
   auto record = FirstDayRecord(visit, chain);
   if (!record || !chain.IsKept()) return record;
   std::error_code error;
@@ -268,7 +279,8 @@ Result<void> LifelongRun(const SuiteOptions& options, const CommonOptions& commo
                             *perception,
                             {file->content_hash, *mode, "full", settings,
                              config->eval.perception + "-perception", CROSSNAV_VERSION},
-                            place};
+                            place,
+                            options.keep_replays == "failures"};
   const fs::path path = chain.RunFolder() / "visits.jsonl";
   if (auto ok = evaluation::CheckOutputFile(path, "--out"); !ok) return ok;
   for (const fs::path& folder : {chain.RunFolder() / "memory", chain.FirstDay()}) {

@@ -155,7 +155,9 @@ void AddSuites(CLI::App& app, Options& o) {
     verb->add_option("--jobs", o.suite.jobs, "Processes")->check(CLI::Range(1, 1024));
   }
   for (CLI::App* verb : {run, report}) {
-    verb->add_option("--variant", o.suite.variant, kVariantHelp);
+    verb->add_option("--variant", o.suite.variant,
+                     std::string(kVariantHelp) +
+                         "; of crossnav-lifelong-1 the memory: none, keep (default) or revise");
     verb->add_option("--keep-replays", o.suite.keep_replays, "none or failures")
         ->check(CLI::IsMember({"none", "failures"}));
   }

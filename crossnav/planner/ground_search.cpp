@@ -108,10 +108,11 @@ void GroundSearch::ExpandOblique(const From& from, const GroundPlaces::Steps& st
       continue;
     const GroundPlaces::Steps from_ahead = places.StepsFrom(*ground_, ahead);
     if (!IsPlain(from_ahead, axis) || from_ahead.to[axis] != to) continue;
-    const Clearance least = std::max(
-        {places.RoomAt(*ground_, beside), places.RoomAt(*ground_, ahead), places.RoomAt(*ground_, to)});
+    const Clearance least = std::max({places.RoomAt(*ground_, beside),
+                                      places.RoomAt(*ground_, ahead), places.RoomAt(*ground_, to)});
     if (least == Clearance::kPinch) continue;
-    RelaxTo(from, to, GroundEdgeCost(from.key, places.KeyAt(to), least, ground_->climb(), *config_));
+    RelaxTo(from, to,
+            GroundEdgeCost(from.key, places.KeyAt(to), least, ground_->climb(), *config_));
   }
 }
 

@@ -98,8 +98,8 @@ bool ViewTest::IsView(const VoxelKey& key) const {
   p_foot.z() = geometry::MinCornerOf(key, voxel_m).z();
   if (!IsWithin(range_m_, object_, p_foot, camera_height_m_, voxel_m, stray_share_)) return false;
   const Vector3d p_eye = p_foot + Vector3d(0, 0, camera_height_m_);
-  const auto in_sight = std::count_if(sample_.begin(), sample_.end(), [&](const VoxelKey& key) {
-    return IsInSight(p_eye, key);
+  const auto in_sight = std::count_if(sample_.begin(), sample_.end(), [&](const VoxelKey& target) {
+    return IsInSight(p_eye, target);
   });
   return static_cast<double>(in_sight) / static_cast<double>(sample_.size()) >= min_visibility_;
 }

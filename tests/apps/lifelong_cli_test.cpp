@@ -110,6 +110,30 @@ TEST_F(LifelongCli, AllModesShareTheFirstDay) {
             1);
 }
 
+TEST_F(LifelongCli, ReplaysOfVisitsAreKeptWhereAGoalIsNotFound) {
+  const test::fs::path suite = At("suites/crossnav-lifelong-1-mini");
+  test::fs::create_directories(suite);
+  test::fs::rename(At("scenes"), suite / "scenes");
+  const Json goals = {{{"goal", "tv_monitor"}, {"track", "first"}, {"floors", {0}}}};
+  const Json visit = {
+      {"house", "00001-CrossnavHouse"},  {"day", 0},       {"scene", "00001-CrossnavHouse"},
+      {"start", {5.3613, 7.3312, 0.05}}, {"yaw_rad", 0.0}, {"goals", goals}};
+  test::WriteText(suite / "visits.json", Json({{"format", 1}, {"visits", {visit}}}).dump());
+  const test::fs::path replay = suite / "runs/first_day/replays/00001-CrossnavHouse-day0.mcap";
+  const std::string command =
+      "suite run crossnav-lifelong-1-mini --out suites --quiet --keep-replays failures" +
+      std::string(kSmallDays);
+  ASSERT_EQ(Run(command + " --set eval.action_budget=3").exit_code, 0);
+  const auto lost = trace::ReadReplay(replay);
+  ASSERT_TRUE(lost.has_value()) << lost.error().Message();
+  EXPECT_EQ(lost->steps.size(), 3U);
+  ASSERT_EQ(lost->stages.size(), 1U);
+  EXPECT_FALSE(lost->stages.front().success);
+  test::fs::remove_all(suite / "runs");
+  ASSERT_EQ(Run(command).exit_code, 0);
+  EXPECT_FALSE(test::fs::exists(replay)) << "found";
+}
+
 TEST_F(LifelongCli, DrawnHomesNeedTheirArchive) {
   const Outcome outcome =
       Run("suite make crossnav-lifelong-1-drawn --homes no.jar --out suites --quiet");

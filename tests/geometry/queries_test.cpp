@@ -79,6 +79,9 @@ TEST(QueriesTest, LineOfSightIsBlockedBySurfacesStrictlyBetween) {
   EXPECT_FALSE(map.HasLineOfSight({2.05, 0.05, 0.25}, {0.05, 0.05, 0.25}));
   EXPECT_TRUE(map.HasLineOfSight({0.05, 0.05, 0.25}, {1.05, 0.05, 0.25}));  // the wall itself
   EXPECT_TRUE(map.HasLineOfSight({0.05, 0.05, 0.85}, {2.05, 0.05, 0.85}));  // over it
+  EXPECT_TRUE(map.IsSeenThrough({0.05, 0.05, 0.85}, {2.05, 0.05, 0.85}, 19));
+  EXPECT_FALSE(map.IsSeenThrough({0.05, 0.05, 0.85}, {2.05, 0.05, 0.85}, 18));  // unobserved
+  EXPECT_FALSE(map.IsSeenThrough({0.05, 0.05, 0.25}, {2.05, 0.05, 0.25}, 19));
 }
 
 TEST(QueriesTest, ReadersMayShareAnUnwrittenMap) {

@@ -229,7 +229,8 @@ TEST(GroundSearch, TheFrontOfASeatIsNoTread) {
 
 /// Least clearance of an oblique step over four level places, both its orders; nullopt where it is
 /// none.
-std::optional<Clearance> ObliqueRoom(const GroundMap& ground, const VoxelKey& from, int dx, int dy) {
+std::optional<Clearance> ObliqueRoom(const GroundMap& ground, const VoxelKey& from, int dx,
+                                     int dy) {
   if (std::abs(dx * dy) != 2) return std::nullopt;
   const int sx = dx > 0 ? 1 : -1, sy = dy > 0 ? 1 : -1;
   const int ax = dx - sx, ay = dy - sy;  // the step along an axis
@@ -242,9 +243,8 @@ std::optional<Clearance> ObliqueRoom(const GroundMap& ground, const VoxelKey& fr
   if (!is_level(from, ax, ay) || !is_level(from, sx, sy) || !is_level(beside, sx, sy) ||
       !is_level(ahead, ax, ay))
     return std::nullopt;
-  const Clearance room =
-      std::max({ground.ClearanceOf(beside), ground.ClearanceOf(ahead),
-                ground.ClearanceOf({from.x + dx, from.y + dy, from.z})});
+  const Clearance room = std::max({ground.ClearanceOf(beside), ground.ClearanceOf(ahead),
+                                   ground.ClearanceOf({from.x + dx, from.y + dy, from.z})});
   return room == Clearance::kPinch ? std::nullopt : std::optional(room);
 }
 
@@ -261,8 +261,7 @@ std::map<VoxelKey, double> PlainCosts(const GroundMap& ground, const VoxelKey& s
           const bool is_near = std::max(std::abs(dx), std::abs(dy)) == 1;
           const auto oblique = ObliqueRoom(ground, from, dx, dy);
           int z = from.z;
-          if (!oblique &&
-              (!is_near || ground.OutcomeOf(from, dx, dy, &z) != StepOutcome::kGround))
+          if (!oblique && (!is_near || ground.OutcomeOf(from, dx, dy, &z) != StepOutcome::kGround))
             continue;
           const VoxelKey to{from.x + dx, from.y + dy, z};
           if (to.x < 0 || to.y < 0 || to.x >= side || to.y >= side) continue;

@@ -20,8 +20,12 @@ constexpr double kAtPlace_m = 1.0, kAtHeight_m = 1.5;  // chosen: a remembered p
 class GoalSearch {
  public:
   GoalSearch(const SceneContext& context, const RunConfig& config, sim::Simulator& simulator,
-             agent::Agent& agent)
-      : context_(context), config_(config), simulator_(simulator), agent_(agent) {}
+             agent::Agent& agent, RunObserver* observer)
+      : context_(context),
+        config_(config),
+        simulator_(simulator),
+        agent_(agent),
+        observer_(observer) {}
 
   Result<GoalRecord> Search(const VisitGoal& goal) {
     if (auto ok = agent_.SetGoal(goal.goal); !ok) return tl::unexpected(ok.error());
@@ -52,14 +56,34 @@ class GoalSearch {
     record.success = record.outcome == Outcome::kSuccess;
     record.stale_visits = stale.visits();
     record.revised_after = stale.revised_after();
+    if (observer_) {
+      if (auto ok = observer_->OnStageEnd(StageOf(record)); !ok) return tl::unexpected(ok.error());
+    }
     return record;
   }
 
  private:
+  static StageRecord StageOf(const GoalRecord& record) {
+    StageRecord stage;
+    stage.goal = record.goal;
+    stage.outcome = record.outcome;
+    stage.success = record.success;
+    stage.shortest_m = record.shortest_m;
+    stage.length_m = record.length_m;
+    stage.actions = record.actions;
+    return stage;
+  }
+
   Result<bool> Step(const VisitGoal& goal, GoalRecord& record, StaleWatch& stale, StageEnd& end) {
-    auto step = agent_.Step(simulator_.Observe());
+    const Observation observation = simulator_.Observe();
+    auto step = agent_.Step(observation);
     if (!step) return tl::unexpected(step.error());
     stale.Add(step->trace);
+    if (observer_) {
+      const StepView view{observation,        step->trace, step->timing,
+                          simulator_.agent(), agent_,      step->percept};
+      if (auto ok = observer_->OnStep(view); !ok) return tl::unexpected(ok.error());
+    }
     if (step->all_explored) {
       end.all_explored = true;
       return true;
@@ -90,6 +114,7 @@ class GoalSearch {
   const RunConfig& config_;
   sim::Simulator& simulator_;
   agent::Agent& agent_;
+  RunObserver* observer_;  // or null
   std::deque<double> recent_m_;
 };
 
@@ -120,7 +145,8 @@ Result<VisitRecord> PlayVisit(const SceneContext& context, const HouseVisit& vis
   sim::Simulator simulator(context.scene(), context.navmesh(), context.caster(),
                            config.agent.sensor, config.agent.action);
   simulator.UseNoise(config.noise, HashString(visit.Id()));
-  simulator.ShowColour(config.eval.perception != "oracle");
+  simulator.ShowColour(config.eval.perception != "oracle" ||
+                       (hooks.observer && hooks.observer->NeedsColour()));
   auto perception = make_perception ? make_perception(simulator)
                                     : sim::GroundTruthPerception(simulator, config.ground_truth);
   if (!perception) return tl::unexpected(perception.error());
@@ -132,7 +158,7 @@ Result<VisitRecord> PlayVisit(const SceneContext& context, const HouseVisit& vis
   VisitRecord record;
   record.house = visit.house;
   record.day = visit.day;
-  GoalSearch run(context, config, simulator, agent);
+  GoalSearch run(context, config, simulator, agent, hooks.observer);
   for (const VisitGoal& goal : visit.goals) {
     auto found = run.Search(goal);
     if (!found) {

@@ -29,12 +29,13 @@ class StaleWatch {
   int last_ = -1;  // stale place of the previous step; -1 = none
 };
 
-/// Memory at the start and the end of a visit.
+/// Memory at the start and the end of a visit, and an observer of its steps and goals.
 struct VisitHooks {
   std::function<Result<void>(agent::Agent&)> begin = [](agent::Agent&) { return Result<void>(); };
   std::function<Result<void>(const agent::Agent&)> end = [](const agent::Agent&) {
     return Result<void>();
   };
+  RunObserver* observer = nullptr;  ///< OnStep and OnStageEnd
 };
 
 /// Errors: a start off the navmesh, an unreachable goal, a malformed observation, a failing hook.
