@@ -25,6 +25,8 @@ constexpr double kFloorShare = 0.25;  // chosen: of the most places at one heigh
 constexpr double kStandBeside_m = 0.6;  // chosen: a robot and a step from the object
 constexpr double kOverGround_m = 0.35;  // chosen: a sill or a step, and a voxel
 constexpr double kStuck_m = 0.5;        // chosen: two steps from where an approach was stuck
+constexpr double kSideShares[] = {0.5,
+                                  1};  // chosen: about where it was seen, the nearer the better
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
@@ -127,11 +129,12 @@ std::optional<GroundTarget> NearestView(const Situation& now, const VoxelKey& st
   if (wish.is_through_seen_air) view.AskForSeenAir();
   std::optional<ObjectStorey> storey;
   if (wish.is_on_storey) storey.emplace(now, wish.object, wish.p_center_world);
+  policy::VerifyConfig sides = now.config.verify;
+  sides.view_angle_deg *= wish.side_share;
   const auto is_wanted = [&](const VoxelKey& key) {
     const Vector3d p_foot = FootOf(key, voxel_m);
     if (storey && !storey->Has(p_foot)) return false;
-    if (wish.same_side &&
-        IsOtherView(wish.p_center_world, p_foot, *wish.same_side, now.config.verify))
+    if (wish.same_side && IsOtherView(wish.p_center_world, p_foot, *wish.same_side, sides))
       return false;
     return IsNewView(wish.p_center_world, p_foot, wish.other_sides, now.config.verify) &&
            view.IsView(key) && !IsNearTried(wish.tried, p_foot);
@@ -163,8 +166,11 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
       if (auto target = NearestView(now, start, nearer)) return target;
     }
   wish.same_side = ViewToReturnTo(now, poi.id);
-  if (wish.same_side)
+  for (const double share : kSideShares) {
+    if (!wish.same_side) break;
+    wish.side_share = share;
     if (auto target = NearestView(now, start, wish)) return target;
+  }
   wish.same_side.reset();
   if (auto target = NearestView(now, start, wish)) return target;
   const policy::SettledObject* settled = now.goal.full.claims.SettledFor(poi.id);

@@ -55,7 +55,8 @@ struct ViewWish {
   Vector3d p_center_world = Vector3d::Zero();
   bool is_on_storey = false;            ///< only from the storey of `p_center_world`
   std::optional<Vector3d> same_side{};  ///< only about where this camera saw it from
-  bool is_through_seen_air = false;     ///< only where no unobserved space may hide it
+  double side_share = 1;             ///< of verify.view_angle_deg, within which a side is the same
+  bool is_through_seen_air = false;  ///< only where no unobserved space may hide it
 };
 
 /// The nearest place that fulfils `wish`.
