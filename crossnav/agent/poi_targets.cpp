@@ -25,8 +25,8 @@ constexpr double kFloorShare = 0.25;  // chosen: of the most places at one heigh
 constexpr double kStandBeside_m = 0.6;  // chosen: a robot and a step from the object
 constexpr double kOverGround_m = 0.35;  // chosen: a sill or a step, and a voxel
 constexpr double kStuck_m = 0.5;        // chosen: two steps from where an approach was stuck
-constexpr double kSideShares[] = {0.5,
-                                  1};  // chosen: about where it was seen, the nearer the better
+// chosen: of the angle of one side; first near the view itself
+constexpr double kSideShares[] = {0.5, 1};
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {

@@ -66,6 +66,7 @@ class CostToGo {
     return false;
   }
 
+  /// Whether the search reached each of the first `places` of the path.
   bool GoesAlong(const std::vector<VoxelKey>& path, std::size_t places) const {
     const auto end = path.begin() + static_cast<std::ptrdiff_t>(std::min(path.size(), places));
     return std::all_of(path.begin(), end,
