@@ -12,7 +12,6 @@
 #include "crossnav/agent/scan.h"
 #include "crossnav/agent/settle.h"
 #include "crossnav/agent/shared_parts.h"
-#include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/category_table.h"
 #include "crossnav/policy/ground_motion.h"
 #include "crossnav/policy/steering.h"
@@ -108,13 +107,11 @@ std::optional<Action> ActOn(StepState& now, Climb& climb, const policy::Verifica
   return ActOnExploration(now, climb);
 }
 
-/// A thin thing is missed from one side: a place whose record is still believed is looked at from
-/// others. False where it has been.
+/// A thing is missed from one side, because it is thin or because another thing hides it. False
+/// where the place was looked at from enough sides.
 bool AskForOtherSide(StepState& now, HistoryPoi& poi) {
   poi.p_looked_world.push_back(now.agent.p_world);
-  if (poi.p_looked_world.size() >= kSides || !IsBelieved(now.world, now.goal, poi) ||
-      !HasOtherSide(now, poi))
-    return false;
+  if (poi.p_looked_world.size() >= kSides || !HasOtherSide(now, poi)) return false;
   poi.looked = 0;
   now.goal.events.push_back("not seen here: another side is tried");
   return true;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "crossnav/agent/claims.h"
+#include "crossnav/agent/closed_way.h"
 #include "crossnav/agent/decision.h"
 #include "crossnav/agent/navigator.h"
 #include "crossnav/agent/object_notes.h"
@@ -139,6 +140,7 @@ Result<void> Agent::Impl::Begin(GoalState fresh) {
   auto text = perception.encoder->EncodeText(fresh.goal);
   if (!text) return tl::unexpected(text.error());
   LearnNames(*perception.encoder, config, &world);
+  LearnDoors(*perception.encoder, &world);
   fresh.index = goal.index + 1;
   fresh.begun_step = world.step;
   fresh.text = std::move(*text);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "crossnav/agent/closed_way.h"
 #include "crossnav/agent/exploration_candidates.h"
 #include "crossnav/agent/exploration_prices.h"
 #include "crossnav/agent/hooks.h"
@@ -149,6 +150,11 @@ bool IsOnLevel(const Situation& now, const Vector3d& p_world) {
 
 ExplorationChoice ChooseExploration(const Situation& now, const VoxelKey& start) {
   ExplorationChoice choice;
+  if (auto way = ChooseClosedWay(now, start)) {
+    choice.shown.push_back(way->candidate);
+    choice.target = std::move(way);
+    return choice;
+  }
   choice.relevancy = FreshRelevancy(now);
   ExplorationPrices prices(now, choice.relevancy ? *choice.relevancy : now.goal.full.relevancy);
   std::vector<PricedCandidate> all = PriceCandidatesOrSearch(now, start, &prices);
@@ -174,6 +180,8 @@ bool IsStillOpen(const Situation& now, const Candidate& candidate) {
       return !now.world.coverage.IsInspected(candidate.standing.front());
     case CandidateKind::kSearchView:
       return IsViewOpen(now, candidate);
+    case CandidateKind::kClosedWay:
+      return IsWayClosed(now);
     default:
       return true;
   }

@@ -7,6 +7,7 @@
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/shared_parts.h"
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/policy/approach.h"
 #include "crossnav/policy/frontiers.h"
 
@@ -28,6 +29,7 @@ constexpr double kStuck_m = 0.5;        // chosen: two steps from where an appro
 // chosen: of the angle of one side; first near the view itself
 constexpr double kSideShares[] = {0.5, 1};
 constexpr double kBestShare = 0.6;  // chosen: of the best score, remembered places that count alike
+constexpr double kStandsOut = 0.4;  // chosen: of poi.similarity_slack, above any other place
 
 bool IsNearTried(const std::vector<Vector3d>& tried, const Vector3d& p) {
   return std::any_of(tried.begin(), tried.end(),
@@ -207,6 +209,23 @@ std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const VoxelKey& 
 
 namespace {
 
+/// Whether no other place of the memory answers nearly as well, and no other thing is known there.
+/// A place that answers weakly, and no better than others, is a thing that is like the goal.
+bool StandsOut(const Situation& now, const HistoryPoi& poi) {
+  const auto& history = now.goal.history;
+  const double least = poi.similarity - kStandsOut * now.config.policy.poi.similarity_slack;
+  return std::all_of(history.begin(), history.end(),
+                     [&](const HistoryPoi& other) {
+                       return &other == &poi || other.similarity <= least;
+                     }) &&
+         !IsAnotherThing(now.world, now.goal, poi);
+}
+
+bool AnswersWeakly(const Situation& now, const HistoryPoi& poi) {
+  return poi.similarity <
+         now.world.full.confirmed_similarity - now.config.policy.poi.similarity_slack;
+}
+
 /// Not exhausted, like enough to the goal, not tried too often, and not searched in vain of late.
 bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi,
                     std::optional<int> unreachable_step, double least_score) {
@@ -215,8 +234,7 @@ bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi,
   // A search in vain visits the whole house, and a step does not open it.
   if (unreachable_step && now.world.step - *unreachable_step < policy.explore.reconsider_steps)
     return false;
-  if (poi.similarity < now.world.full.confirmed_similarity - policy.poi.similarity_slack &&
-      now.goal.full.last_resorts == 0)
+  if (AnswersWeakly(now, poi) && now.goal.full.last_resorts == 0 && !StandsOut(now, poi))
     return false;
   // A repeated query returns the same places: visited places are settled.
   return !IsSpent(now.goal.full.attempts, CandidateKind::kHistoryPoi, poi.p_center_world,
@@ -241,12 +259,18 @@ std::optional<GroundTarget> ViewOf(const Situation& now, const VoxelKey& start,
 }  // namespace
 
 bool HasOtherSide(const Situation& now, const HistoryPoi& poi) {
+  const bool is_on_record = IsBelieved(now.world, now.goal, poi);
+  if (!is_on_record && (AnswersWeakly(now, poi) || HasRecord(now.world, now.goal))) return false;
   const auto start = now.world.ground.StandingAt(now.agent.p_world);
   return start && ViewOf(now, *start, poi);
 }
 
+bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi) {
+  return IsWorthGoingTo(now, poi, std::nullopt, 0);
+}
+
 bool IsToBeVisited(const Situation& now, const HistoryPoi& poi) {
-  return !poi.unreachable_step && IsWorthGoingTo(now, poi, std::nullopt, 0);
+  return !poi.unreachable_step && IsWorthGoingTo(now, poi);
 }
 
 PlaceChoice ChooseHistoryPoi(const Situation& now, const VoxelKey& start) {

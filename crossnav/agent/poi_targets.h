@@ -74,11 +74,16 @@ FailedViews FailedViewsOf(const GoalState& goal, int poi_id);
 /// The best live POI that can be approached.
 std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const geometry::VoxelKey& start);
 
+/// Whether a remembered place is to be visited where a path leads there: it is not settled, was not
+/// tried too often, and answers as strongly as a thing that was found, or stands out.
+bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi);
+
 /// Whether a remembered place may be visited now or later: it is not settled, was not found to be
 /// out of reach, and answers as strongly as a thing that was found.
 bool IsToBeVisited(const Situation& now, const HistoryPoi& poi);
 
-/// Whether the place, looked at in vain from the views so far, can be seen from another side.
+/// Whether the place, looked at in vain from the views so far, is to be seen from another side and
+/// can be: its record is believed, or it answers well and the goal has no record.
 bool HasOtherSide(const Situation& now, const HistoryPoi& poi);
 
 struct PlaceChoice {

@@ -51,6 +51,7 @@ struct FullWorld {
   policy::SearchField field;
   double confirmed_similarity = -1;          ///< lowest of a confirmed object and its goal's text
   std::vector<policy::NamedText> names;      ///< rival names of claims, verify.memory = on
+  std::vector<float> door;                   ///< text of a door, with a loaded memory
   std::set<std::string> asked;               ///< goals so far, as the detector was asked
   std::set<std::string> unknown_names;       ///< that the detector does not know; spaced
   std::set<std::string> noticed_throughout;  ///< asked for since the first frame; spaced

@@ -111,7 +111,7 @@ void CutRooms(const World& world, Revision* revision) {
   revision->known_voxels = world.map.Stats().known;
 }
 
-bool HasRecord(const World& world, const std::string& category) {
+bool HasRecordOf(const World& world, const std::string& category) {
   const auto& records = world.objects.records();
   return std::any_of(records.begin(), records.end(), [&](const ObjectRecord& record) {
     return record.category == category && record.views >= kLeastViews;
@@ -228,7 +228,7 @@ void LocateObjects(World* world) {
 std::vector<HistoryPoi> Revised(std::vector<HistoryPoi> places, const World& world,
                                 const GoalState& goal, bool notices_things) {
   const std::string category = objects::KnownAs(world.objects.records(), goal.goal);
-  const bool is_complete = notices_things && HasRecord(world, category);
+  const bool is_complete = notices_things && HasRecordOf(world, category);
   const double score = kFirst * BestScore(places);
   std::erase_if(places, [&](const HistoryPoi& place) {
     const int opinion = OpinionOf(world, place.voxels, category);
@@ -258,6 +258,19 @@ std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World&
 
 bool IsBelieved(const World& world, const GoalState& goal, const HistoryPoi& place) {
   return OpinionOf(world, place.voxels, objects::KnownAs(world.objects.records(), goal.goal)) > 0;
+}
+
+bool HasRecord(const World& world, const GoalState& goal) {
+  return HasRecordOf(world, objects::KnownAs(world.objects.records(), goal.goal));
+}
+
+bool IsAnotherThing(const World& world, const GoalState& goal, const HistoryPoi& place) {
+  const auto& records = world.objects.records();
+  const std::string category = objects::KnownAs(records, goal.goal);
+  return std::any_of(records.begin(), records.end(), [&](const ObjectRecord& record) {
+    return record.category != category && record.views >= kLeastViews &&
+           !world.objects.IsGone(record) && ShareCovered(place.voxels, record) >= kStillThere;
+  });
 }
 
 void SettlePlaceOf(const ObjectRecord& record, GoalState* goal) {

@@ -66,6 +66,12 @@ std::vector<HistoryPoi> WithRecords(std::vector<HistoryPoi> places, const World&
 /// Whether a record of the goal that is still believed is at the place.
 bool IsBelieved(const World& world, const GoalState& goal, const HistoryPoi& place);
 
+/// Whether an object of the goal's category is or was on record.
+bool HasRecord(const World& world, const GoalState& goal);
+
+/// Whether the place is the surface of a thing that is on record under another name.
+bool IsAnotherThing(const World& world, const GoalState& goal, const HistoryPoi& place);
+
 /// The goal's remembered places that are the record's need no visit: the record is gone.
 void SettlePlaceOf(const objects::ObjectRecord& record, GoalState* goal);
 

@@ -26,6 +26,8 @@ std::string_view NameOf(CandidateKind kind) {
       return "uninspected";
     case CandidateKind::kSearchView:
       return "search_view";
+    case CandidateKind::kClosedWay:
+      return "closed_way";
   }
   return "unknown";
 }

@@ -27,6 +27,7 @@ enum class CandidateKind {
   kSighting,     ///< the goal was seen, too weakly or where it cannot be approached yet
   kUninspected,  ///< ground seen only from where the detector does not answer
   kSearchView,   ///< a view of places where the goal may stand unnoticed
+  kClosedWay,    ///< a door on the way to a remembered place that was shut on an earlier day
 };
 
 std::string_view NameOf(CandidateKind kind);

@@ -32,6 +32,15 @@ inline Night NightAfter(const Agent& agent) {
   return night;
 }
 
+/// The first day, at the end of which the couch was found.
+inline Night FirstDay() {
+  test::BoxWalker walker = TwoRooms();
+  Agent agent(SmallConfig(), test::FakeSuite(CouchSight(kCouch)));
+  EXPECT_TRUE(agent.SetGoal("couch").has_value());
+  EXPECT_EQ(RunAgent(agent, walker, 300).last_action, Action::kStop);
+  return NightAfter(agent);
+}
+
 inline void Wake(const Night& night, int day, Agent* agent) {
   geometry::MapConfig config = agent->config().map;
   const bool is_counted = std::any_of(night.blocks.begin(), night.blocks.end(),

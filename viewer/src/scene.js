@@ -20,6 +20,7 @@ export const KINDS = {
   sighting: { label: "weak sighting", mark: "W", colour: "#e8590c" },
   uninspected: { label: "not inspected", mark: "U", colour: "#5f3dc4" },
   search_view: { label: "search view", mark: "V", colour: "#2b8a3e" },
+  closed_way: { label: "closed way", mark: "C", colour: "#862e9c" },
 };
 const OTHER_KIND = { mark: "?", colour: "#868e96" };
 export const PATH_COLOUR = "#0ca678";
