@@ -25,7 +25,7 @@ constexpr double kLookAt_m = 1.0;  // chosen: above the ground, the middle of a 
 constexpr double kAside_m = 0.8;   // chosen: the width of a door
 constexpr int kMostTries = 4;      // chosen: looks in vain
 constexpr int kDoor_vox = 3;       // chosen: of the height of a leaf, in one column or more
-constexpr int kCell_vox = 4;       // chosen: 0.4 m
+constexpr int kCellBits = 2;       // chosen: cells of 0.4 m
 
 /// Columns with voxels that look like doors, by the memory.
 class Doors {
@@ -64,7 +64,7 @@ class Doors {
 /// Ground behind doors, by its cost to the place: the best of each cell.
 class GroundBehind {
  public:
-  GroundBehind(const Situation& now, const HistoryPoi& poi) : now_(now), doors_(now) {
+  GroundBehind(const Situation& now, const HistoryPoi& poi) : now_(now) {
     const auto& approach = now.config.policy.approach;
     const policy::ViewTest view(now.world.map, poi.voxels, 2 * approach.range_m, approach,
                                 now.config.sensor.camera_height_m);
@@ -88,9 +88,9 @@ class GroundBehind {
   bool Has(const VoxelKey& key) const { return costs_.contains(key); }
 
   /// The ground behind a door beside `key` with the least price [voxels].
-  std::optional<std::pair<VoxelKey, double>> Best(const VoxelKey& key) const {
+  std::optional<std::pair<VoxelKey, double>> Best(const Doors& doors, const VoxelKey& key) const {
     const double reach_vox = kBar_m / now_.config.map.voxel_m;
-    const int cells = static_cast<int>(std::ceil(reach_vox / kCell_vox));
+    const int cells = static_cast<int>(std::ceil(reach_vox / (1 << kCellBits)));
     const VoxelKey at = CellOf(key);
     std::optional<std::pair<VoxelKey, double>> best;
     for (int dx = -cells; dx <= cells; ++dx)
@@ -104,17 +104,14 @@ class GroundBehind {
             continue;
           const double price = cost + kThrough * gap_vox;
           if (best && std::pair(best->second, best->first) <= std::pair(price, behind)) continue;
-          if (doors_.IsBetween(key, behind)) best = {behind, price};
+          if (doors.IsBetween(key, behind)) best = {behind, price};
         }
     return best;
   }
 
  private:
   static VoxelKey CellOf(const VoxelKey& key) {
-    const auto cell = [](int v) {
-      return v >= 0 ? v / kCell_vox : -((kCell_vox - 1 - v) / kCell_vox);
-    };
-    return {cell(key.x), cell(key.y), cell(key.z)};
+    return {key.x >> kCellBits, key.y >> kCellBits, key.z >> kCellBits};
   }
 
   void AddAround(const VoxelKey& view) {
@@ -123,7 +120,6 @@ class GroundBehind {
   }
 
   const Situation& now_;
-  Doors doors_;
   std::unordered_map<VoxelKey, double, geometry::VoxelKeyHash> costs_;
   std::unordered_map<VoxelKey, std::pair<VoxelKey, double>, geometry::VoxelKeyHash> cells_;
 };
@@ -132,6 +128,7 @@ std::optional<GroundTarget> WayTo(const Situation& now, const VoxelKey& start,
                                   const HistoryPoi& poi) {
   const GroundBehind ground(now, poi);
   if (ground.IsEmpty() || ground.Has(start)) return std::nullopt;
+  const Doors doors(now);
   const double voxel_m = now.config.map.voxel_m;
   GroundSearch search(now.world.ground, now.config.planner, start, RulesOf(now));
   std::optional<VoxelKey> end;
@@ -139,7 +136,7 @@ std::optional<GroundTarget> WayTo(const Situation& now, const VoxelKey& start,
   double best = 0;
   while (const auto place = search.Next()) {
     if (end && search.cost() >= best) break;
-    const auto across = ground.Best(*place);
+    const auto across = ground.Best(doors, *place);
     if (!across || (end && search.cost() + across->second >= best)) continue;
     const Vector3d p_focus = CenterOf(across->first, voxel_m) + Vector3d(0, 0, kLookAt_m);
     if (IsSpent(now.goal.full.attempts, CandidateKind::kClosedWay, p_focus, kAside_m,
