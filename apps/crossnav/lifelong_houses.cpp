@@ -18,28 +18,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Origin of the houses. Drawn homes (evaluation::DrawnHomes) and imported buildings come in turn,
+/// each several times.
+enum class Origin { kGenerated, kDrawn, kImported };
+
 struct LifelongSuite {
   const char* name;
   std::uint64_t first_seed;
-  int houses, days;            ///< days after the first
-  bool is_drawn = false;       ///< the homes of evaluation::DrawnHomes in turn, each several times
+  int houses, days;  ///< days after the first
+  Origin origin = Origin::kGenerated;
   bool is_of_classes = false;  ///< goals are categories, of which the house has one instance each
 };
+constexpr int kTimesABuilding = 3;  // chosen: as often as a drawn home; other nights each time
 // Seeds 7001 to 7040 are run to report only.
-constexpr LifelongSuite kSuites[] = {{"crossnav-lifelong-1", 7001, 40, 3},
-                                     {"crossnav-lifelong-1-drawn", 1, 27, 3, true},
-                                     {"crossnav-lifelong-1-classes", 7001, 40, 3, false, true},
-                                     {"crossnav-lifelong-1-val", 8101, 10, 3},
-                                     {"crossnav-lifelong-1-dev", 8111, 30, 3},
-                                     {"crossnav-lifelong-1-mini", 8001, 1, 2}};
+constexpr LifelongSuite kSuites[] = {
+    {"crossnav-lifelong-1", 7001, 40, 3},
+    {"crossnav-lifelong-1-drawn", 1, 27, 3, Origin::kDrawn},
+    {"crossnav-lifelong-1-bim", 1, 0, 3, Origin::kImported},
+    {"crossnav-lifelong-1-classes", 7001, 40, 3, Origin::kGenerated, true},
+    {"crossnav-lifelong-1-val", 8101, 10, 3},
+    {"crossnav-lifelong-1-dev", 8111, 30, 3},
+    {"crossnav-lifelong-1-mini", 8001, 1, 2}};
 constexpr std::uint64_t kSeedsAHouse = 5;  // chosen: that may be tried for each house
 Result<LifelongSuite> SuiteOf(const std::string& name) {
   for (const LifelongSuite& suite : kSuites) {
     if (name == suite.name) return suite;
   }
   return Fail(ErrorCode::kNotFound,
-              "no suite of this name; there are crossnav-lifelong-1, -drawn, -classes, -val, -dev "
-              "and -mini",
+              "no suite of this name; there are crossnav-lifelong-1, -drawn, -bim, -classes, -val, "
+              "-dev and -mini",
               name);
 }
 
@@ -60,16 +67,21 @@ evaluation::RunConfig MakerConfig() {
 
 struct HouseSource {
   const LifelongSuite& suite;
-  fs::path jar;  ///< of Sweet Home 3D, for drawn homes
+  fs::path jar;                     ///< of Sweet Home 3D, for drawn homes
+  std::vector<fs::path> buildings;  ///< scene folders, for imported buildings
   LifelongPlace place;
 };
 
 /// Scene folder of the first day; empty if the seed gives no house.
 Result<fs::path> FirstDay(std::uint64_t seed, const HouseSource& source) {
-  if (source.suite.is_drawn) {
-    const std::uint64_t index = seed - source.suite.first_seed;
+  const std::uint64_t index = seed - source.suite.first_seed;
+  if (source.suite.origin == Origin::kDrawn) {
     return ImportDrawnHome(source.jar, index % evaluation::DrawnHomes().size(),
                            static_cast<int>(seed), source.place.scenes());
+  }
+  if (source.suite.origin == Origin::kImported) {
+    return CopyBuilding(source.buildings[index % source.buildings.size()], static_cast<int>(seed),
+                        source.place.scenes());
   }
   world::HouseParams params;
   params.seed = seed;
@@ -96,7 +108,7 @@ Result<std::string> MakeHouse(std::uint64_t seed, const HouseSource& source) {
   options.days = suite.days;
   options.kinds = NightOf(suite);
   options.only_by_category = suite.is_of_classes;
-  options.may_be_fewer = suite.is_drawn;  // another seed is no other home
+  options.may_be_fewer = suite.origin != Origin::kGenerated;  // another seed is no other home
   const auto days = world::WriteDays(*first, scenes, options);
   if (!days && days.error().code == ErrorCode::kInvalid) return std::string();
   if (!days) return tl::unexpected(days.error());
@@ -157,7 +169,7 @@ LifelongPlace LifelongPlaceOf(const SuiteOptions& options) {
 }
 
 Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console& console) {
-  const auto suite = SuiteOf(options.name);
+  auto suite = SuiteOf(options.name);
   if (!suite) return tl::unexpected(suite.error());
   const LifelongPlace place = LifelongPlaceOf(options);
   std::error_code ignored;
@@ -165,9 +177,15 @@ Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console&
   if (auto ok = evaluation::CheckOutputFile(place.visits(), "--out"); !ok) {
     return tl::unexpected(ok.error());
   }
-  const HouseSource source{*suite, options.homes, place};
-  if (suite->is_drawn) {
+  HouseSource source{*suite, options.homes, {}, place};
+  if (suite->origin == Origin::kDrawn) {
     if (auto ok = CheckHomesArchive(source.jar); !ok) return tl::unexpected(ok.error());
+  }
+  if (suite->origin == Origin::kImported) {
+    auto buildings = ListBuildings(options.buildings, options.name);
+    if (!buildings) return tl::unexpected(buildings.error());
+    source.buildings = std::move(*buildings);
+    suite->houses = kTimesABuilding * static_cast<int>(source.buildings.size());
   }
   fs::remove_all(place.scenes(), ignored);  // of a make that was interrupted
   std::vector<evaluation::HouseVisit> visits;

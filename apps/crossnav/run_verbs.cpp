@@ -135,20 +135,20 @@ void AddSuites(CLI::App& app, Options& o) {
       ->type_name("FORM DIR")
       ->expected(2);
   for (CLI::App* verb : {make, run, report, exported}) {
-    verb->add_option(
-            "NAME", o.suite.name,
-            "crossnav-mfmon-1, -mini or -val, crossnav-goat-1 (goals of three kinds), "
-            "-mini or -val, with -pack behind it for furniture of a pack; "
-            "crossnav-lifelong-1, -drawn, -classes, -val, -dev or -mini; crossnav-mfmon-2, or "
-            "one of its tracks: "
-            "crossnav-mfmon-2/generated, /drawn or /bim")
+    verb->add_option("NAME", o.suite.name,
+                     "crossnav-mfmon-1, -mini or -val, crossnav-goat-1 (goals of three kinds), "
+                     "-mini or -val, with -pack behind it for furniture of a pack; "
+                     "crossnav-lifelong-1, -drawn, -bim, -classes, -val, -dev or -mini; "
+                     "crossnav-mfmon-2, or "
+                     "one of its tracks: "
+                     "crossnav-mfmon-2/generated, /drawn or /bim")
         ->required();
     verb->add_option("--out", o.suite.out, "Folder of suites; default: out/suites");
     verb->add_option("--homes", o.suite.homes,
                      "Archive of Sweet Home 3D, for drawn homes; default: the installed one")
         ->type_name("JAR");
     verb->add_option("--buildings", o.suite.buildings,
-                     "Folder of imported scenes, for the track bim")
+                     "Folder of imported scenes, for the track bim and crossnav-lifelong-1-bim")
         ->type_name("DIR");
     verb->add_option("--furniture", o.suite.furniture, "Furniture pack of a -pack suite")
         ->type_name("DIR");

@@ -24,6 +24,14 @@ Result<std::string> MeshHashOf(const fs::path& folder) {
   return evaluation::HexHash(scene->mesh_hash);
 }
 
+Result<void> CopyScene(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  fs::copy(from, to, fs::copy_options::recursive, error);
+  if (error) return Fail(ErrorCode::kIo, error.message(), to.string());
+  return {};
+}
+
 /// Generates the houses of `seeds` in worker processes; `passed` receives the mesh hash of each
 /// accepted house.
 Result<void> MakeHouses(const evaluation::SuiteDefinition& suite, const fs::path& scenes,
@@ -133,23 +141,44 @@ Result<MeshHashes> ImportDrawnHomes(const fs::path& jar, const fs::path& scenes,
   return meshes;
 }
 
-Result<MeshHashes> CopyBuildings(const fs::path& from, const fs::path& scenes, Console& console) {
+Result<std::vector<fs::path>> ListBuildings(const std::string& from, const std::string& suite) {
+  if (from.empty()) {
+    return Fail(ErrorCode::kNotFound,
+                "is made of buildings that you import (crossnav scene import); name the folder of "
+                "their scenes with --buildings",
+                suite);
+  }
   const auto ids = evaluation::ListScenes(from);
   if (!ids) return tl::unexpected(ids.error());
+  std::vector<fs::path> buildings;
+  for (const std::string& id : *ids) buildings.push_back((fs::path(from) / id).parent_path());
+  if (buildings.empty()) return Fail(ErrorCode::kNotFound, "no scene in it", from);
+  return buildings;
+}
+
+Result<fs::path> CopyBuilding(const fs::path& building, int number, const fs::path& scenes) {
+  const std::string id = building.filename().string();
+  const auto dash = id.find('-');
+  const std::string name = dash == std::string::npos ? id : id.substr(dash + 1);
+  fs::path copy = scenes / fmt::format("{:05}-{}", number, name);
+  if (auto ok = CopyScene(building, copy); !ok) return tl::unexpected(ok.error());
+  return copy;
+}
+
+Result<MeshHashes> CopyBuildings(const std::string& from, const std::string& suite,
+                                 const fs::path& scenes, Console& console) {
+  const auto buildings = ListBuildings(from, suite);
+  if (!buildings) return tl::unexpected(buildings.error());
   MeshHashes meshes;
-  for (const std::string& id : *ids) {
-    const fs::path source = (from / id).parent_path();
-    const std::string name = source.filename().string();
+  for (const fs::path& building : *buildings) {
+    const std::string name = building.filename().string();
     if (meshes.contains(name))
-      return Fail(ErrorCode::kInvalid, "two scenes are called " + name, from.string());
-    const auto hash = MeshHashOf(source);
+      return Fail(ErrorCode::kInvalid, "two scenes are called " + name, from);
+    const auto hash = MeshHashOf(building);
     if (!hash) return tl::unexpected(hash.error());
-    std::error_code error;
-    fs::create_directories(scenes, error);
-    fs::copy(source, scenes / name, fs::copy_options::recursive, error);
-    if (error) return Fail(ErrorCode::kIo, error.message(), (scenes / name).string());
+    if (auto ok = CopyScene(building, scenes / name); !ok) return tl::unexpected(ok.error());
     meshes[name] = *hash;
-    console.Progress(fmt::format("building {} of {}", meshes.size(), ids->size()));
+    console.Progress(fmt::format("building {} of {}", meshes.size(), buildings->size()));
   }
   if (auto ok = world::WriteDatasetConfig(scenes); !ok) return tl::unexpected(ok.error());
   return meshes;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "crossnav/evaluation/episodes/suite.h"
@@ -31,8 +32,17 @@ Result<MeshHashes> ImportDrawnHomes(const std::filesystem::path& jar,
                                     const std::filesystem::path& scenes, int jobs,
                                     Console& console);
 
-/// Copies every scene below `from`, the output of `crossnav scene import`.
-Result<MeshHashes> CopyBuildings(const std::filesystem::path& from,
+/// Folders of the scenes below `from`, the output of `crossnav scene import`, by name. Error: the
+/// suite needs such a folder and none was named, with the remedy.
+Result<std::vector<std::filesystem::path>> ListBuildings(const std::string& from,
+                                                         const std::string& suite);
+
+/// Copies the scene in the folder `building` as `<number>-<its name>`; the folder of the copy.
+Result<std::filesystem::path> CopyBuilding(const std::filesystem::path& building, int number,
+                                           const std::filesystem::path& scenes);
+
+/// Copies every scene of ListBuildings under its own name. Error: as ListBuildings.
+Result<MeshHashes> CopyBuildings(const std::string& from, const std::string& suite,
                                  const std::filesystem::path& scenes, Console& console);
 
 }  // namespace crossnav::app

@@ -119,13 +119,7 @@ Result<MeshHashes> MakeBuildings(const evaluation::SuiteDefinition& suite,
   const fs::path scenes = PlaceOf(suite, options).scenes();
   if (suite.track == "drawn") return ImportDrawnHomes(options.homes, scenes, options.jobs, console);
   if (suite.track != "bim") return GenerateBuildings(suite, scenes, pack, options.jobs, console);
-  if (options.buildings.empty()) {
-    return Fail(ErrorCode::kNotFound,
-                "is made of buildings that you import (crossnav scene import); name the folder of "
-                "their scenes with --buildings",
-                suite.name);
-  }
-  return CopyBuildings(options.buildings, scenes, console);
+  return CopyBuildings(options.buildings, suite.name, scenes, console);
 }
 
 std::string FurnitureOf(const evaluation::SuiteDefinition& suite,

@@ -2,6 +2,8 @@
 // A memory that comes back on later days: the demo, and days of change.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "apps/cli_fixture.h"
 #include "crossnav/trace/replay_reader.h"
 
@@ -142,6 +144,36 @@ TEST_F(LifelongCli, DrawnHomesNeedTheirArchive) {
             std::string::npos)
       << outcome.err;
   EXPECT_FALSE(test::fs::exists(At("suites/crossnav-lifelong-1-drawn/visits.json")));
+}
+
+TEST_F(LifelongCli, ImportedBuildingsNeedTheirFolder) {
+  const Outcome unnamed = Run("suite make crossnav-lifelong-1-bim --out suites --quiet");
+  EXPECT_EQ(unnamed.exit_code, 1);
+  EXPECT_NE(unnamed.err.find("name the folder of their scenes with --buildings"), std::string::npos)
+      << unnamed.err;
+  test::fs::create_directories(At("empty"));
+  for (const char* folder : {"nowhere", "empty"}) {
+    const Outcome outcome = Run("suite make crossnav-lifelong-1-bim --out suites --quiet " +
+                                std::string("--buildings ") + folder);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find(folder), std::string::npos) << outcome.err;
+  }
+  EXPECT_FALSE(test::fs::exists(At("suites/crossnav-lifelong-1-bim/visits.json")));
+}
+
+// Each building three times, with other nights each time.
+TEST_F(LifelongCli, ImportedBuildingsHaveDays) {
+  if (std::getenv("CROSSNAV_LONG_TESTS") == nullptr) GTEST_SKIP() << "make test-long";
+  const Outcome made =
+      Run("suite make crossnav-lifelong-1-bim --out suites --quiet --jobs 2 "
+          "--buildings scenes");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto visits =
+      Json::parse(std::ifstream(At("suites/crossnav-lifelong-1-bim/visits.json")))["visits"];
+  ASSERT_EQ(visits.size(), 12U);
+  EXPECT_EQ(visits[4]["house"], "00002-CrossnavHouse");
+  EXPECT_EQ(visits[5]["scene"], "00002-CrossnavHouse-day1");
+  EXPECT_NE(visits[5]["goals"], visits[1]["goals"]);
 }
 
 }  // namespace
