@@ -25,7 +25,8 @@ enum class Origin { kGenerated, kDrawn, kImported };
 struct LifelongSuite {
   const char* name;
   std::uint64_t first_seed;
-  int houses, days;  ///< days after the first
+  int houses;  ///< 0: kTimesABuilding for each imported building
+  int days;    ///< after the first
   Origin origin = Origin::kGenerated;
   bool is_of_classes = false;  ///< goals are categories, of which the house has one instance each
 };
@@ -66,7 +67,7 @@ evaluation::RunConfig MakerConfig() {
 }
 
 struct HouseSource {
-  const LifelongSuite& suite;
+  LifelongSuite suite;
   fs::path jar;                     ///< of Sweet Home 3D, for drawn homes
   std::vector<fs::path> buildings;  ///< scene folders, for imported buildings
   LifelongPlace place;
@@ -162,6 +163,21 @@ Result<void> MakeHouses(const HouseSource& source, int jobs, int wanted, std::ui
   return {};
 }
 
+/// Error: the archive of drawn homes, or the folder of imported buildings, is not there.
+Result<HouseSource> SourceOf(const LifelongSuite& suite, const SuiteOptions& options) {
+  HouseSource source{suite, options.homes, {}, LifelongPlaceOf(options)};
+  if (suite.origin == Origin::kDrawn) {
+    if (auto ok = CheckHomesArchive(source.jar); !ok) return tl::unexpected(ok.error());
+  }
+  if (suite.origin == Origin::kImported) {
+    auto buildings = ListBuildings(options.buildings, options.name);
+    if (!buildings) return tl::unexpected(buildings.error());
+    source.buildings = std::move(*buildings);
+    source.suite.houses = kTimesABuilding * static_cast<int>(source.buildings.size());
+  }
+  return source;
+}
+
 }  // namespace
 
 LifelongPlace LifelongPlaceOf(const SuiteOptions& options) {
@@ -169,7 +185,7 @@ LifelongPlace LifelongPlaceOf(const SuiteOptions& options) {
 }
 
 Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console& console) {
-  auto suite = SuiteOf(options.name);
+  const auto suite = SuiteOf(options.name);
   if (!suite) return tl::unexpected(suite.error());
   const LifelongPlace place = LifelongPlaceOf(options);
   std::error_code ignored;
@@ -177,25 +193,18 @@ Result<evaluation::VisitFile> EnsureVisits(const SuiteOptions& options, Console&
   if (auto ok = evaluation::CheckOutputFile(place.visits(), "--out"); !ok) {
     return tl::unexpected(ok.error());
   }
-  HouseSource source{*suite, options.homes, {}, place};
-  if (suite->origin == Origin::kDrawn) {
-    if (auto ok = CheckHomesArchive(source.jar); !ok) return tl::unexpected(ok.error());
-  }
-  if (suite->origin == Origin::kImported) {
-    auto buildings = ListBuildings(options.buildings, options.name);
-    if (!buildings) return tl::unexpected(buildings.error());
-    source.buildings = std::move(*buildings);
-    suite->houses = kTimesABuilding * static_cast<int>(source.buildings.size());
-  }
+  const auto source = SourceOf(*suite, options);
+  if (!source) return tl::unexpected(source.error());
   fs::remove_all(place.scenes(), ignored);  // of a make that was interrupted
   std::vector<evaluation::HouseVisit> visits;
   int houses = 0;
+  const int in_all = source->suite.houses;
   std::uint64_t seed = suite->first_seed;
-  const std::uint64_t last = seed + kSeedsAHouse * static_cast<std::uint64_t>(suite->houses);
-  while (houses < suite->houses) {
+  const std::uint64_t last = seed + kSeedsAHouse * static_cast<std::uint64_t>(in_all);
+  while (houses < in_all) {
     if (seed >= last) return Fail(ErrorCode::kInvalid, "too few seeds give a house", suite->name);
-    const int wanted = suite->houses - houses;
-    if (auto ok = MakeHouses(source, options.jobs, wanted, seed, visits, houses, console); !ok) {
+    const int wanted = in_all - houses;
+    if (auto ok = MakeHouses(*source, options.jobs, wanted, seed, visits, houses, console); !ok) {
       return tl::unexpected(ok.error());
     }
   }

@@ -139,8 +139,7 @@ void AddSuites(CLI::App& app, Options& o) {
                      "crossnav-mfmon-1, -mini or -val, crossnav-goat-1 (goals of three kinds), "
                      "-mini or -val, with -pack behind it for furniture of a pack; "
                      "crossnav-lifelong-1, -drawn, -bim, -classes, -val, -dev or -mini; "
-                     "crossnav-mfmon-2, or "
-                     "one of its tracks: "
+                     "crossnav-mfmon-2, or one of its tracks: "
                      "crossnav-mfmon-2/generated, /drawn or /bim")
         ->required();
     verb->add_option("--out", o.suite.out, "Folder of suites; default: out/suites");

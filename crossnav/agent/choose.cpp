@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "crossnav/agent/closed_way.h"
 #include "crossnav/agent/explore.h"
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/scan.h"
@@ -37,8 +38,16 @@ void TakePlace(PlaceChoice place, Choice* choice) {
   choice->next = Take{std::move(visit)};
 }
 
+void TakeExploration(const Situation& now, GroundTarget target, Choice* choice) {
+  const Vector3d p_end = CenterOf(target.path.back(), now.config.map.voxel_m);
+  if (IsOverStairs(now, p_end))
+    choice->next = Take{PursuitTo<Climb>(std::move(target))};
+  else
+    choice->next = Take{PursuitTo<GoTo>(std::move(target))};
+}
+
 /// Exploration continues while the target is open and its path holds, and is reconsidered after
-/// the grace period.
+/// the grace period. A door on the way to a remembered place is looked at before anything else.
 void Explore(const Situation& now, const VoxelKey& start, Choice* choice) {
   const Pursuit& pursuit = PursuitOf(now.goal.full.activity);
   const bool is_exploring = IsExploring(pursuit);
@@ -52,6 +61,11 @@ void Explore(const Situation& now, const VoxelKey& start, Choice* choice) {
     const bool is_due = pursued.route.steps % now.config.policy.explore.reconsider_steps == 0;
     if (choice->findings.path->IsOpen() && !is_due) return;
   }
+  if (auto way = ChooseClosedWay(now, start, choice->findings.unreachable_steps)) {
+    choice->shown.push_back(way->candidate);
+    TakeExploration(now, std::move(*way), choice);
+    return;
+  }
   ExplorationChoice exploration = ChooseExploration(now, start);
   choice->shown = std::move(exploration.shown);
   choice->findings.has_found_descent = exploration.has_found_descent;
@@ -60,11 +74,7 @@ void Explore(const Situation& now, const VoxelKey& start, Choice* choice) {
     if (is_exploring) choice->next = Drop{Ending::kUnreachable};
     return;
   }
-  const Vector3d p_end = CenterOf(exploration.target->path.back(), now.config.map.voxel_m);
-  if (IsOverStairs(now, p_end))
-    choice->next = Take{PursuitTo<Climb>(std::move(*exploration.target))};
-  else
-    choice->next = Take{PursuitTo<GoTo>(std::move(*exploration.target))};
+  TakeExploration(now, std::move(*exploration.target), choice);
 }
 
 void Remember(StepState& now, const Findings& findings) {
@@ -124,7 +134,8 @@ void CarryOut(StepState& now, Glance glance) {
 
 }  // namespace
 
-// Precedence: live POI, scan in progress, visit in progress, remembered place, glance, exploration.
+// Precedence: live POI, scan in progress, visit in progress, remembered place, glance, door that
+// was shut on the way to a remembered place, exploration.
 Choice Choose(const Situation& now) {
   Choice choice;
   const Activity& activity = now.goal.full.activity;

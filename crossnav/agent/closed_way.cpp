@@ -24,22 +24,24 @@ constexpr double kThrough = 3;     // chosen: price of a metre through the door
 constexpr double kLookAt_m = 1.0;  // chosen: above the ground, the middle of a door
 constexpr double kAside_m = 0.8;   // chosen: the width of a door
 constexpr int kMostTries = 4;      // chosen: looks in vain
+constexpr int kMostDoors = 100;    // chosen: more than a house has
 constexpr int kDoor_vox = 3;       // chosen: of the height of a leaf, in one column or more
 constexpr int kCellBits = 2;       // chosen: cells of 0.4 m
 
-/// Columns with voxels that look like doors, by the memory.
+/// Columns of the places that answer to "door" about as well as the best one.
 class Doors {
  public:
   explicit Doors(const Situation& now)
       : height_vox_(static_cast<int>(std::lround(2 * kLookAt_m / now.config.map.voxel_m))) {
-    const memory::SemanticMemory& memory = now.world.memory;
-    if (memory.Size() == 0 || now.world.full.door.empty()) return;
-    const auto field = memory::RelevancyField(memory, now.world.full.door, {});
-    const double least =
-        *std::max_element(field.begin(), field.end()) - now.config.policy.poi.similarity_slack;
-    for (std::size_t row = 0; row < field.size(); ++row)
-      if (const VoxelKey& key = memory.Keys()[row]; field[row] >= least)
-        heights_[{key.x, key.y, 0}].push_back(key.z);
+    if (now.world.full.door.empty()) return;
+    memory::QueryConfig query = now.config.query;
+    query.top_k = kMostDoors;
+    const auto places = memory::Query(now.world.memory, now.world.full.door, query);
+    double best = -1;
+    for (const memory::MemoryCluster& place : places) best = std::max(best, place.similarity);
+    for (const memory::MemoryCluster& place : places)
+      if (place.similarity >= best - now.config.policy.poi.similarity_slack)
+        for (const VoxelKey& key : place.voxels) heights_[{key.x, key.y, 0}].push_back(key.z);
   }
 
   /// Whether a door is on the straight line between two places.
@@ -157,10 +159,6 @@ std::optional<GroundTarget> WayTo(const Situation& now, const VoxelKey& start,
   return target;
 }
 
-bool IsBeyondReach(const Situation& now, const HistoryPoi& poi) {
-  return poi.unreachable_step && IsWorthGoingTo(now, poi);
-}
-
 }  // namespace
 
 void LearnDoors(perception::DenseEncoder& encoder, World* world) {
@@ -168,7 +166,9 @@ void LearnDoors(perception::DenseEncoder& encoder, World* world) {
   if (auto vector = encoder.EncodeText("door")) world->full.door = std::move(*vector);
 }
 
-std::optional<GroundTarget> ChooseClosedWay(const Situation& now, const VoxelKey& start) {
+std::optional<GroundTarget> ChooseClosedWay(
+    const Situation& now, const VoxelKey& start,
+    const std::vector<std::optional<int>>& unreachable_steps) {
   if (!now.world.has_loaded_objects) return std::nullopt;
   const auto tries = std::count_if(
       now.goal.full.attempts.begin(), now.goal.full.attempts.end(), [](const Attempt& attempt) {
@@ -176,8 +176,9 @@ std::optional<GroundTarget> ChooseClosedWay(const Situation& now, const VoxelKey
       });
   if (tries >= kMostTries) return std::nullopt;
   std::optional<GroundTarget> best;
-  for (const HistoryPoi& poi : now.goal.history) {
-    if (!IsBeyondReach(now, poi)) continue;
+  for (std::size_t i = 0; i < unreachable_steps.size(); ++i) {
+    const HistoryPoi& poi = now.goal.history[i];
+    if (!unreachable_steps[i] || !IsWorthGoingTo(now, poi)) continue;
     auto target = WayTo(now, start, poi);
     if (target && (!best || target->score_m < best->score_m)) best = std::move(target);
   }
@@ -185,8 +186,9 @@ std::optional<GroundTarget> ChooseClosedWay(const Situation& now, const VoxelKey
 }
 
 bool IsWayClosed(const Situation& now) {
-  return std::any_of(now.goal.history.begin(), now.goal.history.end(),
-                     [&](const HistoryPoi& poi) { return IsBeyondReach(now, poi); });
+  return std::any_of(now.goal.history.begin(), now.goal.history.end(), [&](const HistoryPoi& poi) {
+    return poi.unreachable_step && IsWorthGoingTo(now, poi);
+  });
 }
 
 }  // namespace crossnav::agent

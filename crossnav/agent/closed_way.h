@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "crossnav/agent/poi_targets.h"
 
@@ -15,7 +16,10 @@ void LearnDoors(perception::DenseEncoder& encoder, World* world);
 /// Where to look whether the way to a remembered place is open today: the end of the least path,
 /// over the ground in reach, through one door, and over the ground from which the place is in view.
 /// Only with a loaded memory, for places that no path leads to.
-std::optional<GroundTarget> ChooseClosedWay(const Situation& now, const geometry::VoxelKey& start);
+/// `unreachable_steps`: HistoryPoi::unreachable_step of each place after the searches of this step.
+std::optional<GroundTarget> ChooseClosedWay(
+    const Situation& now, const geometry::VoxelKey& start,
+    const std::vector<std::optional<int>>& unreachable_steps);
 
 /// Whether a place that is worth a visit still lies beyond reach.
 bool IsWayClosed(const Situation& now);

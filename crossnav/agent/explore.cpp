@@ -150,11 +150,6 @@ bool IsOnLevel(const Situation& now, const Vector3d& p_world) {
 
 ExplorationChoice ChooseExploration(const Situation& now, const VoxelKey& start) {
   ExplorationChoice choice;
-  if (auto way = ChooseClosedWay(now, start)) {
-    choice.shown.push_back(way->candidate);
-    choice.target = std::move(way);
-    return choice;
-  }
   choice.relevancy = FreshRelevancy(now);
   ExplorationPrices prices(now, choice.relevancy ? *choice.relevancy : now.goal.full.relevancy);
   std::vector<PricedCandidate> all = PriceCandidatesOrSearch(now, start, &prices);

@@ -226,14 +226,19 @@ bool AnswersWeakly(const Situation& now, const HistoryPoi& poi) {
          now.world.full.confirmed_similarity - now.config.policy.poi.similarity_slack;
 }
 
+bool IsGoingToClosedWay(const Situation& now) {
+  const Pursued* pursued = PursuedIn(PursuitOf(now.goal.full.activity));
+  return pursued && pursued->target.kind == CandidateKind::kClosedWay;
+}
+
 /// Not exhausted, like enough to the goal, not tried too often, and not searched in vain of late.
 bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi,
                     std::optional<int> unreachable_step, double least_score) {
   const auto& policy = now.config.policy;
   if (poi.is_exhausted || poi.score < least_score) return false;
-  // A search in vain visits the whole house, and a step does not open it.
-  if (unreachable_step && now.world.step - *unreachable_step < policy.explore.reconsider_steps)
-    return false;
+  // A search in vain visits the whole house, and a step does not open it, but towards a shut door.
+  const int patience = IsGoingToClosedWay(now) ? 1 : policy.explore.reconsider_steps;
+  if (unreachable_step && now.world.step - *unreachable_step < patience) return false;
   if (AnswersWeakly(now, poi) && now.goal.full.last_resorts == 0 && !StandsOut(now, poi))
     return false;
   // A repeated query returns the same places: visited places are settled.

@@ -78,8 +78,8 @@ std::optional<GroundTarget> ChooseLivePoi(const Situation& now, const geometry::
 /// tried too often, and answers as strongly as a thing that was found, or stands out.
 bool IsWorthGoingTo(const Situation& now, const HistoryPoi& poi);
 
-/// Whether a remembered place may be visited now or later: it is not settled, was not found to be
-/// out of reach, and answers as strongly as a thing that was found.
+/// Whether a remembered place may be visited now or later: it is worth going to, and was not found
+/// to be out of reach.
 bool IsToBeVisited(const Situation& now, const HistoryPoi& poi);
 
 /// Whether the place, looked at in vain from the views so far, is to be seen from another side and

@@ -16,19 +16,7 @@ using test::FakeSuite;
 
 /// A couch and a plant; only the couch has features of its own.
 FakeSight CouchAndPlant(const Box3& couch, const Box3& plant) {
-  FakeSight sight = CouchSight(couch), other;
-  test::SeeBox(plant, "plant", &other);
-  const FakeSight one = sight;
-  sight.detect = [one, other](const Observation& obs, std::string_view name) {
-    return name == "plant" ? other.detect(obs, name) : one.detect(obs, name);
-  };
-  sight.segment = [one, other](const Observation& obs, perception::Detection& detection) {
-    const auto plants = other.detect(obs, "plant");
-    const bool is_plant = !plants.empty() && plants.front().box.u0 == detection.box.u0 &&
-                          plants.front().box.v0 == detection.box.v0;
-    (is_plant ? other : one).segment(obs, detection);
-  };
-  return sight;
+  return AndBox(CouchSight(couch), plant, "plant");
 }
 
 const Box3 kPlant = BoxOf(2.9, 1.8, 0, 3.4, 2.3, 0.9);     // in the first room

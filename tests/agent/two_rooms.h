@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,24 +52,50 @@ inline BoxWalker TwoRooms() {
   return walker;
 }
 
-/// Features tell the couch's half of the house from the other; "couch" is the former's text.
-inline FakeSight CouchSight(const Box3& couch = kCouch) {
-  FakeSight sight;
-  test::SeeBox(couch, "couch", &sight);
-  sight.features = [couch](const Observation& obs) {
-    perception::FeatureGrid grid{8, 8, 4, {}};
-    for (int row = 0; row < 8; ++row)
-      for (int col = 0; col < 8; ++col) {
-        const int u = col * obs.rgb.width / 8, v = row * obs.rgb.height / 8;
+/// Surfaces within 5 cm of `box`, between the heights, with the features `cell`; others as before.
+inline void PaintFeatures(const Box3& box, double from_m, double to_m, std::array<float, 4> cell,
+                          FakeSight* sight) {
+  sight->features = [=, before = sight->features](const Observation& obs) {
+    perception::FeatureGrid grid = before(obs);
+    for (int row = 0; row < grid.rows; ++row)
+      for (int col = 0; col < grid.cols; ++col) {
+        const int u = col * obs.rgb.width / grid.cols, v = row * obs.rgb.height / grid.rows;
         const Vector3d p =
             obs.T_world_camera * BackProjectPixel(obs.camera, u, v, obs.depth_m.At(u, v));
-        const bool is_couch = couch.HorizontalDistance(p) < 0.05 && p.z() < 0.9;
-        const std::vector<float> cell =
-            is_couch ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0.8F, 0.6F, 0};
-        grid.data.insert(grid.data.end(), cell.begin(), cell.end());
+        if (box.HorizontalDistance(p) < 0.05 && p.z() >= from_m && p.z() < to_m)
+          std::copy(cell.begin(), cell.end(), grid.data.begin() + 4 * (grid.cols * row + col));
       }
     return grid;
   };
+}
+
+/// `sight`, and the object in `box` under the name `name`.
+inline FakeSight AndBox(const FakeSight& sight, const Box3& box, const std::string& name) {
+  FakeSight both = sight, other;
+  test::SeeBox(box, name, &other);
+  both.detect = [sight, other, name](const Observation& obs, std::string_view asked) {
+    return asked == name ? other.detect(obs, asked) : sight.detect(obs, asked);
+  };
+  both.segment = [sight, other, name](const Observation& obs, perception::Detection& detection) {
+    const auto seen = other.detect(obs, name);
+    const bool is_other = !seen.empty() && seen.front().box.u0 == detection.box.u0 &&
+                          seen.front().box.v0 == detection.box.v0;
+    (is_other ? other : sight).segment(obs, detection);
+  };
+  return both;
+}
+
+/// Features tell the couch from the rest of the house; "couch" is its text.
+inline FakeSight CouchSight(const Box3& couch = kCouch) {
+  FakeSight sight;
+  test::SeeBox(couch, "couch", &sight);
+  sight.features = [](const Observation& /*obs*/) {
+    perception::FeatureGrid grid{8, 8, 4, {}};
+    for (int i = 0; i < 8 * 8; ++i)
+      for (const float value : {0.0F, 0.8F, 0.6F, 0.0F}) grid.data.push_back(value);
+    return grid;
+  };
+  PaintFeatures(couch, -1e9, 0.9, {1, 0, 0, 0}, &sight);
   sight.text = [](std::string_view text) {
     return text == "couch" ? std::vector<float>{1, 0, 0, 0} : std::vector<float>{0, 0, 0, 1};
   };
