@@ -118,9 +118,11 @@ std::vector<std::string> TargetsOf(const Walk& walk) {
   std::vector<std::string> kinds;
   for (const std::string& text : walk.traces) {
     const auto step = nlohmann::json::parse(text);
-    for (const auto& candidate : step["candidates"])
-      if (candidate["is_target"] && (kinds.empty() || kinds.back() != candidate["kind"]))
-        kinds.push_back(candidate["kind"]);
+    for (const auto& candidate : step["candidates"]) {
+      const auto kind = candidate["kind"].get<std::string>();
+      if (candidate["is_target"].get<bool>() && (kinds.empty() || kinds.back() != kind))
+        kinds.push_back(kind);
+    }
   }
   return kinds;
 }
