@@ -215,6 +215,7 @@ struct SuiteOptions {
   std::string furniture;  ///< as in WorldOptions, for suites that use a pack
   std::string variant = "full", keep_replays = "none";
   int jobs = 1;
+  int first_goals = 0;  ///< goals of each visit that a report counts; 0 = all
   bool partial = false, force = false, page = false;  ///< as in ReportOptions
   std::vector<std::string> to;                        ///< of SuiteExport: form and folder
 };

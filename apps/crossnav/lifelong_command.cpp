@@ -313,6 +313,7 @@ Result<void> LifelongReport(const SuiteOptions& options, Console& console) {
     if (!text) return tl::unexpected(text.error());
     auto results = evaluation::ParseVisitResults(*text, path.string());
     if (!results) return tl::unexpected(results.error());
+    if (options.first_goals > 0) evaluation::KeepFirstGoals(options.first_goals, &*results);
     runs.push_back(std::move(*results));
   }
   if (runs.empty()) {
@@ -328,7 +329,11 @@ Result<void> LifelongReport(const SuiteOptions& options, Console& console) {
       comparisons.push_back(std::move(*comparison));
     }
   }
-  const std::string text = evaluation::VisitReportMarkdown(options.name, runs, comparisons);
+  const std::string title =
+      options.first_goals > 0
+          ? fmt::format("{}, first {} goals of each visit", options.name, options.first_goals)
+          : options.name;
+  const std::string text = evaluation::VisitReportMarkdown(title, runs, comparisons);
   const std::string json = evaluation::VisitReportJson(runs, comparisons);
   const fs::path folder = place.folder / "report";
   std::error_code error;

@@ -160,6 +160,11 @@ void AddSuites(CLI::App& app, Options& o) {
     verb->add_option("--keep-replays", o.suite.keep_replays, "none or failures")
         ->check(CLI::IsMember({"none", "failures"}));
   }
+  report
+      ->add_option("--first-goals", o.suite.first_goals,
+                   "Of crossnav-lifelong-1: only the first N goals of each visit count")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
   report->add_flag("--partial", o.suite.partial, "Accept other runs that are not finished");
   report->add_flag("--force", o.suite.force, "Compare runs that differ in their task");
   report->add_flag("--page", o.suite.page, kPageHelp);

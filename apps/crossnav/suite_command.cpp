@@ -274,6 +274,9 @@ Result<void> SuiteRun(const SuiteOptions& options, const CommonOptions& common, 
 Result<void> SuiteReport(const SuiteOptions& options, const CommonOptions& common,
                          Console& console) {
   if (IsLifelong(options.name)) return LifelongReport(options, console);
+  if (options.first_goals > 0)
+    return Fail(ErrorCode::kInvalid, "only reports of crossnav-lifelong-1 have visits",
+                "--first-goals");
   const auto tracks = WantedTracks(options, console);
   if (!tracks) return tl::unexpected(tracks.error());
   Console quiet(false, common.quiet, /*is_silent=*/true);  // the report has the run's figures

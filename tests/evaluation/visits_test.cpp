@@ -141,6 +141,18 @@ TEST(VisitReport, AShorterWayInEveryHouseIsADifferenceAboveZero) {
   EXPECT_DOUBLE_EQ(difference.success.value, 0);
 }
 
+TEST(VisitReport, ShorterVisitsAreTheFirstGoalsOfEach) {
+  VisitResults results = RunOf("keep", 8);
+  results.records[0].goals.assign(3, Goal("static", true, 4, 8));
+  results.records[0].goals[2] = Goal("static", false, 4, 8);
+  KeepFirstGoals(2, &results);
+  EXPECT_EQ(results.records[1].goals.size(), 1U);
+  const auto figures = FiguresOf(results);
+  ASSERT_EQ(figures[0].first, "static");
+  EXPECT_EQ(figures[0].second.goals, 2);
+  EXPECT_DOUBLE_EQ(figures[0].second.success.value, 1);
+}
+
 TEST(VisitReport, RunsOfOtherVisitsAreNotCompared) {
   VisitResults other = RunOf("none", 8);
   other.run.suite_hash = "else";

@@ -215,6 +215,14 @@ int DropFailedHouses(VisitResults* results) {
   return static_cast<int>(failed.size());
 }
 
+void KeepFirstGoals(int count, VisitResults* results) {
+  for (VisitRecord& record : results->records) {
+    const auto kept = std::min(record.goals.size(), static_cast<std::size_t>(count));
+    record.goals.erase(record.goals.begin() + static_cast<std::ptrdiff_t>(kept),
+                       record.goals.end());
+  }
+}
+
 std::string VisitLine(const VisitRecord& record) {
   Json goals = Json::array();
   for (const GoalRecord& goal : record.goals) goals.push_back(ToJson(goal));
