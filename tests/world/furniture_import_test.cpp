@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 
 #include "crossnav/world/furniture/furniture_pack.h"
@@ -142,6 +143,27 @@ TEST(FurniturePack, RefusesATruncatedPack) {
   ASSERT_TRUE(FurniturePack::Load(dir.path()).has_value());
   std::filesystem::resize_file(dir.path() / "furniture.pack", 20);
   EXPECT_EQ(FurniturePack::Load(dir.path()).error().code, ErrorCode::kMismatch);
+}
+
+/// Regression: the padding of a material was written, too, so that equal packs had different
+/// hashes.
+TEST(FurniturePack, EqualModelsHaveEqualBytesWhateverTheMemoryHeldBefore) {
+  const auto encoded = [](int before) {
+    ObjectModel model;
+    model.materials.resize(1);
+    sim::Material& material = model.materials[0];
+    std::memset(static_cast<void*>(&material), before, sizeof material);
+    material.colour = {1, 2, 3};
+    material.texture = -1;
+    material.is_unlit = true;
+    return EncodeModel(model);
+  };
+  EXPECT_EQ(encoded(0), encoded(0xAB));
+  const auto read = DecodeModel(encoded(0xAB), {}, "pack");
+  ASSERT_TRUE(read.has_value()) << read.error().Message();
+  ASSERT_EQ(read->materials.size(), 1U);
+  EXPECT_TRUE(read->materials[0].is_unlit);
+  EXPECT_EQ(read->materials[0].colour.b, 3);
 }
 
 TEST(FurniturePack, KnowsAnotherPackFromItsOwnByTheHash) {

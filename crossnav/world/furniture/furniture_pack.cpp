@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -62,6 +63,23 @@ struct PackBytes {
     return v;
   }
 };
+
+/// A material in the pack, without the padding of the struct, whose bytes are arbitrary.
+struct PackMaterial {
+  std::array<std::uint8_t, 4> rgb0{};
+  std::int32_t texture = -1;
+  std::uint32_t is_unlit = 0;
+};
+static_assert(sizeof(PackMaterial) == 12);
+
+PackMaterial ForPack(const sim::Material& m) {
+  return {{m.colour.r, m.colour.g, m.colour.b, 0}, m.texture, m.is_unlit ? 1U : 0U};
+}
+
+sim::Material FromPack(const PackMaterial& m) {
+  // Older packs have arbitrary bytes behind the first of the last field.
+  return {{m.rgb0[0], m.rgb0[1], m.rgb0[2]}, m.texture, (m.is_unlit & 0xFFU) != 0};
+}
 
 std::string Packed(const std::string& model) {
   uLongf size = compressBound(model.size());
@@ -147,7 +165,9 @@ std::string EncodeModel(const ObjectModel& model) {
   w.Array(model.mesh.uvs);
   w.Array(model.mesh.triangles);
   w.Array(model.mesh.triangle_material);
-  w.Array(model.materials);
+  std::vector<PackMaterial> materials;
+  for (const sim::Material& material : model.materials) materials.push_back(ForPack(material));
+  w.Array(materials);
   w.Number(model.textures.size());
   for (const auto& t : model.textures) {
     const std::string png = EncodePng(t.rgb, t.opaque);
@@ -236,7 +256,8 @@ Result<ObjectModel> DecodeModel(const std::string& bytes, const PackEntry& entry
   m.mesh.uvs = r.Array<std::array<float, 2>>();
   m.mesh.triangles = r.Array<std::array<std::uint32_t, 3>>();
   m.mesh.triangle_material = r.Array<std::uint16_t>();
-  m.materials = r.Array<sim::Material>();
+  for (const PackMaterial& material : r.Array<PackMaterial>())
+    m.materials.push_back(FromPack(material));
   const std::uint64_t textures = r.Number();
   for (std::uint64_t i = 0; i < textures && r.is_good; ++i) {
     const auto png = r.Array<std::uint8_t>();
