@@ -329,19 +329,20 @@ Result<void> LifelongReport(const SuiteOptions& options, Console& console) {
       comparisons.push_back(std::move(*comparison));
     }
   }
-  const std::string title =
-      options.first_goals > 0
-          ? fmt::format("{}, first {} goals of each visit", options.name, options.first_goals)
-          : options.name;
+  std::string title = options.name, file = "report";
+  if (options.first_goals > 0) {
+    title += fmt::format(", first {} goals of each visit", options.first_goals);
+    file += fmt::format("-first-{}", options.first_goals);
+  }
   const std::string text = evaluation::VisitReportMarkdown(title, runs, comparisons);
   const std::string json = evaluation::VisitReportJson(runs, comparisons);
   const fs::path folder = place.folder / "report";
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Fail(ErrorCode::kIo, error.message(), folder.string());
-  if (auto ok = WriteFileAtomically(folder / "report.md", text); !ok) return ok;
-  if (auto ok = WriteFileAtomically(folder / "report.json", json + "\n"); !ok) return ok;
-  console.Print(text + (folder / "report.md").string() + "\n");
+  if (auto ok = WriteFileAtomically(folder / (file + ".md"), text); !ok) return ok;
+  if (auto ok = WriteFileAtomically(folder / (file + ".json"), json + "\n"); !ok) return ok;
+  console.Print(text + (folder / (file + ".md")).string() + "\n");
   console.Document(Json::parse(json));
   return {};
 }

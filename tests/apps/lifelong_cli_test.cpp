@@ -102,6 +102,13 @@ TEST_F(LifelongCli, AllModesShareTheFirstDay) {
                      "/memory/00001-CrossnavHouse.map";
     EXPECT_EQ(Json::parse(Run("map info " + map + " --json").out)["revision"], 2) << mode;
   }
+  const std::string report = "suite report crossnav-lifelong-1-mini --out suites --quiet";
+  ASSERT_EQ(Run(report).exit_code, 0);
+  const auto whole = LinesOf(suite / "report/report.md");
+  ASSERT_EQ(Run(report + " --first-goals 1").exit_code, 0);
+  EXPECT_EQ(LinesOf(suite / "report/report.md"), whole) << "a part has files of its own";
+  EXPECT_NE(LinesOf(suite / "report/report-first-1.md").at(0).find("first 1 goals"),
+            std::string::npos);
   test::fs::remove(suite / "runs/keep/visits.jsonl");
   const auto other = play("keep", " --set eval.action_budget=900");
   EXPECT_NE(test::fs::last_write_time(first_map), made) << "other settings are another first day";

@@ -216,11 +216,8 @@ int DropFailedHouses(VisitResults* results) {
 }
 
 void KeepFirstGoals(int count, VisitResults* results) {
-  for (VisitRecord& record : results->records) {
-    const auto kept = std::min(record.goals.size(), static_cast<std::size_t>(count));
-    record.goals.erase(record.goals.begin() + static_cast<std::ptrdiff_t>(kept),
-                       record.goals.end());
-  }
+  for (VisitRecord& record : results->records)
+    record.goals.resize(std::min(record.goals.size(), static_cast<std::size_t>(count)));
 }
 
 std::string VisitLine(const VisitRecord& record) {

@@ -95,8 +95,8 @@ Result<VisitResults> ParseVisitResults(std::string_view text, const std::string&
 /// Drops the records of houses with a failed visit (a full disk, a killed process) and returns the
 /// number of these houses: a run that goes on plays them again.
 int DropFailedHouses(VisitResults* results);
-/// Keeps the first `count` goals of each visit. A search does not know of the goals after it, so
-/// that the rest is what a run of shorter visits would give.
+/// Keeps the first `count` goals of each visit. A search does not know of the goals after it; but
+/// the memories of earlier days are of whole visits, and know more than shorter ones would.
 void KeepFirstGoals(int count, VisitResults* results);
 std::string VisitLine(const VisitRecord& record);
 Result<VisitRecord> ParseVisitLine(const std::string& line, const std::string& where);
