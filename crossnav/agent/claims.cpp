@@ -9,6 +9,7 @@
 
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/core/category_table.h"
+#include "crossnav/objects/alias.h"
 
 namespace crossnav::agent {
 
@@ -105,6 +106,19 @@ bool IsFlicker(const policy::ClaimViews& hint) {
   return missed >= kDenials * std::max(1, seen);
 }
 
+/// A believed record of an earlier day is a view of its own: of another time, mostly from elsewhere.
+bool IsOnRecord(const World& world, const GoalState& goal, const policy::LivePoi& poi,
+                const policy::ObjectConfig& object) {
+  const auto& records = world.objects.records();
+  const std::string category = objects::KnownAs(records, goal.goal);
+  return std::any_of(records.begin(), records.end(), [&](const objects::ObjectRecord& record) {
+    return record.category == category && record.views > 0 && record.first_seen_day < world.day &&
+           !world.objects.IsGone(record) &&
+           policy::IsSameObject(poi.voxels, poi.p_center_world, record.voxels,
+                                record.centre_world_m, object.merge_distance_m);
+  });
+}
+
 bool IsSettledFor(const GoalState& goal, int poi_id) {
   return goal.full.claims.SettledFor(poi_id) != nullptr;
 }
@@ -173,6 +187,12 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
                              ? Judge(opinion, summary, config)
                              : Judge(opinion, verification.confidence, views, config);
   const bool was_asked = goal.full.claims.second_view_of == poi.id;
+  std::string facts = Describe(goal.goal, verification, opinion, views);
+  if (verdict == ClaimVerdict::kWeak && config.evidence != "views" &&
+      IsOnRecord(now.world, goal, poi, now.config.policy.object)) {
+    verdict = ClaimVerdict::kAgreed;
+    facts += ", on record";
+  }
   if (verdict == ClaimVerdict::kWeak) {
     goal.full.claims.second_view_of = poi.id;
     if (goal.full.claims.no_second_view_of == poi.id || !HasSecondView(now, poi)) {
@@ -183,7 +203,6 @@ ClaimVerdict CheckClaim(StepState& now, const policy::LivePoi& poi,
       verdict = is_likely ? ClaimVerdict::kAgreed : ClaimVerdict::kRefuted;
     }
   }
-  std::string facts = Describe(goal.goal, verification, opinion, views);
   if (config.evidence == "views")
     facts += fmt::format(", P {:.2f} of {}{}", policy::ProbabilityOf(summary, opinion, config),
                          summary.views, summary.shortness > 0 ? ", short" : "");

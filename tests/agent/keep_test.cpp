@@ -49,6 +49,34 @@ TEST(Keep, AThingWithoutARecordIsLookedAtFromAnotherSideWhereTheMemoryAnswersWel
   EXPECT_EQ(RunAgent(second, walker, 40).last_action, Action::kStop);
 }
 
+/// Regression: a known thing that a frame showed with little confidence was looked at from another
+/// side, too.
+TEST(Keep, AWeakClaimOnRecordNeedsNoOtherView) {
+  FakeSight sight = testing::CouchSight(kCouch);
+  sight.detect = [seen = sight.detect](const Observation& obs, std::string_view name) {
+    auto found = seen(obs, name);
+    for (auto& detection : found) detection.confidence = 0.75F;
+    return found;
+  };
+  for (const bool is_on_record : {true, false}) {
+    Night night = FirstDay();
+    if (!is_on_record) night.objects.clear();
+    BoxWalker walker = testing::TwoRooms();
+    Agent second(ConfigOf("keep"), FakeSuite(sight));
+    Wake(night, 1, &second);
+    ASSERT_TRUE(second.SetGoal("couch").has_value());
+    const Walk walk = RunAgent(second, walker, 200);
+    EXPECT_EQ(walk.last_action, Action::kStop);
+    const auto has = [&](const char* text) {
+      return std::any_of(walk.traces.begin(), walk.traces.end(), [&](const std::string& step) {
+        return step.find(text) != std::string::npos;
+      });
+    };
+    EXPECT_EQ(has("on record"), is_on_record);
+    EXPECT_EQ(has("claim is weak"), !is_on_record);
+  }
+}
+
 /// Regression: the only place that answered, though more weakly than a thing that was found, came
 /// after the exploration of both floors.
 TEST(Keep, AWeakPlaceThatStandsOutIsVisitedBeforeExploring) {
