@@ -7,11 +7,13 @@
 #include "crossnav/agent/claims.h"
 #include "crossnav/agent/hints.h"
 #include "crossnav/agent/object_search.h"
+#include "crossnav/agent/passing_sights.h"
 #include "crossnav/agent/poi_targets.h"
 #include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/scan.h"
 #include "crossnav/agent/settle.h"
 #include "crossnav/agent/shared_parts.h"
+#include "crossnav/agent/whereabouts.h"
 #include "crossnav/core/category_table.h"
 #include "crossnav/policy/ground_motion.h"
 #include "crossnav/policy/steering.h"
@@ -117,8 +119,32 @@ bool AskForOtherSide(StepState& now, HistoryPoi& poi) {
   return true;
 }
 
+/// The frame shows the thing at the place, and the detector has another name for it. Where single
+/// frames are no evidence, an object has a wrong name from some sides.
+bool IsSeenAsAnother(const Situation& now, const HistoryPoi& poi) {
+  return NoticesThings(now.config) && !JudgesByViews(now.config) &&
+         !IsBelieved(now.world, now.goal, poi) &&
+         (poi.p_center_world - now.agent.p_world).norm() <=
+             RangesOfNotice(now.world, now.goal, now.config).surely_m &&
+         IsShownAsAnother(now.world, now.goal, poi);
+}
+
+/// The goal is not at the place.
+void GiveUpPlace(StepState& now, HistoryPoi& poi, const std::string& event) {
+  poi.is_exhausted = true;
+  if (now.world.revision)
+    now.world.objects.Disprove(SpacedName(now.goal.goal), poi.voxels,
+                               {now.world.day, now.world.step});
+  now.goal.events.push_back(event);
+  End(now, Ending::kReached);
+}
+
 std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Verification& /*v*/) {
   HistoryPoi& poi = now.goal.history[static_cast<std::size_t>(visit.place)];
+  if (IsSeenAsAnother(now, poi)) {
+    GiveUpPlace(now, poi, "history POI is another thing");
+    return std::nullopt;
+  }
   if (DistanceToEnd(now) > now.config.policy.motion.arrival_m && poi.looked == 0) {
     if (auto action = Walk(now, visit.route)) return action;
     if (DistanceToEnd(now) > kAtEnd_m) return TurnWithoutProgress(now, visit);
@@ -134,13 +160,9 @@ std::optional<Action> ActOn(StepState& now, VisitPlace& visit, const policy::Ver
     End(now, Ending::kUndecided);
     return std::nullopt;
   }
-  poi.is_exhausted = true;
-  if (now.world.revision)
-    now.world.objects.Disprove(SpacedName(now.goal.goal), poi.voxels,
-                               {now.world.day, now.world.step});
-  now.goal.events.push_back("history POI without success, similarity " +
-                            std::to_string(poi.similarity) + " score " + std::to_string(poi.score));
-  End(now, Ending::kReached);
+  GiveUpPlace(now, poi,
+              "history POI without success, similarity " + std::to_string(poi.similarity) +
+                  " score " + std::to_string(poi.score));
   return std::nullopt;
 }
 

@@ -106,7 +106,8 @@ bool IsFlicker(const policy::ClaimViews& hint) {
   return missed >= kDenials * std::max(1, seen);
 }
 
-/// A believed record of an earlier day is a view of its own: of another time, mostly from elsewhere.
+/// A believed record of an earlier day is a view of its own: of another time, mostly from
+/// elsewhere.
 bool IsOnRecord(const World& world, const GoalState& goal, const policy::LivePoi& poi,
                 const policy::ObjectConfig& object) {
   const auto& records = world.objects.records();

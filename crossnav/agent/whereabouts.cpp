@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "crossnav/core/category_table.h"
 #include "crossnav/geometry/map_blocks.h"
 #include "crossnav/objects/alias.h"
 #include "crossnav/scenegraph/build_graph.h"
@@ -271,6 +272,22 @@ bool IsAnotherThing(const World& world, const GoalState& goal, const HistoryPoi&
     return record.category != category && record.views >= kLeastViews &&
            !world.objects.IsGone(record) && ShareCovered(place.voxels, record) >= kStillThere;
   });
+}
+
+bool IsShownAsAnother(const World& world, const GoalState& goal, const HistoryPoi& place) {
+  const std::string asked = SpacedName(goal.goal);
+  const auto& records = world.objects.records();
+  const auto is_in_frame = [&](const ObjectRecord& record) {
+    return record.views > 0 && record.last_seen_day == world.day &&
+           record.last_seen_step == world.step;
+  };
+  bool is_shown = false;
+  for (const ObjectRecord& record : records) {
+    if (!is_in_frame(record) || ShareIn(world, place.voxels, record) < kStillThere) continue;
+    if (record.category == asked) return false;
+    is_shown = true;
+  }
+  return is_shown;
 }
 
 void SettlePlaceOf(const ObjectRecord& record, GoalState* goal) {

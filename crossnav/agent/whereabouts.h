@@ -72,6 +72,9 @@ bool HasRecord(const World& world, const GoalState& goal);
 /// Whether the place is the surface of a thing that is on record under another name.
 bool IsAnotherThing(const World& world, const GoalState& goal, const HistoryPoi& place);
 
+/// Whether this frame shows that thing, under a name other than the one that was asked for.
+bool IsShownAsAnother(const World& world, const GoalState& goal, const HistoryPoi& place);
+
 /// The goal's remembered places that are the record's need no visit: the record is gone.
 void SettlePlaceOf(const objects::ObjectRecord& record, GoalState* goal);
 

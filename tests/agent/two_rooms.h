@@ -109,6 +109,11 @@ struct Walk {
   std::optional<Vector3d> p_claimed_world;
 };
 
+inline bool Tells(const Walk& walk, const std::string& text) {
+  return std::any_of(walk.traces.begin(), walk.traces.end(),
+                     [&](const std::string& step) { return step.find(text) != std::string::npos; });
+}
+
 /// Steps until STOP, "all explored" or `limit` steps.
 inline Walk RunAgent(Agent& agent, BoxWalker& walker, int limit) {
   Walk walk;
