@@ -34,6 +34,7 @@ constexpr int kTimesABuilding = 3;  // chosen: as often as a drawn home; other n
 // Seeds 7001 to 7040 are run to report only.
 constexpr LifelongSuite kSuites[] = {
     {"crossnav-lifelong-1", 7001, 40, 3},
+    {"crossnav-lifelong-1-week", 7001, 40, 6},
     {"crossnav-lifelong-1-drawn", 1, 27, 3, Origin::kDrawn},
     {"crossnav-lifelong-1-bim", 1, 0, 3, Origin::kImported},
     {"crossnav-lifelong-1-classes", 7001, 40, 3, Origin::kGenerated, true},
@@ -46,8 +47,8 @@ Result<LifelongSuite> SuiteOf(const std::string& name) {
     if (name == suite.name) return suite;
   }
   return Fail(ErrorCode::kNotFound,
-              "no suite of this name; there are crossnav-lifelong-1, -drawn, -bim, -classes, -val, "
-              "-dev and -mini",
+              "no suite of this name; there are crossnav-lifelong-1, -week, -drawn, -bim, -classes, "
+              "-val, -dev and -mini",
               name);
 }
 

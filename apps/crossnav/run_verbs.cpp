@@ -138,7 +138,7 @@ void AddSuites(CLI::App& app, Options& o) {
     verb->add_option("NAME", o.suite.name,
                      "crossnav-mfmon-1, -mini or -val, crossnav-goat-1 (goals of three kinds), "
                      "-mini or -val, with -pack behind it for furniture of a pack; "
-                     "crossnav-lifelong-1, -drawn, -bim, -classes, -val, -dev or -mini; "
+                     "crossnav-lifelong-1, -week, -drawn, -bim, -classes, -val, -dev or -mini; "
                      "crossnav-mfmon-2, or one of its tracks: "
                      "crossnav-mfmon-2/generated, /drawn or /bim")
         ->required();
