@@ -46,10 +46,11 @@ Result<LifelongSuite> SuiteOf(const std::string& name) {
   for (const LifelongSuite& suite : kSuites) {
     if (name == suite.name) return suite;
   }
-  return Fail(ErrorCode::kNotFound,
-              "no suite of this name; there are crossnav-lifelong-1, -week, -drawn, -bim, -classes, "
-              "-val, -dev and -mini",
-              name);
+  return Fail(
+      ErrorCode::kNotFound,
+      "no suite of this name; there are crossnav-lifelong-1, -week, -drawn, -bim, -classes, "
+      "-val, -dev and -mini",
+      name);
 }
 
 /// Changes of each night of the suite: one per track, or the two that ask for a search elsewhere.
