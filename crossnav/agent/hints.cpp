@@ -59,6 +59,17 @@ bool NoteLook(StepState& now, int poi_id) {
   return looks.without_rise >= enough;
 }
 
+bool IsSeenFromReach(const Situation& now, int poi_id) {
+  const auto start = now.world.ground.StandingAt(now.agent.p_world);
+  if (!start) return true;  // nothing is known
+  Hints hints(now);
+  planner::GroundSearch search(now.world.ground, now.config.planner, *start, RulesOf(now));
+  while (const auto place = search.Next())
+    for (const Hints::View& view : hints.SeenFrom(*place))
+      if (view.candidate.poi_id == poi_id) return true;
+  return false;
+}
+
 Hints::Hints(const Situation& now) : now_(now) {
   const policy::PolicyConfig& config = now.config.policy;
   for (const policy::LivePoi& poi : now.goal.full.hints.all()) {

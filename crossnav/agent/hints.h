@@ -15,6 +15,9 @@ namespace crossnav::agent {
 /// decide: neither from nearer nor from another side.
 bool NoteLook(StepState& now, int poi_id);
 
+/// Whether a place in reach shows the hint from near, from where it was not looked at yet.
+bool IsSeenFromReach(const Situation& now, int poi_id);
+
 /// The hints of one choice. Keeps references to the situation.
 class Hints {
  public:

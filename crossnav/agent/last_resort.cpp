@@ -4,7 +4,9 @@
 #include <array>
 
 #include "crossnav/agent/cut_off.h"
+#include "crossnav/agent/hints.h"
 #include "crossnav/agent/object_search.h"
+#include "crossnav/agent/pursuit.h"
 #include "crossnav/agent/remembered_places.h"
 #include "crossnav/agent/scan.h"
 #include "crossnav/agent/settle.h"
@@ -127,6 +129,9 @@ constexpr std::array kResorts = {
     StepOut,     AskMemoryAgain,       TryAllAgain,        StepOut};
 constexpr std::size_t kOpening = 8;  // the first of them open ways, or leave out what has none
 
+constexpr std::array kWays = {ForgetBumps, Squeeze};
+constexpr int kReachIsChecked_steps = 6;  // chosen: as policy.explore.reconsider_steps
+
 }  // namespace
 
 bool HasOpeningResort(const GoalState& goal) {
@@ -148,6 +153,24 @@ bool TryLastResort(StepState& now) {
   }
   goal.events.push_back("all explored; cut off: " + Describe(FindCutOff(now)));
   return false;
+}
+
+void OpenWayToSteadySight(StepState& now) {
+  GoalState& goal = now.goal;
+  const Pursued* pursued = PursuedIn(PursuitOf(goal.full.activity));
+  if (goal.full.ways_tried == kWays.size() || now.world.step % kReachIsChecked_steps != 0 ||
+      !pursued || !IsExploring(PursuitOf(goal.full.activity)) ||
+      pursued->target.kind == policy::CandidateKind::kSighting)
+    return;
+  const policy::LivePoi* sight = SteadySight(now);
+  if (!sight || IsSeenFromReach(now, sight->id)) return;
+  while (goal.full.ways_tried < kWays.size()) {
+    if (!kWays[goal.full.ways_tried++](now)) continue;
+    ForgiveUnreachable(&goal);
+    goal.events.push_back("no way led to what many frames showed");
+    End(now, Ending::kSuperseded);
+    return;
+  }
 }
 
 }  // namespace crossnav::agent

@@ -13,4 +13,9 @@ bool TryLastResort(StepState& now);
 /// cannot be reached.
 bool HasOpeningResort(const GoalState& goal);
 
+/// An object that many frames showed weakly, and that no place in reach shows from near: marks of
+/// bumps are dropped and narrow gaps are tried before the agent goes on exploring. Each is used
+/// once for a goal.
+void OpenWayToSteadySight(StepState& now);
+
 }  // namespace crossnav::agent

@@ -150,6 +150,7 @@ Decision Navigate(StepState& now) {
   UpdateSearch(now);
   JudgeInstances(now);
   LosePatience(now);
+  OpenWayToSteadySight(now);
   if (!TryConfirmGoal(now, decision)) ChooseAndAct(now, &decision);
   if (decision.action == Action::kMoveForward) now.world.full.before_forward = now.agent;
   decision.activity = NameOf(now.goal.full.activity);

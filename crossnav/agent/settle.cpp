@@ -132,6 +132,10 @@ void SettleFor(StepState& now, int poi_id) {
       fmt::format("back to the likeliest refuted claim, P {:.2f}", object.probability));
 }
 
+const policy::LivePoi* SteadySight(const Situation& now) {
+  return ActsOnSights(now.config) ? BestHint(now) : nullptr;
+}
+
 bool SettleForSteadySight(StepState& now) {
   if (!ActsOnSights(now.config)) return false;
   if (const policy::RejectedObject* claim = BestRefuted(now)) {

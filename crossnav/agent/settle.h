@@ -18,6 +18,9 @@ void SettleFor(StepState& now, int poi_id);
 /// frames showed with the secondary confidence. False without either (verify.evidence = frame).
 bool SettleForSteadySight(StepState& now);
 
+/// The hint that SettleForSteadySight would settle for; null without one.
+const policy::LivePoi* SteadySight(const Situation& now);
+
 /// memory.mode = revise, on a visit: record and frames agree. Settles for a hint at a believed
 /// record's place that many frames showed with the secondary confidence. False without one.
 bool SettleForSightAt(StepState& now, const HistoryPoi& place);

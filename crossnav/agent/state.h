@@ -180,6 +180,7 @@ struct FullGoal {
                                  ///< little for its confidence; 0 = none was
   policy::ClaimTracker claims;   ///< verify.memory = on
   std::size_t last_resorts = 0;  ///< last resorts used up
+  std::size_t ways_tried = 0;    ///< ways to open the way to a steady sight, used up
   std::optional<Vector3d> p_unmarked_world;  ///< foot where marks of bumps were forgotten last
   bool may_squeeze = false;                  ///< planner rules that last resorts relaxed
   bool may_step_on_seats = false;

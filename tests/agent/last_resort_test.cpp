@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "agent/two_rooms.h"
 #include "crossnav/agent/cut_off.h"
 #include "crossnav/agent/exploration_prices.h"
 #include "crossnav/agent/hints.h"
@@ -24,7 +25,14 @@ namespace {
 using geometry::VoxelKey;
 using geometry::VoxelState;
 using test::AddGround;
+using test::BoxWalker;
+using test::FakeSight;
+using test::FakeSuite;
 using test::SetState;
+using testing::BoxOf;
+using testing::SmallConfig;
+using testing::Tells;
+using testing::Walk;
 
 /// Two floors of 2 x 2 m that a gap of one column joins, between walls; the agent is on the first.
 struct TwoFloors {
@@ -305,6 +313,40 @@ TEST(LiveViews, AreKeptWhileAnotherPoiIsApproached) {
   EXPECT_EQ(FailedViewsOf(given.goal, 1).count, 2);
   EXPECT_EQ(FailedViewsOf(given.goal, 2).p_from_world.size(), 2U);
   EXPECT_EQ(FailedViewsOf(given.goal, 3).count, 0);
+}
+
+/// Regression: ten frames had shown a television beyond a slit that the agent had bumped into; it
+/// searched the other floors until the end.
+TEST(LastResort, AWayToASteadySightIsOpenedBeforeTheRestIsExplored) {
+  const Box3 couch = BoxOf(6.6, 0.4, 0, 7.5, 1.2, 0.8);
+  BoxWalker walker = testing::TwoRooms();
+  walker.rooms.shell = BoxOf(0, 0, 0, 8, 12, 2.6);  // much is left to explore on this side
+  walker.rooms.solids = {BoxOf(4, 0, 0, 4.12, 0.4, 2.6), BoxOf(4, 1.4, 0, 4.12, 12, 2.6), couch};
+  walker.pose = {Vector3d(0.8, 0.9, 0), 0, 0};
+  FakeSight sight = testing::CouchSight(couch);
+  sight.detect = [seen = sight.detect](const Observation& obs, std::string_view name) {
+    auto found = seen(obs, name);
+    for (auto& detection : found) detection.confidence = 0.65F;
+    return found;
+  };
+  Agent agent(SmallConfig(), FakeSuite(sight));
+  ASSERT_TRUE(agent.SetGoal("couch").has_value());
+  Walk walk;
+  int bumps = 0;
+  for (int i = 0; i < 150 && !Tells(walk, "no way led to what many frames showed"); ++i) {
+    const auto result = agent.Step(walker.Look());
+    ASSERT_TRUE(result.has_value());
+    walk.traces.push_back(ToJson(result->trace));
+    const bool is_at_door = walker.pose.p_world.x() > 3.2;
+    if (is_at_door && result->action == Action::kMoveForward && bumps < 8) {
+      ++bumps;
+      continue;
+    }
+    walker.Do(result->action);
+  }
+  EXPECT_TRUE(Tells(walk, "bumps forgotten")) << bumps;
+  EXPECT_TRUE(Tells(walk, "no way led to what many frames showed"));
+  EXPECT_FALSE(Tells(walk, "looking around"));
 }
 
 }  // namespace
