@@ -283,9 +283,10 @@ bool IsShownAsAnother(const World& world, const GoalState& goal, const HistoryPo
   };
   bool is_shown = false;
   for (const ObjectRecord& record : records) {
-    if (!is_in_frame(record) || ShareIn(world, place.voxels, record) < kStillThere) continue;
-    if (record.category == asked) return false;
-    is_shown = true;
+    if (ShareIn(world, place.voxels, record) < kStillThere) continue;
+    if (record.category == asked && (is_in_frame(record) || !world.objects.IsGone(record)))
+      return false;
+    is_shown = is_shown || is_in_frame(record);
   }
   return is_shown;
 }

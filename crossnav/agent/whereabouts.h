@@ -72,7 +72,8 @@ bool HasRecord(const World& world, const GoalState& goal);
 /// Whether the place is the surface of a thing that is on record under another name.
 bool IsAnotherThing(const World& world, const GoalState& goal, const HistoryPoi& place);
 
-/// Whether this frame shows that thing, under a name other than the one that was asked for.
+/// Whether this frame shows that thing under a name other than the one that was asked for, be it
+/// the name of its category. False where it is believed to have that one, too.
 bool IsShownAsAnother(const World& world, const GoalState& goal, const HistoryPoi& place);
 
 /// The goal's remembered places that are the record's need no visit: the record is gone.
