@@ -123,9 +123,9 @@ bool AskForOtherSide(StepState& now, HistoryPoi& poi) {
 /// frames are no evidence, an object has a wrong name from some sides.
 bool IsSeenAsAnother(const Situation& now, const HistoryPoi& poi) {
   return NoticesThings(now.config) && !JudgesByViews(now.config) &&
+         IsShownAsAnother(now.world, now.goal, poi) &&
          (poi.p_center_world - now.agent.p_world).norm() <=
-             RangesOfNotice(now.world, now.goal, now.config).surely_m &&
-         IsShownAsAnother(now.world, now.goal, poi);
+             RangesOfNotice(now.world, now.goal, now.config).surely_m;
 }
 
 /// The goal is not at the place.

@@ -276,17 +276,15 @@ bool IsAnotherThing(const World& world, const GoalState& goal, const HistoryPoi&
 
 bool IsShownAsAnother(const World& world, const GoalState& goal, const HistoryPoi& place) {
   const std::string asked = SpacedName(goal.goal);
-  const auto& records = world.objects.records();
-  const auto is_in_frame = [&](const ObjectRecord& record) {
-    return record.views > 0 && record.last_seen_day == world.day &&
-           record.last_seen_step == world.step;
-  };
   bool is_shown = false;
-  for (const ObjectRecord& record : records) {
-    if (ShareIn(world, place.voxels, record) < kStillThere) continue;
-    if (record.category == asked && (is_in_frame(record) || !world.objects.IsGone(record)))
-      return false;
-    is_shown = is_shown || is_in_frame(record);
+  for (const ObjectRecord& record : world.objects.records()) {
+    const bool is_in_frame = record.views > 0 && record.last_seen_day == world.day &&
+                             record.last_seen_step == world.step;
+    const bool is_asked = record.category == asked;
+    const bool counts = is_in_frame || (is_asked && !world.objects.IsGone(record));
+    if (!counts || ShareIn(world, place.voxels, record) < kStillThere) continue;
+    if (is_asked) return false;
+    is_shown = true;
   }
   return is_shown;
 }
